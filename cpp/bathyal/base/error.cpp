@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bathyal/base/error.hpp"
+
+#include <array>
+#include <charconv>
+
+namespace bathyal {
+
+void throw_argument(std::string_view name, std::string_view expected, std::string_view got) {
+  std::string text;
+  text.append("`").append(name).append("`: expected ").append(expected);
+  text.append(", got ").append(got);
+  throw std::invalid_argument(text);
+}
+
+std::string to_text(double value) {
+  std::array<char, 32> buffer{};
+  const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
+  return {buffer.data(), result.ptr};
+}
+
+}  // namespace bathyal

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+namespace bathyal {
+
+/// A broken file, a solver that failed, a part that is not installed: not the caller's mistake.
+/// Python sees it as `bathyal.Error`.
+class Error : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Throws std::invalid_argument (Python: `ValueError`) with the text
+/// "`name`: expected <expected>, got <got>". Every caller's mistake is told through this function.
+[[noreturn]] void throw_argument(std::string_view name, std::string_view expected,
+                                 std::string_view got);
+
+/// A number as a person would write it: shortest text that reads back as the same double.
+std::string to_text(double value);
+
+}  // namespace bathyal

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "arrays.hpp"
+
+#include <limits>
+#include <string>
+
+#include "bathyal/base/error.hpp"
+
+namespace bathyal::python {
+namespace {
+
+std::string shape_text(const py::array& array) {
+  std::string text = "(";
+  for (py::ssize_t i = 0; i < array.ndim(); ++i) {
+    text += std::to_string(array.shape(i)) + (array.ndim() == 1 || i + 1 < array.ndim() ? "," : "");
+    if (i + 1 < array.ndim()) text += " ";
+  }
+  return text + ")";
+}
+
+py::array any_array(std::string_view name, const py::object& object, std::string_view expected) {
+  py::array array;
+  try {
+    array = py::array::ensure(object);
+  } catch (const py::error_already_set&) {
+    array = py::array();
+  }
+  if (!array || object.is_none()) {
+    PyErr_Clear();
+    throw_argument(name, expected, std::string(py::str(py::type::of(object).attr("__name__"))));
+  }
+  return array;
+}
+
+/// A C-contiguous array of `Scalar`; shares memory when the argument already is one.
+template <class Scalar>
+py::array_t<Scalar, py::array::c_style> typed_array(std::string_view name, const py::array& array,
+                                                    std::string_view kinds,
+                                                    std::string_view expected) {
+  if (kinds.find(array.dtype().kind()) == std::string_view::npos) {
+    throw_argument(name, expected, "dtype " + std::string(py::str(array.dtype())));
+  }
+  auto typed = py::array_t<Scalar, py::array::c_style | py::array::forcecast>::ensure(array);
+  if (!typed) throw py::error_already_set();
+  return typed;
+}
+
+/// Keeps a numpy array alive from C++, whichever thread lets go of it last.
+std::shared_ptr<const void> keep_alive(py::object object) {
+  return {new py::object(std::move(object)), [](const void* p) {
+            const py::gil_scoped_acquire gil;
+            delete static_cast<const py::object*>(p);
+          }};
+}
+
+template <int Cols>
+SharedArray<double, Cols> real_argument(std::string_view name, const py::object& object) {
+  const std::string shape = Cols == 1 ? "shape (N,)" : "shape (N, " + std::to_string(Cols) + ")";
+  const std::string expected = "real numbers of " + shape;
+  const py::array array = any_array(name, object, expected);
+  const bool fits = Cols == 1 ? array.ndim() == 1 : array.ndim() == 2 && array.shape(1) == Cols;
+  if (!fits) throw_argument(name, expected, "shape " + shape_text(array));
+  const auto typed = typed_array<double>(name, array, "fiu", expected);
+  return {typed.data(), typed.shape(0), keep_alive(typed)};
+}
+
+}  // namespace
+
+Points points_argument(std::string_view name, const py::object& object) {
+  return real_argument<3>(name, object);
+}
+
+Values values_argument(std::string_view name, const py::object& object) {
+  return real_argument<1>(name, object);
+}
+
+Triangles triangles_argument(std::string_view name, const py::object& object) {
+  const std::string expected = "whole numbers of shape (T, 3)";
+  const py::array array = any_array(name, object, expected);
+  if (array.ndim() != 2 || array.shape(1) != 3) {
+    throw_argument(name, expected, "shape " + shape_text(array));
+  }
+  if (array.dtype().kind() == 'i' && array.itemsize() <= 4) {
+    const auto typed = typed_array<std::int32_t>(name, array, "i", expected);
+    return {typed.data(), typed.shape(0), keep_alive(typed)};
+  }
+  const auto wide = typed_array<std::int64_t>(name, array, array.size() == 0 ? "iuf" : "iu", expected);
+  TriangleMatrix triangles(wide.shape(0), 3);
+  for (Index i = 0; i < triangles.size(); ++i) {
+    const std::int64_t index = wide.data()[i];
+    if (index < std::numeric_limits<std::int32_t>::min() ||
+        index > std::numeric_limits<std::int32_t>::max()) {
+      throw_argument(name, "indices that fit in 32 bits", std::to_string(index));
+    }
+    triangles.data()[i] = static_cast<std::int32_t>(index);
+  }
+  return triangles;
+}
+
+Vec3 vector_argument(std::string_view name, const py::object& object) {
+  const std::string expected = "three finite numbers";
+  const py::array array = any_array(name, object, expected);
+  if (array.ndim() != 1 || array.shape(0) != 3) {
+    throw_argument(name, expected, "shape " + shape_text(array));
+  }
+  const auto typed = typed_array<double>(name, array, "fiu", expected);
+  const Vec3 vector(typed.at(0), typed.at(1), typed.at(2));
+  if (!vector.allFinite()) throw_argument(name, expected, std::string(py::str(object)));
+  return vector;
+}
+
+Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> table_argument(
+    std::string_view name, const py::object& object, Index columns) {
+  const std::string expected = "real numbers of shape (N, " + std::to_string(columns) + ")";
+  const py::array array = any_array(name, object, expected);
+  if (array.ndim() != 2 || array.shape(1) != columns) {
+    throw_argument(name, expected, "shape " + shape_text(array));
+  }
+  const auto typed = typed_array<double>(name, array, "fiu", expected);
+  using Table = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  return Eigen::Map<const Table>(typed.data(), typed.shape(0), columns);
+}
+
+}  // namespace bathyal::python

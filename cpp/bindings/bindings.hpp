@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+namespace bathyal::python {
+
+// One function a room, called in floor order; inside: enums, options, results, classes, functions.
+void bind_base(pybind11::module_& module);
+void bind_geometry(pybind11::module_& module);
+void bind_soundings(pybind11::module_& module);
+void bind_terrain(pybind11::module_& module);
+void bind_scene(pybind11::module_& module);
+void bind_toolpath(pybind11::module_& module);
+
+}  // namespace bathyal::python

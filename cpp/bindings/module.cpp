@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bindings.hpp"
+
+PYBIND11_MODULE(_core, module) {
+  using namespace bathyal::python;
+  module.doc() = "The engine. Its public names are those of the package bathyal.";
+  bind_base(module);
+  bind_geometry(module);
+  bind_soundings(module);
+  bind_terrain(module);
+  bind_scene(module);
+  bind_toolpath(module);
+}

@@ -1,0 +1,9 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "arrays.hpp"
+#include "bindings.hpp"
+
+namespace bathyal::python {
+
+void bind_soundings(py::module_& /*module*/) {}
+
+}  // namespace bathyal::python

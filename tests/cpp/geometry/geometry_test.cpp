@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+
+#include "bathyal/geometry/plane.hpp"
+#include "bathyal/geometry/triangle_mesh.hpp"
+
+namespace bathyal {
+namespace {
+
+PointMatrix three_points() {
+  PointMatrix points(3, 3);
+  points << 0, 0, 0, 1, 0, 0, 0, 1, 0;
+  return points;
+}
+
+TEST(Plane, IsScaledToAUnitNormal) {
+  const Plane plane(Vec3(0, 0, 4), 8.0);
+  EXPECT_EQ(plane.normal(), Vec3::UnitZ());
+  EXPECT_DOUBLE_EQ(plane.offset(), 2.0);
+  EXPECT_DOUBLE_EQ(plane.distance(Vec3(5, 6, 3)), 1.0);
+  EXPECT_EQ(plane.project(Vec3(5, 6, 3)), Vec3(5, 6, 2));
+}
+
+TEST(Plane, RefusesAZeroOrInfiniteNormal) {
+  EXPECT_THROW(Plane(Vec3::Zero(), 1.0), std::invalid_argument);
+  EXPECT_THROW(Plane(Vec3(0, 0, INFINITY), 1.0), std::invalid_argument);
+  EXPECT_THROW(Plane(Vec3::UnitZ(), NAN), std::invalid_argument);
+}
+
+TEST(TriangleMesh, SharesWhatItIsGiven) {
+  const Points points(three_points());
+  TriangleMatrix triangles(1, 3);
+  triangles << 0, 1, 2;
+  const TriangleMesh mesh(points, triangles);
+  EXPECT_EQ(mesh.vertices().data(), points.data());
+  EXPECT_EQ(mesh.area_vector(0), Vec3::UnitZ());
+}
+
+TEST(TriangleMesh, RefusesIndicesOutOfRangeAndVerticesThatAreNotFinite) {
+  TriangleMatrix triangles(1, 3);
+  triangles << 0, 1, 3;
+  EXPECT_THROW(TriangleMesh(three_points(), triangles), std::invalid_argument);
+  triangles << -1, 1, 2;
+  EXPECT_THROW(TriangleMesh(three_points(), triangles), std::invalid_argument);
+  triangles << 0, 1, 2;
+  PointMatrix points = three_points();
+  points(1, 2) = NAN;
+  EXPECT_THROW(TriangleMesh(points, triangles), std::invalid_argument);
+}
+
+TEST(LocalOrigin, IsSnappedToWholeMetresAndIgnoresWhatIsNotFinite) {
+  PointMatrix points(3, 3);
+  points << 620152.873, 7246504.912, -52.9, 620153.873, 7246506.9, -51.1, NAN, 0, 0;
+  EXPECT_EQ(local_origin(Points(points).view()), Vec3(620153, 7246506, -52));
+}
+
+}  // namespace
+}  // namespace bathyal
