@@ -26,7 +26,9 @@ template <class Item, class Each>
 ByVertex<Item> list_by_vertex(Index vertex_count, int num_threads, const Each& each) {
   ByVertex<Item> list;
   list.start.assign(static_cast<std::size_t>(vertex_count) + 1, 0);
-  each([&](std::int32_t vertex, const Item&) { ++list.start[static_cast<std::size_t>(vertex) + 1]; });
+  each([&](std::int32_t vertex, const Item&) {
+    ++list.start[static_cast<std::size_t>(vertex) + 1];
+  });
   std::partial_sum(list.start.begin(), list.start.end(), list.start.begin());
   list.items.resize(list.start.back());
   std::vector<std::size_t> next(list.start.begin(), list.start.end() - 1);
@@ -71,7 +73,9 @@ class DisjointSets {
   std::vector<std::uint32_t> parent_;
 };
 
-std::uint32_t next_corner(std::uint32_t corner) { return corner % 3 == 2 ? corner - 2 : corner + 1; }
+std::uint32_t next_corner(std::uint32_t corner) {
+  return corner % 3 == 2 ? corner - 2 : corner + 1;
+}
 
 /// The corners of a side at its lower and its higher vertex.
 std::uint32_t low_corner(const Side& s) { return s.upward ? s.corner : next_corner(s.corner); }

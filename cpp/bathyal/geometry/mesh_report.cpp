@@ -53,28 +53,28 @@ Facet facet_of(const TriangleMesh& mesh, Index t, const Vec3& twice_area) {
 
 Sums sum_facets(const TriangleMesh& mesh, std::vector<Facet>& facets, int num_threads) {
   const Vec3 origin = local_origin(mesh.vertices());
-  return parallel_sum<Sums>(facets.size(), kGrain, num_threads, [&](std::size_t begin,
-                                                                    std::size_t end) {
-    Sums sums;
-    for (std::size_t i = begin; i < end; ++i) {
-      const auto t = static_cast<Index>(i);
-      const Vec3 twice_area = mesh.area_vector(t);
-      const Facet facet = facets[i] = facet_of(mesh, t, twice_area);
-      if (facet.area == 0.0) {
-        ++sums.zero;
-        continue;
-      }
-      sums.area += facet.area;
-      sums.slope_area += facet.slope * facet.area;
-      sums.slope_max = std::max(sums.slope_max, facet.slope);
-      sums.volume += (mesh.corner(t, 0) - origin).dot(twice_area) / 6.0;
-      if (twice_area.z() < 0.0) {
-        ++sums.inverted;
-        sums.inverted_area += facet.area;
-      }
-    }
-    return sums;
-  });
+  return parallel_sum<Sums>(facets.size(), kGrain, num_threads,
+                            [&](std::size_t begin, std::size_t end) {
+                              Sums sums;
+                              for (std::size_t i = begin; i < end; ++i) {
+                                const auto t = static_cast<Index>(i);
+                                const Vec3 twice_area = mesh.area_vector(t);
+                                const Facet facet = facets[i] = facet_of(mesh, t, twice_area);
+                                if (facet.area == 0.0) {
+                                  ++sums.zero;
+                                  continue;
+                                }
+                                sums.area += facet.area;
+                                sums.slope_area += facet.slope * facet.area;
+                                sums.slope_max = std::max(sums.slope_max, facet.slope);
+                                sums.volume += (mesh.corner(t, 0) - origin).dot(twice_area) / 6.0;
+                                if (twice_area.z() < 0.0) {
+                                  ++sums.inverted;
+                                  sums.inverted_area += facet.area;
+                                }
+                              }
+                              return sums;
+                            });
 }
 
 /// The slope below which `share` of the area lies. A histogram finds the narrow band it is in, and

@@ -28,7 +28,7 @@ struct MeshReport {
   Index zero_area_triangles = 0;       ///< lower than 1e-12 of their longest edge
   Index duplicate_triangles = 0;       ///< on the same three vertices as an earlier one
   bool closed = false;                 ///< every edge has two triangles, turned consistently
-  double volume = 0.0;                 ///< inside, negative when turned inside out; NaN unless closed
+  double volume = 0.0;  ///< inside, negative when turned inside out; NaN unless closed
 
   Index inverted_triangles = 0;      ///< facing down: the normal's z is below 0
   double area_share_inverted = 0.0;  ///< their part of the area

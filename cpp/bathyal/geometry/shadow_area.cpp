@@ -63,7 +63,7 @@ struct Lines {
 };
 
 struct Lengths {
-  double each = 0.0;   ///< sum over the triangles
+  double each = 0.0;    ///< sum over the triangles
   double union_ = 0.0;  ///< every place once
 
   Lengths& operator+=(const Lengths& other) {
@@ -118,20 +118,22 @@ double shadow_area(const TriangleMesh& mesh, int num_threads) {
       crossed[i].push_back(static_cast<std::int32_t>(t));
     }
   }
-  const auto lengths = parallel_sum<Lengths>(line_count, 16, num_threads, [&](std::size_t begin, std::size_t end) {
-    Lengths sum;
-    std::vector<Interval> intervals;
-    for (std::size_t i = begin; i < end; ++i) {
-      intervals.clear();
-      for (const std::int32_t t : crossed[i]) {
-        const Interval x = crossing(in_plan(mesh, t, origin), lines.y(i));
-        if (x.high > x.low) intervals.push_back(x);
-      }
-      sum += measure(intervals);
-    }
-    return sum;
-  });
-  if (!(lengths.each > 0.0) || lengths.each - lengths.union_ <= kOverlap * lengths.each) return total;
+  const auto lengths =
+      parallel_sum<Lengths>(line_count, 16, num_threads, [&](std::size_t begin, std::size_t end) {
+        Lengths sum;
+        std::vector<Interval> intervals;
+        for (std::size_t i = begin; i < end; ++i) {
+          intervals.clear();
+          for (const std::int32_t t : crossed[i]) {
+            const Interval x = crossing(in_plan(mesh, t, origin), lines.y(i));
+            if (x.high > x.low) intervals.push_back(x);
+          }
+          sum += measure(intervals);
+        }
+        return sum;
+      });
+  if (!(lengths.each > 0.0) || lengths.each - lengths.union_ <= kOverlap * lengths.each)
+    return total;
   return total * (lengths.union_ / lengths.each);
 }
 

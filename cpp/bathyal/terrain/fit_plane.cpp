@@ -19,9 +19,9 @@ namespace {
 using Matrix3 = Eigen::Matrix3d;
 
 constexpr std::size_t kGrain = 1 << 15;
-constexpr Index kMaxRanked = 2000;           // points that rank a trial; the median needs no more
-constexpr double kMadToSigma = 1.482602218;  // of normal residuals
-constexpr double kCut = 3.0;                 // sigmas within which a point is an inlier
+constexpr Index kMaxRanked = 2000;             // points that rank a trial; the median needs no more
+constexpr double kMadToSigma = 1.482602218;    // of normal residuals
+constexpr double kCut = 3.0;                   // sigmas within which a point is an inlier
 constexpr double kCutToSigma = 1.0 / 0.98658;  // rms of normal residuals cut at 3 sigma
 
 /// The cloud about a local origin, with the smallest residual that means anything there.
@@ -49,7 +49,7 @@ struct Sums {
 /// Mean and principal axes of the points whose mask is set (all when it is empty).
 struct Scatter {
   Vec3 mean = Vec3::Zero();
-  Vec3 spread = Vec3::Zero();         ///< standard deviations along the axes, ascending [m]
+  Vec3 spread = Vec3::Zero();          ///< standard deviations along the axes, ascending [m]
   Matrix3 axes = Matrix3::Identity();  ///< columns
   double n = 0.0;
 };
@@ -112,7 +112,9 @@ struct LocalPlane {
 LocalPlane least_median_plane(const Local& cloud, const FitPlaneOptions& options) {
   const Index n = cloud.points.rows();
   RandomStream draw(options.seed);
-  const auto any = [&] { return std::min(n - 1, static_cast<Index>(draw.uniform() * static_cast<double>(n))); };
+  const auto any = [&] {
+    return std::min(n - 1, static_cast<Index>(draw.uniform() * static_cast<double>(n)));
+  };
   std::vector<Vec3> ranked;
   for (Index i = 0; i < std::min(n, kMaxRanked); ++i) {
     ranked.push_back(cloud.at(n <= kMaxRanked ? i : any()));
@@ -221,8 +223,8 @@ std::vector<double> patch_distances(const Local& cloud, const Refined& fit, int 
     patches[{u, v}].push_back(fit.residuals[static_cast<std::size_t>(i)]);
   }
   for (auto& [at, residuals] : patches) {
-    // A corner of the cloud with a handful of points has no median to speak of.
-    if (static_cast<double>(residuals.size()) < 0.2 * patch_points) continue;
+    // A patch cut by the rim of the cloud has too few points for a median to speak of.
+    if (static_cast<double>(residuals.size()) < 0.5 * patch_points) continue;
     result.push_back(std::abs(median_of(residuals)));
   }
   return result;
@@ -272,7 +274,8 @@ PlaneFit fit_plane(PointView points, const FitPlaneOptions& options) {
   fit.rms = refined.inliers.spread[0];
   fit.inliers = refined.mask;
   fit.inlier_count = static_cast<Index>(refined.inliers.n);
-  fit.tilt_std = refined.inliers.spread[0] / (std::sqrt(refined.inliers.n) * refined.inliers.spread[1]);
+  fit.tilt_std =
+      refined.inliers.spread[0] / (std::sqrt(refined.inliers.n) * refined.inliers.spread[1]);
   judge_flatness(cloud, refined, options, fit);
   return fit;
 }

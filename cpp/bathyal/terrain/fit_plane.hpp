@@ -25,12 +25,12 @@ struct FitPlaneOptions {
 
 /// The plane of a bottom (Filaretov, Konoplin, Konoplin 2018, eq 1) and how far to trust it.
 struct PlaneFit {
-  Plane plane;                        ///< unit normal up: z above 0 (a vertical plane: see fit_plane)
-  double rms = 0.0;                   ///< of the inliers about the plane, along its normal [m]
+  Plane plane;       ///< unit normal up: z above 0 (a vertical plane: see fit_plane)
+  double rms = 0.0;  ///< of the inliers about the plane, along its normal [m]
   std::vector<std::uint8_t> inliers;  ///< (N,) 1 for points the plane rests on
   Index inlier_count = 0;
-  double tilt_std = 0.0;  ///< standard deviation of the normal's direction, its worst way [rad]
-  bool flat = false;      ///< whether the plane may stand for the bottom
+  double tilt_std = 0.0;    ///< standard deviation of the normal's direction, its worst way [rad]
+  bool flat = false;        ///< whether the plane may stand for the bottom
   double flat_share = 0.0;  ///< share of the patches that lie within the tolerance
   double relief = 0.0;      ///< largest distance of a patch from the plane [m]
 };
@@ -46,9 +46,9 @@ struct PlaneFit {
 ///
 /// Flat enough for the plane way (`flat`): the plane is cut into square patches of about
 /// `patch_points` points, and in `flat_share` of them the median distance from the plane is within
-/// `tolerance`. Medians of patches, so that the noise of single soundings and spikes do not count as
-/// relief, and boulders, trenches and waves wider than half a patch do. With fewer points than two
-/// patches each point is its own patch.
+/// `tolerance`. Medians of patches, so that the noise of single soundings and spikes do not count
+/// as relief, and boulders, trenches and waves wider than half a patch do. With fewer points than
+/// two patches each point is its own patch.
 ///
 /// A vertical plane has no up: its normal's first component that is not zero is positive.
 /// \throw std::invalid_argument for points that are not finite; fewer than three distinct points;

@@ -97,8 +97,8 @@ std::array<double, 2> PlanGrid::centre(const Cell& cell) const {
 
 std::array<std::span<const PlanGrid::Cell>, 3> PlanGrid::neighbours(std::size_t index) const {
   const Cell& cell = cells_[index];
-  const bool has_left = index > 0 && cells_[index - 1].row == cell.row &&
-                        cells_[index - 1].column + 1 == cell.column;
+  const bool has_left =
+      index > 0 && cells_[index - 1].row == cell.row && cells_[index - 1].column + 1 == cell.column;
   const std::array<std::size_t, 3> starts{cell.row_below, has_left ? index - 1 : index,
                                           cell.row_above};
   std::array<std::span<const Cell>, 3> runs;

@@ -19,7 +19,7 @@ class PlanGrid {
   };
   struct Cell {
     std::int64_t column, row;
-    std::size_t begin, end;  ///< its range of points()
+    std::size_t begin, end;            ///< its range of points()
     std::size_t row_below, row_above;  ///< first cell at or after (row ∓ 1, column − 1)
   };
 

@@ -11,8 +11,8 @@ namespace bathyal {
 
 /// A bottom made from soundings, and what was left out of it.
 struct Triangulation {
-  TriangleMesh mesh;        ///< the cloud's points row for row, with their attributes and datum
-  SheetReport sheets;       ///< where the cloud is no height field, so that `mesh` is not to be trusted
+  TriangleMesh mesh;   ///< the cloud's points row for row, with their attributes and datum
+  SheetReport sheets;  ///< where the cloud is no height field, so that `mesh` is not to be trusted
   double max_edge = 0.0;    ///< as in Delaunay
   Index cut_triangles = 0;  ///< as in Delaunay
   Index merged_points = 0;  ///< as in Delaunay

@@ -11,9 +11,9 @@ namespace bathyal {
 /// Two sheets found in one neighbourhood: which sheet each point is on, and how far they are apart.
 struct TwoSheets {
   bool found = false;
-  bool seed = false;              ///< clear enough to start a patch, not only to widen one
-  double separation = 0.0;        ///< mean vertical distance of the two planes [m]
-  double middle = 0.0;            ///< height half-way between them [m]
+  bool seed = false;                ///< clear enough to start a patch, not only to widen one
+  double separation = 0.0;          ///< mean vertical distance of the two planes [m]
+  double middle = 0.0;              ///< height half-way between them [m]
   std::vector<std::uint8_t> upper;  ///< 1 for points of the upper sheet
 };
 
