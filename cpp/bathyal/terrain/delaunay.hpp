@@ -11,7 +11,7 @@ struct DelaunayOptions {
   /// Longest edge a triangle may have, measured in the horizontal plane [m], above 0; infinity
   /// keeps the whole convex hull. Unset: 5 times the median over all triangles of their longest
   /// horizontal edge, and infinity below 50 distinct points, where a median says nothing.
-  std::optional<double> max_edge;
+  std::optional<double> max_edge = std::nullopt;
   int num_threads = 0;  ///< 0 = all; the result is the same for any number
 
   /// \throw std::invalid_argument that names the field.

@@ -1,22 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <array>
-#include <cstdint>
 #include <span>
-#include <vector>
 
 #include "bathyal/geometry/predicates.hpp"
+#include "bathyal/geometry/shared_array.hpp"
 
 namespace bathyal {
 
-/// Three points, counter-clockwise.
-using Corners = std::array<std::int32_t, 3>;
-
-/// All triangles of the unique Delaunay triangulation of distinct points that stand in an order
-/// which keeps neighbours close; empty when there is none. Any number of cells, 1 or more, and of
-/// threads gives the same triangles in the same order.
-std::vector<Corners> triangulate_in_cells(std::span<const Point2> points, int cells,
-                                          int num_threads);
+/// The unique Delaunay triangulation of distinct points, in an order that keeps neighbours close:
+/// rows of `points`, counter-clockwise, each triangle beginning with its lowest, ordered by row.
+/// Empty when all points lie on one line.
+///
+/// The plane is cut into `cells` boxes of about as many points, 1 or more, which are triangulated
+/// side by side. A triangle whose circle stays within its box is final; the vertices of all others
+/// are triangulated once more, together, and this fills what is not yet covered (Funke, Sanders
+/// 2017). Because the triangulation is unique, any number of cells and threads gives the same.
+TriangleMatrix triangulate_in_cells(std::span<const Point2> points, int cells, int num_threads);
 
 }  // namespace bathyal

@@ -180,5 +180,15 @@ TEST(Delaunay, SameBytesForAnyNumberOfThreads) {
   }
 }
 
+TEST(Delaunay, SameBytesForAnyNumberOfCells) {
+  for (const auto& [name, points] : arrangements()) {
+    SCOPED_TRACE(name);
+    const TriangleMatrix one = triangulate_in_cells(points, 1, 1);
+    for (const int cells : {2, 3, 5, 8, 13}) {
+      ASSERT_EQ(one, triangulate_in_cells(points, cells, 2)) << cells;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace bathyal
