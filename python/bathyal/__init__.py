@@ -1,6 +1,33 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Supervised underwater manipulation: soundings to seabed to tool path."""
 
-from bathyal._core import Error, Plane, PointCloud, TriangleMesh
+from bathyal._core import (
+    Error,
+    MeshReport,
+    Plane,
+    PlaneFit,
+    PointCloud,
+    SheetPatch,
+    SheetReport,
+    TriangleMesh,
+    find_sheets,
+    fit_plane,
+    mesh_report,
+)
+from bathyal.terrain import SheetWarning, triangulate
 
-__all__ = ["Error", "Plane", "PointCloud", "TriangleMesh"]
+__all__ = [
+    "Error",
+    "MeshReport",
+    "Plane",
+    "PlaneFit",
+    "PointCloud",
+    "SheetPatch",
+    "SheetReport",
+    "SheetWarning",
+    "TriangleMesh",
+    "find_sheets",
+    "fit_plane",
+    "mesh_report",
+    "triangulate",
+]
