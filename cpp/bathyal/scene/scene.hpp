@@ -82,6 +82,7 @@ class Scene {
   std::vector<Polyline> section(const Vec3& a, const Vec3& b, const Vec3& up = Vec3::UnitZ()) const;
 
   struct Hierarchy;  ///< lives in hierarchy.hpp
+  const Hierarchy& hierarchy() const;
 
  private:
   std::shared_ptr<const Hierarchy> hierarchy_;
