@@ -82,9 +82,8 @@ class Chainer {
   /// straightest pair of all is always such a pair, so every round joins at least one.
   void pair_junction(std::vector<SegmentEnd> ends) {
     const auto far_position = [this](SegmentEnd end) { return position(other_end(end)); };
-    std::sort(ends.begin(), ends.end(), [&](SegmentEnd a, SegmentEnd b) {
-      return before(far_position(a), far_position(b));
-    });
+    std::sort(ends.begin(), ends.end(),
+              [&](SegmentEnd a, SegmentEnd b) { return before(far_position(a), far_position(b)); });
     while (ends.size() > 1) {
       std::vector<Vec3> leaving;
       for (const SegmentEnd end : ends) {

@@ -21,11 +21,11 @@ constexpr double kVertexRounding = 8.0;
 constexpr double kPointRounding = 256.0;
 
 // What a triangle says of an edge that lies in the plane.
-constexpr unsigned kSurface = 1;  // leaves the plane here
-constexpr unsigned kLeft = 2;     // lies in the plane, on the left of the edge
-constexpr unsigned kRight = 4;    // the same, on the right
-constexpr unsigned kSliver = 8;   // lies in the plane and has no width
-constexpr unsigned kCovered = 16; // its longest edge, which its other two cover
+constexpr unsigned kSurface = 1;   // leaves the plane here
+constexpr unsigned kLeft = 2;      // lies in the plane, on the left of the edge
+constexpr unsigned kRight = 4;     // the same, on the right
+constexpr unsigned kSliver = 8;    // lies in the plane and has no width
+constexpr unsigned kCovered = 16;  // its longest edge, which its other two cover
 
 double reach(const Vec3& v) { return v.cwiseAbs().maxCoeff(); }
 
@@ -190,7 +190,8 @@ void CutCollector::add_piece(Vec3 p, Vec3 q, unsigned evidence, std::int32_t mes
   std::int32_t high = point_number(q, mesh);
   if (low > high) std::swap(low, high);
   const auto next = static_cast<std::int32_t>(pieces_.size());
-  const std::uint64_t hash = mix(mix(0, static_cast<std::uint64_t>(low)), static_cast<std::uint64_t>(high));
+  const std::uint64_t hash =
+      mix(mix(0, static_cast<std::uint64_t>(low)), static_cast<std::uint64_t>(high));
   const std::array ends{low, high};
   const std::int32_t number = piece_index_.find_or_add(hash, next, [&](std::int32_t i) {
     return pieces_[static_cast<std::size_t>(i)].segment.ends == ends;
@@ -205,7 +206,8 @@ void CutCollector::add_flat_triangle(const std::array<Vec3, 3>& corners, std::in
                                      std::int32_t triangle) {
   std::array<double, 3> length{};
   for (std::size_t i = 0; i < 3; ++i) length[i] = reach(corners[(i + 1) % 3] - corners[i]);
-  if (std::min({length[0], length[1], length[2]}) == 0.0) return;  // an edge, told by its neighbours
+  if (std::min({length[0], length[1], length[2]}) == 0.0)
+    return;  // an edge, told by its neighbours
   const auto longest =
       static_cast<std::size_t>(std::max_element(length.begin(), length.end()) - length.begin());
   const double size = std::max({reach(corners[0]), reach(corners[1]), reach(corners[2])});

@@ -16,8 +16,8 @@ class Cutter {
   Cutter(const Vec3& normal, const Vec3& anchor);
 
   /// The plane through `start` and `end` along `up`, kept between the two as measured along the
-  /// horizontal: Filaretov, Konoplin, Konoplin (2018), r = A_i A_{i+1} × z. Left at full length: the
-  /// signs of p need no unit normal, and r · (A_{i+1} − A_i) is then exactly 0 for `up` = z.
+  /// horizontal: Filaretov, Konoplin, Konoplin (2018), r = A_i A_{i+1} × z. Left at full length:
+  /// the signs of p need no unit normal, and r · (A_{i+1} − A_i) is then exactly 0 for `up` = z.
   /// \throw std::invalid_argument when a value is not finite, `up` is zero, or `end` lies over
   /// `start` along `up` as far as double can tell.
   static Cutter between(const Vec3& start, const Vec3& end, const Vec3& up);

@@ -137,11 +137,10 @@ NearestPoint find_nearest(const Scene::Hierarchy& hierarchy, const Vec3& query) 
       const double d = squared_distance_to_box(node, lane, local);
       if (d <= limit) stack[depth++] = {d, node.child[lane]};
     }
-    std::sort(stack.begin() + static_cast<std::ptrdiff_t>(first),
-              stack.begin() + static_cast<std::ptrdiff_t>(depth),
-              [](const Waiting& a, const Waiting& b) {
-                return a.squared_distance > b.squared_distance;
-              });
+    std::sort(
+        stack.begin() + static_cast<std::ptrdiff_t>(first),
+        stack.begin() + static_cast<std::ptrdiff_t>(depth),
+        [](const Waiting& a, const Waiting& b) { return a.squared_distance > b.squared_distance; });
   }
   const PrimitiveName name = hierarchy.name(best_primitive);
   return {std::sqrt(best.squared_distance), name.mesh, name.triangle, best.u, best.v, best.point};

@@ -20,9 +20,9 @@ class Slab {
     height_ = cutter.normal().dot(shift);
     along_ = cutter.along().dot(shift);
     // Twice: once for a vertex that counts as lying in the plane, once for the rounding here.
-    const double reach = hierarchy.origin.lpNorm<Eigen::Infinity>() +
-                         std::max(hierarchy.low.lpNorm<Eigen::Infinity>(),
-                                  hierarchy.high.lpNorm<Eigen::Infinity>());
+    const double reach =
+        hierarchy.origin.lpNorm<Eigen::Infinity>() +
+        std::max(hierarchy.low.lpNorm<Eigen::Infinity>(), hierarchy.high.lpNorm<Eigen::Infinity>());
     height_slack_ = 2.0 * cutter.height_slack(reach);
     along_slack_ = 2.0 * cutter.along_slack(reach);
   }

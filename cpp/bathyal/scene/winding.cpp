@@ -61,7 +61,8 @@ Cluster join(const Parts& parts) {
 double farthest(const WideNode& node, int lane, const Vec3& centre) {
   Vec3 reach;
   for (int axis = 0; axis < 3; ++axis) {
-    reach[axis] = std::max(centre[axis] - node.low[axis][lane], node.high[axis][lane] - centre[axis]);
+    reach[axis] =
+        std::max(centre[axis] - node.low[axis][lane], node.high[axis][lane] - centre[axis]);
   }
   return reach.norm();
 }
@@ -141,7 +142,8 @@ class WindingWalk {
         } else if (child >= 0) {
           stack[depth++] = child;
         } else {
-          angle += near_angle(hierarchy_.blocks[static_cast<std::size_t>(~child)], query, on_surface);
+          angle +=
+              near_angle(hierarchy_.blocks[static_cast<std::size_t>(~child)], query, on_surface);
         }
       }
     }
@@ -154,8 +156,8 @@ class WindingWalk {
   bool is_far(const Cluster& cluster, double distance) const {
     const double gap = distance - cluster.radius;
     const double gap2 = gap * gap;
-    return gap > 0.0 && 3.0 * cluster.spread * distance * distance <=
-                            accuracy_ * cluster.area * gap2 * gap2;
+    return gap > 0.0 &&
+           3.0 * cluster.spread * distance * distance <= accuracy_ * cluster.area * gap2 * gap2;
   }
 
   /// ∫ n · (x − q) / |x − q|³ dA with the integrand's first two terms about the centre.
@@ -172,7 +174,8 @@ class WindingWalk {
     for (const std::uint32_t primitive : block.primitive) {
       if (primitive == kNoPrimitive) break;
       const std::array<Vec3, 3> corners = hierarchy_.corners(primitive);
-      const double added = solid_angle({corners[0] - query, corners[1] - query, corners[2] - query});
+      const double added =
+          solid_angle({corners[0] - query, corners[1] - query, corners[2] - query});
       angle += added;
       if (added == 0.0 && closest_point(corners, query).squared_distance == 0.0) on_surface = true;
     }
