@@ -88,8 +88,9 @@ class Scene {
                                      int num_threads = 0) const;
 
   /// |winding number| > 1/2, so that a mesh turned inside out holds what one turned right does, and
-  /// a mesh with holes what a film over them would. A point on a triangle (at distance 0 in double)
-  /// is contained. Bodies that overlap add up: two wound against each other cancel where both are.
+  /// a mesh with holes what a film over them would. A point on a triangle, to the rounding of its
+  /// coordinates, is contained. Bodies that overlap add up: two wound against each other cancel
+  /// where both are.
   std::vector<bool> contains(PointView points, const WindingOptions& options = {},
                              int num_threads = 0) const;
 

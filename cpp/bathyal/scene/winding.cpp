@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "bathyal/base/check.hpp"
@@ -174,12 +175,24 @@ class WindingWalk {
     for (const std::uint32_t primitive : block.primitive) {
       if (primitive == kNoPrimitive) break;
       const std::array<Vec3, 3> corners = hierarchy_.corners(primitive);
-      const double added =
-          solid_angle({corners[0] - query, corners[1] - query, corners[2] - query});
-      angle += added;
-      if (added == 0.0 && closest_point(corners, query).squared_distance == 0.0) on_surface = true;
+      if (touches(corners, query)) {  // adds the mean of its two sides: nothing
+        on_surface = true;
+        continue;
+      }
+      angle += solid_angle({corners[0] - query, corners[1] - query, corners[2] - query});
     }
     return angle;
+  }
+
+  /// Whether the query lies on the triangle to the rounding of its coordinates.
+  static bool touches(const std::array<Vec3, 3>& corners, const Vec3& query) {
+    const Vec3 a = corners[0] - query;
+    const Vec3 normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
+    constexpr double kRounding = 4.0 * std::numeric_limits<double>::epsilon();
+    const double slack =
+        kRounding * (query.lpNorm<Eigen::Infinity>() + a.lpNorm<Eigen::Infinity>());
+    if (std::abs(a.dot(normal)) > slack * normal.lpNorm<1>()) return false;
+    return closest_point(corners, query).squared_distance <= slack * slack;
   }
 
   const Scene::Hierarchy& hierarchy_;
