@@ -8,6 +8,7 @@
 #include "bathyal/scene/nodes.hpp"
 #include "bathyal/scene/page_array.hpp"
 #include "bathyal/scene/scene.hpp"
+#include "bathyal/scene/winding.hpp"
 
 namespace bathyal {
 
@@ -40,7 +41,7 @@ struct Scene::Hierarchy {
     return {corner(0), corner(1), corner(2)};
   }
 
-  std::size_t memory() const { return nodes.bytes() + blocks.bytes(); }
+  std::size_t memory() const { return nodes.bytes() + blocks.bytes() + clusters.bytes(); }
 
   std::vector<TriangleMesh> meshes;
   std::vector<scene::MeshArrays> arrays;  ///< of each mesh
@@ -50,6 +51,7 @@ struct Scene::Hierarchy {
   Vec3 high = Vec3::Zero();
   scene::PageArray<scene::WideNode> nodes;
   scene::PageArray<scene::TriangleBlock> blocks;
+  scene::Clusters clusters;  ///< for winding numbers; made when first asked for
 };
 
 }  // namespace bathyal
