@@ -3,21 +3,21 @@
 
 #include <limits>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "bathyal/geometry/plane.hpp"
 #include "bathyal/geometry/triangle_mesh.hpp"
+#include "bathyal/scene/ray_hit.hpp"
 
 namespace bathyal {
 
-/// What a ray met first. `triangle` is −1 and `range` infinite where it met nothing.
-struct RayHit {
-  double range = std::numeric_limits<double>::infinity();  ///< along the unit direction [m]
-  std::int32_t mesh = -1;                                  ///< which mesh of the scene
-  std::int32_t triangle = -1;                              ///< which triangle of that mesh
-  double u = 0.0;  ///< barycentric weight of corner 1 (eq 4); that of corner 0 is 1 − u − v
-  double v = 0.0;  ///< barycentric weight of corner 2
-};
+/// Where a hit lies, from the corners of its triangle; NaN where nothing was met.
+Vec3 hit_point(const std::vector<TriangleMesh>& meshes, const RayHit& hit);
+
+/// Unit normal of the triangle that was hit, as it is wound; NaN where nothing was met. A triangle
+/// without area gives the direction across its longest edge that points up most.
+Vec3 hit_normal(const std::vector<TriangleMesh>& meshes, const RayHit& hit);
 
 /// The closest point of the scene to a query.
 struct NearestPoint {
@@ -26,6 +26,15 @@ struct NearestPoint {
   std::int32_t triangle = -1;
   double u = 0.0, v = 0.0;
   Vec3 point = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
+};
+
+/// How closely winding numbers are computed.
+struct WindingOptions {
+  /// What a far cluster of triangles may be off by, as a part of its area / (4π distance²), above
+  /// 0; the sum is some ten times better than it on closed meshes. 0.01 tells inside from outside.
+  double accuracy = 0.01;
+
+  void check() const;
 };
 
 /// A chain of straight cuts: segment i runs from point i to point i + 1 through mesh[i] and
@@ -52,36 +61,77 @@ class Scene {
   std::size_t memory() const;
 
   /// First triangle met at t ≥ 0 from `origin` along `direction` (any length but zero), from either
-  /// side. Watertight: where two triangles share an edge or several a vertex, a ray through it
-  /// meets at least one of them.
+  /// side, borders included. The decision is taken in double on the mesh's own vertices, with exact
+  /// signs (Woop, Benthin, Wald 2013, Watertight ray/triangle intersection): a ray through an edge
+  /// or a vertex of a closed mesh meets one of the triangles there, at survey coordinates too.
+  /// Triangles that share what the ray goes through are met at exactly the same range.
+  ///
+  /// A ray that runs in the plane of a triangle does not meet that one, but meets its neighbours'
+  /// borders. A triangle without area is met only where rounding opens it, which keeps a mesh that
+  /// needs it closed. An origin further out than 10²⁵ m meets nothing.
+  /// \throw std::invalid_argument for a direction of zero, or a value that is not finite.
   RayHit cast(const Vec3& origin, const Vec3& direction) const;
 
-  /// The same for (N, 3) origins and directions; one origin serves all directions when N = 1.
+  /// The same for (N, 3) origins and directions; one origin serves all directions.
+  /// \throw std::invalid_argument that names the first row at fault, or when the rows do not match.
   std::vector<RayHit> cast(PointView origins, PointView directions, int num_threads = 0) const;
 
-  /// Whether anything lies on the segment from `from[i]` to `to[i]`, ends included.
+  /// The same into `hits`, which has as many rows as `directions` and needs no first value.
+  void cast(PointView origins, PointView directions, std::span<RayHit> hits,
+            int num_threads = 0) const;
+
+  /// Whether anything lies on the segment from `from[i]` to `to[i]`, ends included; one `from`
+  /// serves all. Decided as by cast. A segment of no length meets nothing.
+  /// \throw std::invalid_argument that names the first row that is not finite, or when the rows do
+  /// not match.
   std::vector<bool> occluded(PointView from, PointView to, int num_threads = 0) const;
 
+  /// The closest point of all triangles, decided in double; a triangle without area counts as the
+  /// segment or point that it is. No triangle at all gives an infinite distance.
+  /// \throw std::invalid_argument for a point that is not finite.
   NearestPoint nearest(const Vec3& point) const;
   std::vector<NearestPoint> nearest(PointView points, int num_threads = 0) const;
 
-  /// Winding number of each point: 1 inside a closed mesh with outward normals, −1 inside one
-  /// turned inside out, in between near holes of an open one (Jacobson et al. 2013; far triangles
-  /// by a dipole expansion, Barill et al. 2018).
-  std::vector<double> winding_number(PointView points, int num_threads = 0) const;
+  /// Winding number of each point: the solid angle of all triangles over 4π (Jacobson, Kavan,
+  /// Sorkine-Hornung 2013, Robust inside-outside segmentation using generalized winding numbers).
+  /// 1 inside a closed mesh with outward normals, −1 inside one turned inside out, 2 inside two of
+  /// them; near the holes of an open one it passes smoothly through what lies between. On a
+  /// triangle it is the mean of the two sides. Far clusters are taken together (Barill, Dickson,
+  /// Schmidt, Levin, Jacobson 2018, Fast winding numbers for soups and clouds).
+  /// \throw std::invalid_argument for a point that is not finite.
+  std::vector<double> winding_number(PointView points, const WindingOptions& options = {},
+                                     int num_threads = 0) const;
 
-  /// |winding number| > 1/2.
-  std::vector<bool> contains(PointView points, int num_threads = 0) const;
+  /// |winding number| > 1/2, so that a mesh turned inside out holds what one turned right does, and
+  /// a mesh with holes what a film over them would. A point on a triangle, to the rounding of its
+  /// coordinates, is contained. Bodies that overlap add up: two wound against each other cancel
+  /// where both are.
+  std::vector<bool> contains(PointView points, const WindingOptions& options = {},
+                             int num_threads = 0) const;
 
-  /// The cut of a plane through the whole scene.
+  /// The cut of a plane through the whole scene: lines of one mesh each, sorted by mesh and by
+  /// where they start. An open line starts at its end with the lower x (then y, z); a closed one at
+  /// its point with the lowest, and runs counter-clockwise seen from where the normal points to.
+  ///
+  /// A vertex nearer to the plane than the rounding of its coordinates lies in it. An edge in the
+  /// plane appears once, whether the surface passes through the plane there, touches it or ends in
+  /// it; triangles in the plane give the outline of their region; a surface that touches the plane
+  /// at single points gives nothing there. No segment appears twice in a mesh, none has zero
+  /// length; one that several triangles share names the lowest. Corners are joined by position, so
+  /// triangles need not share vertices. Where more than two segments meet, a line goes on into the
+  /// one that turns least; an odd one ends there.
   std::vector<Polyline> section(const Plane& plane) const;
 
   /// The cut of the plane through `a`, `b` and the direction `up`, kept between `a` and `b`
-  /// (measured along the horizontal from a to b, ends included).
-  /// \throw std::invalid_argument when a → b is parallel to `up`: no such plane.
+  /// (measured along the horizontal from a to b, ends included), with r = (b − a) × up (Filaretov,
+  /// Konoplin, Konoplin 2018). As by plane, but open lines run from a towards b, and a line that
+  /// starts or ends at a or b to rounding starts or ends at exactly that point. A closed line runs
+  /// counter-clockwise seen from where r points to.
+  /// \throw std::invalid_argument when a → b is parallel to `up` or a = b: no such plane.
   std::vector<Polyline> section(const Vec3& a, const Vec3& b, const Vec3& up = Vec3::UnitZ()) const;
 
   struct Hierarchy;  ///< lives in hierarchy.hpp
+  const Hierarchy& hierarchy() const;
 
  private:
   std::shared_ptr<const Hierarchy> hierarchy_;
