@@ -68,7 +68,8 @@ class Cutter {
 /// that a flat region gives its outline. A triangle met only at a corner gives nothing.
 class CutCollector {
  public:
-  explicit CutCollector(const Cutter& cutter) : cutter_(cutter) {}
+  /// `expected`: about how many triangles are cut.
+  CutCollector(const Cutter& cutter, std::size_t expected);
 
   void add(const std::array<Vec3, 3>& corners, std::int32_t mesh, std::int32_t triangle);
 
@@ -91,13 +92,16 @@ class CutCollector {
   /// node-based map would take longer than the cutting.
   class Index {
    public:
+    void reserve(std::size_t count);
+
     /// Calls `same(number)` for each number filed under `hash` until it says yes, and returns that
     /// number; files and returns `next` when none does.
     template <class Same>
     std::int32_t find_or_add(std::uint64_t hash, std::int32_t next, const Same& same);
 
    private:
-    void grow();
+    void resize(std::size_t slot_count);
+
     std::vector<std::pair<std::uint64_t, std::int32_t>> slots_;
     std::size_t used_ = 0;
   };
