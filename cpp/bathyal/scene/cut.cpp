@@ -107,8 +107,14 @@ Vec3 Cutter::cut_edge(const Vec3& v0, double p0, const Vec3& v1, double p1) cons
   return v0 + t * (v1 - v0);
 }
 
+bool Cutter::is_well_inside(const Vec3& point) const {
+  if (!has_strip()) return true;
+  const double s = along_.dot(point - anchor_);
+  const double margin = kPointRounding * kEpsilon * along_sum_ * anchor_reach_;
+  return s > margin && s < length_ - margin;
+}
+
 Vec3 Cutter::settle(const Vec3& point) const {
-  if (!has_strip()) return point;
   const double near = kPointRounding * kEpsilon * anchor_reach_;
   if (reach(point - anchor_) <= near) return anchor_;
   if (reach(point - end_) <= near) return end_;
@@ -123,7 +129,6 @@ double Cutter::position(const Vec3& point) const {
 }
 
 bool Cutter::clip(Vec3& p, Vec3& q) const {
-  if (!has_strip()) return true;
   const double sp = position(p);
   const double sq = position(q);
   const auto [low, high] = std::minmax(sp, sq);
@@ -192,10 +197,13 @@ std::int32_t CutCollector::point_number(const Vec3& point, std::int32_t mesh) {
 
 void CutCollector::add_piece(Vec3 p, Vec3 q, unsigned evidence, std::int32_t mesh,
                              std::int32_t triangle) {
-  p = cutter_.settle(p);
-  q = cutter_.settle(q);
-  if (precedes(q, p)) std::swap(p, q);  // so that every triangle clips its edge alike
-  if (p == q || !cutter_.clip(p, q) || p == q) return;
+  if (!cutter_.is_well_inside(p) || !cutter_.is_well_inside(q)) {
+    p = cutter_.settle(p);
+    q = cutter_.settle(q);
+    if (precedes(q, p)) std::swap(p, q);  // so that every triangle clips its edge alike
+    if (p == q || !cutter_.clip(p, q)) return;
+  }
+  if (p == q) return;
   std::int32_t low = point_number(p, mesh);
   std::int32_t high = point_number(q, mesh);
   if (low > high) std::swap(low, high);

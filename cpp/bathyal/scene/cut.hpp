@@ -31,10 +31,15 @@ class Cutter {
   /// whichever triangle asks.
   Vec3 cut_edge(const Vec3& v0, double p0, const Vec3& v1, double p1) const;
 
+  /// Whether neither `settle` nor `clip` would touch a segment between this point and another such.
+  bool is_well_inside(const Vec3& point) const;
+
   /// `point`, or the strip's own start or end where it is that point to rounding.
+  /// \pre has_strip()
   Vec3 settle(const Vec3& point) const;
 
   /// Shortens the segment from p to q to the strip; false where nothing of it is left.
+  /// \pre has_strip()
   bool clip(Vec3& p, Vec3& q) const;
 
   bool has_strip() const { return length_ > 0.0; }

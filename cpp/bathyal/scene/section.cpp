@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <vector>
 
+#include "bathyal/scene/boxes.hpp"
 #include "bathyal/scene/cut.hpp"
 #include "bathyal/scene/hierarchy.hpp"
 
@@ -13,109 +15,174 @@ namespace {
 
 using scene::Cutter;
 
-/// x ↦ direction · x + offset over the hierarchy's frame, in float, eight lanes at a time; `slack`
-/// is what rounding, here and of the boxes' contents, may be worth.
+using scene::Float4;
+
+/// Largest coordinate of the scene in the world [m].
+double reach_of(const Scene::Hierarchy& hierarchy) {
+  return hierarchy.origin.lpNorm<Eigen::Infinity>() +
+         std::max(hierarchy.low.lpNorm<Eigen::Infinity>(),
+                  hierarchy.high.lpNorm<Eigen::Infinity>());
+}
+
+/// x ↦ direction · (x − anchor) over the hierarchy's frame, the direction scaled to unit length, in
+/// float and four lanes at a time; it rules out and decides nothing. `slack`, in the direction's
+/// own units, is what the rounding of vertices may be worth; that of the floats comes on top.
 class Gauge {
  public:
-  Gauge(const Vec3& direction, double offset, double reach, double slack) {
-    const double scale = 1.0 / direction.stableNorm();  // so that no length overflows a float
-    direction_ = (scale * direction).cast<float>();
-    offset_ = static_cast<float>(scale * offset);
+  Gauge(const Scene::Hierarchy& hierarchy, const Vec3& direction, const Vec3& anchor,
+        double slack) {
+    const double scale = 1.0 / direction.stableNorm();
+    const double offset = scale * direction.dot(hierarchy.origin - anchor);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      direction_[axis] = lanes(static_cast<float>(scale * direction[static_cast<Index>(axis)]));
+    }
+    offset_ = lanes(static_cast<float>(offset));
+    const double reach =
+        std::max(hierarchy.low.lpNorm<Eigen::Infinity>(), hierarchy.high.lpNorm<Eigen::Infinity>());
     constexpr double kRounding = 16.0 * std::numeric_limits<float>::epsilon();
-    slack_ = static_cast<float>(kRounding * (reach + std::abs(scale * offset)) + scale * slack);
+    slack_ = static_cast<float>(kRounding * (reach + std::abs(offset)) + scale * slack);
   }
 
-  /// Clears the lanes whose box lies on one side of the range [0, length] altogether; those of an
-  /// empty lane are infinite or NaN, and it is cleared too.
-  void sift(const scene::WideNode& node, double length,
-            std::array<bool, scene::kWidth>& kept) const {
+  /// The lanes, a bit each, whose box is not clear of the range [0, length]. The box of an empty
+  /// lane is infinite or NaN and never among them.
+  unsigned sift(const scene::WideNode& node, double length) const {
     std::array<const float*, 3> least, most;
-    for (int axis = 0; axis < 3; ++axis) {
-      const bool rising = direction_[axis] >= 0.0F;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const bool rising = direction_[axis][0] >= 0.0F;
       least[axis] = rising ? node.low[axis] : node.high[axis];
       most[axis] = rising ? node.high[axis] : node.low[axis];
     }
-    const float first = -slack_;
-    const float last = static_cast<float>(length) + slack_;
-    for (std::size_t i = 0; i < scene::kWidth; ++i) {
-      const float low = value(least[0][i], least[1][i], least[2][i]);
-      const float high = value(most[0][i], most[1][i], most[2][i]);
-      kept[i] = kept[i] & (low <= last) & (high >= first);
+    const Float4 last = lanes(static_cast<float>(length) + slack_);
+    unsigned kept = 0;
+    for (std::size_t i = 0; i < scene::kWidth; i += 4) {
+      const Float4 low =
+          offset_ + slope(load(least[0] + i), load(least[1] + i), load(least[2] + i));
+      const Float4 high = offset_ + slope(load(most[0] + i), load(most[1] + i), load(most[2] + i));
+      kept |= bits((low <= last) & (high >= lanes(-slack_))) << i;
     }
+    return kept;
   }
 
-  /// Clears the lanes whose triangle lies on one side of 0.
-  void sift(const scene::TriangleBlock& block, std::array<bool, scene::kWidth>& kept) const {
-    for (std::size_t i = 0; i < scene::kWidth; ++i) {
-      const float h0 = value(block.v0[0][i], block.v0[1][i], block.v0[2][i]);
-      const float h1 = h0 + slope(block.e1[0][i], block.e1[1][i], block.e1[2][i]);
-      const float h2 = h0 + slope(block.e2[0][i], block.e2[1][i], block.e2[2][i]);
-      const bool above = (h0 > slack_) & (h1 > slack_) & (h2 > slack_);
-      const bool below = (h0 < -slack_) & (h1 < -slack_) & (h2 < -slack_);
-      kept[i] = kept[i] & !above & !below;
+  /// The lanes whose triangle is not clear of 0; NaN in the lanes without one.
+  unsigned sift(const scene::TriangleBlock& block) const {
+    unsigned kept = 0;
+    const Float4 top = lanes(slack_);
+    for (std::size_t i = 0; i < scene::kWidth; i += 4) {
+      const auto along = [&](const float(&edge)[3][scene::kWidth]) {
+        return slope(load(edge[0] + i), load(edge[1] + i), load(edge[2] + i));
+      };
+      const Float4 h0 = offset_ + along(block.v0);
+      const Float4 h1 = h0 + along(block.e1);
+      const Float4 h2 = h0 + along(block.e2);
+      kept |= bits((scene::min4(h0, scene::min4(h1, h2)) <= top) &
+                   (scene::max4(h0, scene::max4(h1, h2)) >= -top))
+              << i;
     }
+    return kept;
   }
 
  private:
-  float slope(float x, float y, float z) const {
+  static Float4 lanes(float x) { return Float4{x, x, x, x}; }
+  static Float4 load(const float* p) { return Float4{p[0], p[1], p[2], p[3]}; }
+  static unsigned bits(scene::Int4 mask) {
+    const scene::Int4 bit = mask & scene::Int4{1, 2, 4, 8};
+    return static_cast<unsigned>(bit[0] | bit[1] | bit[2] | bit[3]);
+  }
+  Float4 slope(Float4 x, Float4 y, Float4 z) const {
     return direction_[0] * x + direction_[1] * y + direction_[2] * z;
   }
-  float value(float x, float y, float z) const { return slope(x, y, z) + offset_; }
 
-  Eigen::Vector3f direction_;
-  float offset_ = 0.0F;
-  float slack_ = 0.0F;
+  std::array<Float4, 3> direction_;  // one number in all lanes each
+  Float4 offset_;
+  float slack_;
 };
+
+/// Calls `work(lane)` for each bit that is set, lowest first.
+template <class Work>
+void for_each_lane(unsigned lanes, const Work& work) {
+  for (; lanes != 0; lanes &= lanes - 1) work(std::countr_zero(lanes));
+}
+
+/// The blocks whose boxes the section may cut.
+std::vector<std::int32_t> find_blocks(const Cutter& cutter, const Scene::Hierarchy& hierarchy,
+                                      const Gauge& height) {
+  const bool has_strip = cutter.has_strip();
+  const double length = cutter.along().stableNorm();
+  const Gauge along(hierarchy, has_strip ? cutter.along() : cutter.normal(), cutter.anchor(),
+                    cutter.along_slack(reach_of(hierarchy)));
+  std::vector<std::int32_t> blocks;
+  std::vector<std::int32_t> waiting = {0};
+  while (!waiting.empty()) {
+    const scene::WideNode& node = hierarchy.nodes[static_cast<std::size_t>(waiting.back())];
+    waiting.pop_back();
+    unsigned kept = height.sift(node, 0.0);
+    if (has_strip) kept &= along.sift(node, length);
+    for_each_lane(kept, [&](int lane) {
+      const std::int32_t child = node.child[lane];
+      if (child < 0) {
+        blocks.push_back(~child);
+      } else {
+        waiting.push_back(child);
+        __builtin_prefetch(&hierarchy.nodes[static_cast<std::size_t>(child)]);
+      }
+    });
+  }
+  return blocks;
+}
+
+/// Calls `work(i)` for every i, and before it asks the memory for what `fetch(i + kAhead)` names: a
+/// section touches a thin trace of a large scene, and would else wait for each of its places.
+template <class Fetch, class Work>
+void fetching_ahead(std::size_t count, const Fetch& fetch, const Work& work) {
+  constexpr std::size_t kAhead = 8;
+  for (std::size_t i = 0; i < std::min(kAhead, count); ++i) fetch(i);
+  for (std::size_t i = 0; i < count; ++i) {
+    if (i + kAhead < count) fetch(i + kAhead);
+    work(i);
+  }
+}
 
 /// The triangles that the section may cut, and few others.
 std::vector<std::uint32_t> find_candidates(const Cutter& cutter,
                                            const Scene::Hierarchy& hierarchy) {
+  if (hierarchy.nodes.empty()) return {};
+  const Gauge height(hierarchy, cutter.normal(), cutter.anchor(),
+                     cutter.height_slack(reach_of(hierarchy)));
+  const std::vector<std::int32_t> blocks = find_blocks(cutter, hierarchy, height);
+  const auto block = [&](std::size_t i) -> const scene::TriangleBlock& {
+    return hierarchy.blocks[static_cast<std::size_t>(blocks[i])];
+  };
   std::vector<std::uint32_t> candidates;
-  if (hierarchy.nodes.empty()) return candidates;
-  const double reach =
-      std::max(hierarchy.low.lpNorm<Eigen::Infinity>(), hierarchy.high.lpNorm<Eigen::Infinity>());
-  const double world_reach = reach + hierarchy.origin.lpNorm<Eigen::Infinity>();
-  const Vec3 shift = hierarchy.origin - cutter.anchor();
-  const Gauge height(cutter.normal(), cutter.normal().dot(shift), reach,
-                     cutter.height_slack(world_reach));
-  const bool has_strip = cutter.has_strip();
-  const double length = cutter.along().norm();
-  const Gauge along(has_strip ? cutter.along() : cutter.normal(), cutter.along().dot(shift), reach,
-                    cutter.along_slack(world_reach));
-
-  std::vector<std::int32_t> waiting = {0};
-  while (!waiting.empty()) {
-    const std::int32_t item = waiting.back();
-    waiting.pop_back();
-    std::array<bool, scene::kWidth> kept;
-    kept.fill(true);
-    if (item < 0) {  // a block
-      const scene::TriangleBlock& block = hierarchy.blocks[static_cast<std::size_t>(~item)];
-      height.sift(block, kept);
-      for (std::size_t i = 0; i < scene::kWidth; ++i) {
-        if (kept[i] && block.primitive[i] != scene::kNoPrimitive) {
-          candidates.push_back(block.primitive[i]);
+  candidates.reserve(scene::kWidth * blocks.size());
+  fetching_ahead(
+      blocks.size(),
+      [&](std::size_t i) {
+        constexpr std::size_t kLine = 64;
+        const auto* bytes = reinterpret_cast<const char*>(&block(i));
+        for (std::size_t b = 0; b < sizeof(scene::TriangleBlock); b += kLine) {
+          __builtin_prefetch(bytes + b);
         }
-      }
-    } else {
-      const scene::WideNode& node = hierarchy.nodes[static_cast<std::size_t>(item)];
-      height.sift(node, 0.0, kept);
-      if (has_strip) along.sift(node, length, kept);
-      for (std::size_t i = 0; i < scene::kWidth; ++i) {
-        if (kept[i]) waiting.push_back(node.child[i]);
-      }
-    }
-  }
+      },
+      [&](std::size_t i) {
+        for_each_lane(height.sift(block(i)),
+                      [&](int lane) { candidates.push_back(block(i).primitive[lane]); });
+      });
   return candidates;
 }
 
 std::vector<Polyline> cut_scene(const Cutter& cutter, const Scene::Hierarchy& hierarchy) {
   const std::vector<std::uint32_t> candidates = find_candidates(cutter, hierarchy);
   scene::CutCollector collector(cutter, candidates.size());
-  for (const std::uint32_t primitive : candidates) {
-    const auto [mesh, triangle] = hierarchy.name(primitive);
-    collector.add(hierarchy.corners(primitive), mesh, triangle);
-  }
+  const auto corners_of = [&](std::size_t i) {
+    const auto [mesh, triangle] = hierarchy.name(candidates[i]);
+    return hierarchy.arrays[static_cast<std::size_t>(mesh)].triangles + 3 * std::int64_t{triangle};
+  };
+  fetching_ahead(
+      candidates.size(), [&](std::size_t i) { __builtin_prefetch(corners_of(i)); },
+      [&](std::size_t i) {
+        const auto [mesh, triangle] = hierarchy.name(candidates[i]);
+        collector.add(hierarchy.corners(candidates[i]), mesh, triangle);
+      });
   return collector.chain();
 }
 
