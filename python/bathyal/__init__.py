@@ -2,6 +2,8 @@
 """Supervised underwater manipulation: soundings to seabed to tool path."""
 
 from bathyal._core import (
+    CleanReport,
+    CleanResult,
     Error,
     Hits,
     MeshReport,
@@ -14,14 +16,19 @@ from bathyal._core import (
     SheetPatch,
     SheetReport,
     TriangleMesh,
+    clean_cloud,
     find_sheets,
     fit_plane,
+    generate_survey,
     intersect_moller_trumbore,
     mesh_report,
+    survey_height,
 )
 from bathyal.terrain import SheetWarning, triangulate
 
 __all__ = [
+    "CleanReport",
+    "CleanResult",
     "Error",
     "Hits",
     "MeshReport",
@@ -35,9 +42,12 @@ __all__ = [
     "SheetReport",
     "SheetWarning",
     "TriangleMesh",
+    "clean_cloud",
     "find_sheets",
     "fit_plane",
+    "generate_survey",
     "intersect_moller_trumbore",
     "mesh_report",
+    "survey_height",
     "triangulate",
 ]
