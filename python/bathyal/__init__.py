@@ -2,5 +2,6 @@
 """Supervised underwater manipulation: soundings to seabed to tool path."""
 
 from bathyal._core import Error, Plane, PointCloud, TriangleMesh
+from bathyal.meshes import read_mesh, write_mesh
 
-__all__ = ["Error", "Plane", "PointCloud", "TriangleMesh"]
+__all__ = ["Error", "Plane", "PointCloud", "TriangleMesh", "read_mesh", "write_mesh"]

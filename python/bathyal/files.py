@@ -7,7 +7,7 @@ import importlib
 import os
 import secrets
 import stat
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from types import ModuleType
@@ -129,3 +129,12 @@ def need(module: str, package: str, purpose: str) -> Any:
             f"{purpose} needs the Python package {package}: pip install '{package}'"
         ) from error
     return imported
+
+
+def known_suffix(path: PathLike, known: Iterable[str], thing: str) -> str:
+    """The suffix of `path` in lower case, or a `ValueError` that lists what there is."""
+    suffix = Path(path).suffix.lower()
+    if suffix not in known:
+        names = " ".join(sorted(known))
+        raise ValueError(f"path: expected a {thing} file ({names}), got {os.fspath(path)!r}")
+    return suffix

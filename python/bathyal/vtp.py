@@ -13,8 +13,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from bathyal.files import PathLike, replacing
-from bathyal.polydata import Cells, PolyData, cells_of
-from bathyal.vtp_reader import TYPES, read_vtp
+from bathyal.formats.cells import Cells, cells_of
+from bathyal.formats.polydata import PolyData
+from bathyal.formats.vtp_reader import TYPES, read_vtp
 
 __all__ = ["PolyData", "read_vtp", "write_vtp"]
 

@@ -11,7 +11,7 @@ import pytest
 
 import bathyal
 from bathyal.files import need, opened, reading, replacing
-from bathyal.safe_xml import parse_xml
+from bathyal.formats.safe_xml import parse_xml
 
 
 def test_a_file_appears_whole(tmp_path):

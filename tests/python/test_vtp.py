@@ -15,7 +15,8 @@ from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 
 import bathyal
-from bathyal.polydata import Cells, cells_of, triangles_of_polygons, triangles_of_strips
+from bathyal.formats.cells import Cells, cells_of
+from bathyal.formats.polygons import triangles_of_polygons, triangles_of_strips
 from bathyal.vtp import read_vtp, write_vtp
 
 UTM = np.array([620152.873, 7246504.912, -51.987])
@@ -116,9 +117,12 @@ def test_strips_turn_every_second_triangle():
 
 def test_polygons_become_fans_and_short_ones_are_refused():
     polygons = cells_of([[5, 6, 7], [0, 1, 2, 3, 4]])
-    assert triangles_of_polygons(polygons).tolist() == [[5, 6, 7], [0, 1, 2], [0, 2, 3], [0, 3, 4]]
+    points = np.array([[0, 0], [1, 0], [2, 1], [1, 2], [0, 2], [5, 5], [6, 5], [5, 6.0]])
+    points = np.column_stack([points, np.zeros(8)])
+    fans = [[5, 6, 7], [0, 1, 2], [0, 2, 3], [0, 3, 4]]
+    assert triangles_of_polygons(polygons, points).tolist() == fans
     with pytest.raises(bathyal.Error, match="polygon 1 has 2 corners"):
-        triangles_of_polygons(cells_of([[0, 1, 2], [1, 2]]))
+        triangles_of_polygons(cells_of([[0, 1, 2], [1, 2]]), points)
 
 
 # --- VTK on the other side ---------------------------------------------------------------------

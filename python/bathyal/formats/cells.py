@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Points and the cells over them, as polygon files hold them."""
+"""Lists of point indices: the lines, polygons and faces of a file."""
 
 from __future__ import annotations
 
@@ -12,7 +12,6 @@ from numpy.typing import NDArray
 from bathyal._core import Error
 
 Integers = NDArray[np.int64]
-Arrays = dict[str, NDArray[Any]]
 
 
 @dataclass(frozen=True)
@@ -80,67 +79,3 @@ def cells_of(lists: Any) -> Cells:
     if flat.size and flat.dtype.kind not in "iu":
         raise ValueError(f"cells: expected whole numbers, got dtype {flat.dtype}")
     return Cells(np.ascontiguousarray(flat, np.int64), np.cumsum(sizes))
-
-
-@dataclass(frozen=True)
-class PolyData:
-    """What a polygon file holds.
-
-    `cell_data` has one row a cell, in the order vertices, lines, strips, polygons. Texts are numpy
-    arrays of str.
-    """
-
-    points: NDArray[np.float64]
-    vertices: Cells = field(default_factory=Cells)
-    lines: Cells = field(default_factory=Cells)
-    strips: Cells = field(default_factory=Cells)
-    polygons: Cells = field(default_factory=Cells)
-    point_data: Arrays = field(default_factory=dict)
-    cell_data: Arrays = field(default_factory=dict)
-    field_data: Arrays = field(default_factory=dict)
-
-    def triangles(self) -> Integers:
-        """(T, 3) point indices of all strips and polygons, polygons cut into triangles."""
-        return np.concatenate(
-            [triangles_of_strips(self.strips), triangles_of_polygons(self.polygons)]
-        )
-
-
-def triangles_of_polygons(polygons: Cells) -> Integers:
-    """(T, 3): each polygon as a fan about its first corner, which suits the convex ones.
-
-    Raises
-    ------
-    Error
-        For a polygon of fewer than three corners.
-    """
-    _check_corners("polygon", polygons)
-    if np.all(polygons.sizes == 3):
-        return polygons.connectivity.reshape(-1, 3)
-    first, step = _windows(polygons)
-    corners = np.column_stack([first, first + step + 1, first + step + 2])
-    return np.take(polygons.connectivity, corners)
-
-
-def triangles_of_strips(strips: Cells) -> Integers:
-    """(T, 3): every second triangle of a strip is turned round, so that all face one way."""
-    _check_corners("strip", strips)
-    first, step = _windows(strips)
-    odd = step % 2
-    corners = np.column_stack([first + step, first + step + 1 + odd, first + step + 2 - odd])
-    return np.take(strips.connectivity, corners)
-
-
-def _check_corners(name: str, cells: Cells) -> None:
-    short = np.flatnonzero(cells.sizes < 3)
-    if len(short):
-        size = int(cells.sizes[short[0]])
-        raise Error(f"{name} {int(short[0])} has {size} corners, at least 3 are needed")
-
-
-def _windows(cells: Cells) -> tuple[Integers, Integers]:
-    """For each triangle: where its cell starts, and the triangle's number in the cell."""
-    counts = cells.sizes - 2
-    first = np.repeat(cells.starts, counts)
-    step = np.arange(len(first)) - np.repeat(np.cumsum(counts) - counts, counts)
-    return first, step

@@ -15,8 +15,9 @@ from numpy.typing import NDArray
 
 from bathyal._core import Error
 from bathyal.files import PathLike, opened, reading
-from bathyal.polydata import Arrays, Cells, Integers, PolyData
-from bathyal.safe_xml import parse_xml
+from bathyal.formats.cells import Cells, Integers
+from bathyal.formats.polydata import Arrays, PolyData
+from bathyal.formats.safe_xml import parse_xml
 
 TYPES = {
     "Int8": "<i1",
