@@ -1,7 +1,26 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Supervised underwater manipulation: soundings to seabed to tool path."""
 
-from bathyal._core import Error, Plane, PointCloud, TriangleMesh
+from bathyal._core import (
+    Error,
+    Plane,
+    PointCloud,
+    TriangleMesh,
+    generate_survey,
+    survey_height,
+)
+from bathyal.clouds import read_cloud, write_cloud
 from bathyal.meshes import read_mesh, write_mesh
 
-__all__ = ["Error", "Plane", "PointCloud", "TriangleMesh", "read_mesh", "write_mesh"]
+__all__ = [
+    "Error",
+    "Plane",
+    "PointCloud",
+    "TriangleMesh",
+    "generate_survey",
+    "read_cloud",
+    "read_mesh",
+    "survey_height",
+    "write_cloud",
+    "write_mesh",
+]
