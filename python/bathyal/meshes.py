@@ -14,6 +14,7 @@ from bathyal._core import TriangleMesh
 from bathyal.files import PathLike, known_suffix, reading
 from bathyal.formats.attributes import canonical_attributes, columns_of
 from bathyal.formats.collada import read_collada
+from bathyal.formats.notes import notes_of, notes_of_fields
 from bathyal.formats.obj import read_obj, write_obj
 from bathyal.formats.ply import read_ply, write_ply
 from bathyal.formats.stl import read_stl, write_stl
@@ -186,11 +187,7 @@ def _read_vtp(path: PathLike) -> _Surface:
     data = read_vtp(path)
     with reading(path, "VTK PolyData"):
         attributes = canonical_attributes(columns_of(data.point_data))
-        notes = {
-            name: str(values[0])
-            for name, values in data.field_data.items()
-            if values.dtype.kind == "U" and len(values) == 1
-        }
+        notes = notes_of_fields(data.field_data)
         return _Surface(data.points, data.triangles(), attributes, notes)
 
 
@@ -201,12 +198,6 @@ _READERS: dict[str, Callable[[PathLike], _Surface]] = {
     ".stl": _read_stl,
     ".vtp": _read_vtp,
 }
-
-
-def notes_of(data: Any) -> dict[str, str]:
-    """What a file says once: coordinate reference system and vertical datum, where known."""
-    notes = {"crs": data.crs, "vertical_datum": data.vertical_datum}
-    return {name: text for name, text in notes.items() if text}
 
 
 def _write_ply(mesh: TriangleMesh, path: PathLike) -> None:

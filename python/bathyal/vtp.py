@@ -20,6 +20,7 @@ from bathyal.formats.vtp_reader import TYPES, read_vtp
 __all__ = ["PolyData", "read_vtp", "write_vtp"]
 
 _BLOCK = 1 << 20  # bytes compressed at a time: a reader can open one without the others
+_LEVEL = 1  # of zlib: three times as fast as its default, and no more than a third larger
 _NAMES = {np.dtype(dtype): name for name, dtype in TYPES.items()}
 
 
@@ -181,7 +182,7 @@ class _Appended:
 
 def _compressed_parts(raw: bytes) -> list[bytes]:
     """A table of sizes and the blocks it speaks of, which the format encodes apart."""
-    blocks = [zlib.compress(raw[i : i + _BLOCK], 6) for i in range(0, len(raw), _BLOCK)]
+    blocks = [zlib.compress(raw[i : i + _BLOCK], _LEVEL) for i in range(0, len(raw), _BLOCK)]
     last = len(raw) % _BLOCK
     return [_sizes(len(blocks), _BLOCK, last, *map(len, blocks)), b"".join(blocks)]
 

@@ -367,7 +367,7 @@ def test_obj_with_slashes_continued_lines_and_counting_back(tmp_path):
         ("f 4 3 5", "f 4 3 x", "'x'"),
         ("v 0 1 0", "v 0 1", "all three numbers"),
         ("v 0 1 0", "v 0 1 nan", "finite"),
-        ("l 1 2", "curv 0 1 1 2", "line 16: 'curv' is not read"),
+        ("l 1 2", "curv 0 1 1 2", "line 15: 'curv' is not read"),
         ("f ", "# ", "5 vertices and 0 faces"),
         ("v ", "# ", "0 vertices and 3 faces"),
     ],
