@@ -24,6 +24,8 @@ from bathyal._core import (
     mesh_report,
     survey_height,
 )
+from bathyal.clouds import read_cloud, write_cloud
+from bathyal.meshes import read_mesh, write_mesh
 from bathyal.terrain import SheetWarning, triangulate
 
 __all__ = [
@@ -48,6 +50,10 @@ __all__ = [
     "generate_survey",
     "intersect_moller_trumbore",
     "mesh_report",
+    "read_cloud",
+    "read_mesh",
     "survey_height",
     "triangulate",
+    "write_cloud",
+    "write_mesh",
 ]
