@@ -3,8 +3,11 @@
 
 from bathyal._core import (
     Error,
+    Nearest,
     Plane,
     PointCloud,
+    Polyline,
+    Scene,
     Targets,
     ToolPath,
     TriangleMesh,
@@ -16,8 +19,11 @@ from bathyal.aims import read_aims
 
 __all__ = [
     "Error",
+    "Nearest",
     "Plane",
     "PointCloud",
+    "Polyline",
+    "Scene",
     "Targets",
     "ToolPath",
     "TriangleMesh",
