@@ -57,8 +57,10 @@ struct PrimitiveName {
 
 /// Primitives are numbered through all meshes, so that their order is that of (mesh, triangle).
 /// Meshes without triangles share their number with the next one and are passed over.
-inline PrimitiveName name_of(const MeshArrays* meshes, std::int32_t mesh_count,
-                             std::uint32_t primitive) {
+/// Always inlined: a copy compiled for one instruction set must not be called by another.
+[[gnu::always_inline]] inline PrimitiveName name_of(const MeshArrays* meshes,
+                                                    std::int32_t mesh_count,
+                                                    std::uint32_t primitive) {
   std::int32_t low = 0;
   std::int32_t high = mesh_count;  // the last mesh that starts at or before the primitive
   while (high - low > 1) {
