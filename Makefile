@@ -1,0 +1,99 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# The whole vocabulary: demo test bench format docs wheel. Each sets up what it needs by itself.
+
+.PHONY: demo test bench format docs wheel clean
+.DEFAULT_GOAL := demo
+SHELL := /bin/bash
+.SHELLFLAGS := -euo pipefail -c
+
+VENV := .venv
+BIN := $(VENV)/bin
+STAMPS := build/setup
+
+# Debian packages: to build and run; to test; for the benchmarks' peers.
+APT_BUILD := g++ cmake ninja-build libeigen3-dev python3 python3-dev python3-venv
+APT_TEST := $(APT_BUILD) git ccache libgtest-dev libpcl-dev clang-14 libclang-rt-14-dev \
+            clang-format-14 patchelf util-linux
+APT_BENCH := $(APT_TEST) libcgal-dev libgmp-dev libmpfr-dev
+
+# install-debian(packages): only what is missing, and only then asks for rights.
+define install-debian
+@missing=""; for p in $(1); do \
+  dpkg-query -W -f='$${Status}' $$p 2>/dev/null | grep -q 'ok installed' || missing="$$missing $$p"; \
+done; \
+if [ -n "$$missing" ]; then \
+  echo "Installing Debian packages:$$missing"; \
+  sudo=""; [ "$$(id -u)" = 0 ] || sudo="sudo"; \
+  $$sudo apt-get update -q && \
+  DEBIAN_FRONTEND=noninteractive $$sudo apt-get install -y -q --no-install-recommends $$missing; \
+fi
+@mkdir -p $(STAMPS) && touch $@
+endef
+
+# install-python(extras): the package with these extras, versions held by constraints.txt.
+# The build tree is kept, so a second build compiles only what changed.
+define install-python
+$(BIN)/pip install -q -c constraints.txt --no-build-isolation -C build-dir=build/python$(2) \
+  "$(if $(1),.[$(1)],.)"
+endef
+
+$(STAMPS)/apt-build: Makefile
+	$(call install-debian,$(APT_BUILD))
+$(STAMPS)/apt-test: Makefile
+	$(call install-debian,$(APT_TEST))
+$(STAMPS)/apt-bench: Makefile
+	$(call install-debian,$(APT_BENCH))
+
+$(STAMPS)/venv: $(STAMPS)/apt-build constraints.txt
+	[ -x $(BIN)/python ] || python3 -m venv $(VENV)
+	$(BIN)/pip install -q -c constraints.txt pip scikit-build-core pybind11
+	touch $@
+
+# The main job, as a user would run it: a generated survey written as a file, planned over.
+demo: $(STAMPS)/venv
+	$(call install-python)
+	mkdir -p demo
+	$(BIN)/bathyal survey demo/survey.xyz --aims-out demo/aims.csv
+	$(BIN)/bathyal plan demo/survey.xyz --aims demo/aims.csv --out demo/plan
+	@echo "The tool path is demo/plan/path.csv; its picture is demo/plan/plan.png, and demo/plan/plan.html turns."
+
+# C++ tests, the same under ASan and UBSan with the fuzzers' short run, then Python, notebooks, docs.
+test: $(STAMPS)/apt-test $(STAMPS)/venv
+	cmake -G Ninja -B build/cpp -DBATHYAL_TESTS=ON -DBATHYAL_WERROR=ON >/dev/null
+	cmake --build build/cpp
+	ctest --test-dir build/cpp --output-on-failure -j 2
+	cmake -G Ninja -B build/asan -DBATHYAL_TESTS=ON -DBATHYAL_FUZZ=ON -DBATHYAL_PCL=OFF \
+	  -DBATHYAL_SANITIZE=ON -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG="-O1 -g1" \
+	  -DCMAKE_CXX_COMPILER=clang++-14 -DCMAKE_C_COMPILER=clang-14 >/dev/null
+	cmake --build build/asan
+	ctest --test-dir build/asan --output-on-failure -j 2
+	$(call install-python,test)
+	$(BIN)/python -m pytest
+
+bench: $(STAMPS)/apt-bench $(STAMPS)/venv
+	$(call install-python,bench)
+	cmake -G Ninja -B build/bench -DBATHYAL_BENCHMARKS=ON >/dev/null
+	cmake --build build/bench
+	$(BIN)/python benchmarks/run.py --cpp build/bench/benchmarks/cpp
+
+format: $(STAMPS)/apt-test $(STAMPS)/venv
+	$(BIN)/pip install -q -c constraints.txt ruff
+	git ls-files '*.cpp' '*.hpp' | xargs clang-format-14 -i
+	$(BIN)/ruff check --fix . && $(BIN)/ruff format .
+
+docs: $(STAMPS)/venv
+	$(call install-python,docs)
+	$(BIN)/sphinx-build -W --keep-going -b html docs build/docs
+	@echo "The documentation is build/docs/index.html."
+
+# Without PCL: its surface library drags VTK along. auditwheel writes into the wheel which glibc it needs.
+wheel: $(STAMPS)/apt-test $(STAMPS)/venv
+	$(BIN)/pip install -q -c constraints.txt auditwheel
+	rm -rf build/wheel dist
+	$(BIN)/pip wheel -q . --no-deps --no-build-isolation -w build/wheel -C build-dir=build/python-wheel \
+	  -C cmake.define.BATHYAL_PCL=OFF
+	PATH="$(CURDIR)/$(BIN):$$PATH" $(BIN)/auditwheel repair -w dist build/wheel/*.whl
+	@echo "The wheel is $$(ls dist/*.whl)."
+
+clean:
+	rm -rf build dist demo
