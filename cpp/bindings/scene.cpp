@@ -1,9 +1,309 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "bathyal/scene/scene.hpp"
+
+#include <pybind11/stl.h>
+
+#include <algorithm>
+#include <limits>
+#include <string>
+
 #include "arrays.hpp"
+#include "bathyal/base/error.hpp"
 #include "bindings.hpp"
 
 namespace bathyal::python {
+namespace {
 
-void bind_scene(py::module_& /*module*/) {}
+/// Answers of Scene.nearest as arrays.
+struct Nearest {
+  std::vector<NearestPoint> found;
+
+  template <class Scalar, class Take>
+  py::array column(py::ssize_t width, const Take& take) const {
+    std::vector<Scalar> values;
+    values.reserve(found.size() * static_cast<std::size_t>(width));
+    for (const NearestPoint& one : found) take(one, values);
+    return to_numpy(std::move(values),
+                    width == 1 ? std::vector<py::ssize_t>{} : std::vector{width});
+  }
+};
+
+py::array to_numpy(const std::vector<Vec3>& points) {
+  std::vector<double> values;
+  values.reserve(3 * points.size());
+  for (const Vec3& p : points) values.insert(values.end(), p.begin(), p.end());
+  return to_numpy(std::move(values), {3});
+}
+
+void bind_nearest(py::module_& module) {
+  using Doubles = std::vector<double>;
+  using Integers = std::vector<std::int32_t>;
+  py::class_<Nearest>(module, "Nearest", "The closest point of a scene to each of N points.")
+      .def_property_readonly(
+          "distance",
+          [](const Nearest& n) {
+            return n.column<double>(
+                1, [](const NearestPoint& p, Doubles& out) { out.push_back(p.distance); });
+          },
+          "(N,) [m], inf where the scene holds no triangle.")
+      .def_property_readonly(
+          "point",
+          [](const Nearest& n) {
+            return n.column<double>(3, [](const NearestPoint& p, Doubles& out) {
+              out.insert(out.end(), p.point.begin(), p.point.end());
+            });
+          },
+          "(N, 3) [m], NaN where there is none.")
+      .def_property_readonly(
+          "mesh",
+          [](const Nearest& n) {
+            return n.column<std::int32_t>(
+                1, [](const NearestPoint& p, Integers& out) { out.push_back(p.mesh); });
+          },
+          "(N,) number of the mesh in the scene, −1 where there is none.")
+      .def_property_readonly(
+          "triangle",
+          [](const Nearest& n) {
+            return n.column<std::int32_t>(
+                1, [](const NearestPoint& p, Integers& out) { out.push_back(p.triangle); });
+          },
+          "(N,) triangle of that mesh, −1 where there is none.")
+      .def_property_readonly(
+          "barycentric",
+          [](const Nearest& n) {
+            return n.column<double>(3, [](const NearestPoint& p, Doubles& out) {
+              const bool found = p.triangle >= 0;
+              const double nothing = std::numeric_limits<double>::quiet_NaN();
+              out.push_back(found ? p.u : nothing);
+              out.push_back(found ? p.v : nothing);
+              out.push_back(found ? 1.0 - p.u - p.v : nothing);
+            });
+          },
+          "(N, 3) weights (u, v, w) of corners 1, 2 and 0, as eq 4; NaN where there is none.")
+      .def("__len__", [](const Nearest& n) { return n.found.size(); })
+      .def("__repr__", [](const Nearest& n) {
+        return "Nearest(" + std::to_string(n.found.size()) +
+               (n.found.size() == 1 ? " point)" : " points)");
+      });
+}
+
+void bind_polyline(py::module_& module) {
+  py::class_<Polyline>(module, "Polyline",
+                       "A line of a section: segment i runs from point i to point i + 1.")
+      .def_property_readonly(
+          "points", [](const Polyline& line) { return to_numpy(line.points); },
+          "(P, 3) [m]; a closed line repeats its first point.")
+      .def_property_readonly(
+          "mesh", [](const Polyline& line) { return to_numpy(line.mesh); },
+          "(P − 1,) the mesh each segment lies on: one and the same along a line.")
+      .def_property_readonly(
+          "triangle", [](const Polyline& line) { return to_numpy(line.triangle); },
+          "(P − 1,) the triangle of that mesh each segment lies on.")
+      .def_readonly("closed", &Polyline::closed, "Whether the line comes back to where it began.")
+      .def("__repr__", [](const Polyline& line) {
+        return "Polyline(" + std::to_string(line.points.size()) + " points" +
+               (line.closed ? ", closed)" : ")");
+      });
+}
+
+std::vector<Polyline> find_section(const Scene& scene, const py::object& plane, const py::object& b,
+                                   const py::object& up) {
+  if (b.is_none()) {
+    if (!py::isinstance<Plane>(plane)) {
+      throw_argument("plane", "a bathyal.Plane, or two points a and b",
+                     "one " + std::string(py::str(py::type::handle_of(plane).attr("__name__"))));
+    }
+    if (!up.is_none()) throw_argument("up", "nothing beside a plane", "a direction");
+    const auto& cut = plane.cast<const Plane&>();
+    const py::gil_scoped_release release;
+    return scene.section(cut);
+  }
+  const Vec3 from = vector_argument("a", plane);
+  const Vec3 to = vector_argument("b", b);
+  if (up.is_none()) {
+    const py::gil_scoped_release release;
+    return scene.section(from, to);
+  }
+  const Vec3 direction = vector_argument("up", up);
+  const py::gil_scoped_release release;
+  return scene.section(from, to, direction);
+}
+
+void bind_queries(py::class_<Scene>& scene) {
+  const double accuracy = WindingOptions().accuracy;
+  scene
+      .def(
+          "nearest",
+          [](const Scene& self, const py::object& points, int num_threads) {
+            const Points queries = points_argument("points", points);
+            const py::gil_scoped_release release;
+            return Nearest{self.nearest(queries.view(), num_threads)};
+          },
+          py::arg("points"), py::kw_only(), py::arg("num_threads") = 0,
+          R"(The closest point of all triangles to each point.
+
+Decided in double; equal distances give the lowest (mesh, triangle). A triangle without area counts
+as the segment or point that it is.
+
+Parameters
+----------
+points : (N, 3) array
+    [m], finite.
+num_threads : int
+    0 means all.
+
+Returns
+-------
+Nearest
+    ``.distance`` (N,) [m], ``.point`` (N, 3), ``.mesh`` (N,), ``.triangle`` (N,) and
+    ``.barycentric`` (N, 3). A scene without triangles gives inf, NaN and −1.
+
+Examples
+--------
+>>> import bathyal
+>>> floor = bathyal.TriangleMesh([[0, 0, 0], [4, 0, 0], [0, 4, 0]], [[0, 1, 2]])
+>>> near = bathyal.Scene(floor).nearest([[1, 1, 3], [-3, 0, -4]])
+>>> near.distance.tolist(), near.point.tolist()
+([3.0, 5.0], [[1.0, 1.0, 0.0], [0.0, 0.0, 0.0]])
+)")
+      .def(
+          "winding_number",
+          [](const Scene& self, const py::object& points, double accuracy, int num_threads) {
+            const Points queries = points_argument("points", points);
+            std::vector<double> numbers;
+            {
+              const py::gil_scoped_release release;
+              numbers = self.winding_number(queries.view(), {accuracy}, num_threads);
+            }
+            return to_numpy(std::move(numbers));
+          },
+          py::arg("points"), py::kw_only(), py::arg("accuracy") = accuracy,
+          py::arg("num_threads") = 0, R"(How often the triangles wind around each point.
+
+The solid angle of all triangles over 4π: 1 inside a closed mesh with outward normals, −1 inside one
+turned inside out, 2 inside two of them, a fraction near the holes of an open one, the mean of the
+two sides on a triangle. Jacobson, Kavan, Sorkine-Hornung (2013), Robust inside-outside segmentation
+using generalized winding numbers; far triangles are taken together as in Barill, Dickson, Schmidt,
+Levin, Jacobson (2018), Fast winding numbers for soups and clouds.
+
+Parameters
+----------
+points : (N, 3) array
+    [m], finite.
+accuracy : float
+    What a far cluster of triangles may be off by, as a part of its area / (4π distance²); above 0.
+num_threads : int
+    0 means all.
+
+Returns
+-------
+(N,) array
+
+Examples
+--------
+>>> import bathyal
+>>> tetrahedron = bathyal.TriangleMesh([[0, 0, 0], [3, 0, 0], [0, 3, 0], [0, 0, 3]],
+...                                    [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+>>> bathyal.Scene(tetrahedron).winding_number([[0.5, 0.5, 0.5], [5, 5, 5]]).round(3) + 0.0
+array([1., 0.])
+)")
+      .def(
+          "contains",
+          [](const Scene& self, const py::object& points, double accuracy, int num_threads) {
+            const Points queries = points_argument("points", points);
+            std::vector<bool> inside;
+            {
+              const py::gil_scoped_release release;
+              inside = self.contains(queries.view(), {accuracy}, num_threads);
+            }
+            py::array_t<bool> result(static_cast<py::ssize_t>(inside.size()));
+            std::copy(inside.begin(), inside.end(), result.mutable_data());
+            result.attr("setflags")(py::arg("write") = false);
+            return result;
+          },
+          py::arg("points"), py::kw_only(), py::arg("accuracy") = accuracy,
+          py::arg("num_threads") = 0, R"(Whether each point lies inside.
+
+Inside is where the winding number is beyond ±1/2, so it holds for meshes that are inside out, open
+or cut themselves: a hole counts as filmed over. A point on a triangle is contained. Bodies that
+overlap add up; two that are wound against each other cancel where both are.
+
+Parameters
+----------
+points : (N, 3) array
+    [m], finite.
+accuracy : float
+    As in winding_number.
+num_threads : int
+    0 means all.
+
+Returns
+-------
+(N,) array of bool
+
+Examples
+--------
+>>> import bathyal
+>>> tetrahedron = bathyal.TriangleMesh([[0, 0, 0], [3, 0, 0], [0, 3, 0], [0, 0, 3]],
+...                                    [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+>>> bathyal.Scene(tetrahedron).contains([[0.5, 0.5, 0.5], [5, 5, 5]]).tolist()
+[True, False]
+)")
+      .def("section", &find_section, py::arg("plane"), py::arg("b") = py::none(), py::kw_only(),
+           py::arg("up") = py::none(), R"(The lines in which a plane cuts the scene.
+
+``section(plane)`` cuts by a whole plane. ``section(a, b)`` cuts by the plane through two points and
+the direction ``up`` and keeps what lies between them, measured along the horizontal, ends included
+(Filaretov, Konoplin, Konoplin 2018: r = (b − a) × up).
+
+Edges in the plane appear once, triangles in the plane give the outline of their region, a surface
+that touches the plane at single points gives nothing there. Lines never join two meshes; they are
+sorted by mesh and by where they start. Open lines run from a towards b (by a plane: from their end
+with the lower x, then y, z), closed ones counter-clockwise seen from where the normal, or r, points
+to. A line that starts or ends at a or b to rounding starts or ends at exactly that point.
+
+Parameters
+----------
+plane : Plane, or (3,) array
+    The plane, or the first point a [m].
+b : (3,) array, optional
+    The second point [m].
+up : (3,) array, optional
+    Any length but zero; (0, 0, 1) unless given. Beside two points only.
+
+Returns
+-------
+list of Polyline
+    ``.points`` (P, 3) [m], ``.mesh`` and ``.triangle`` (P − 1,), ``.closed``.
+
+Raises
+------
+ValueError
+    Where b lies above, below or at a along ``up``: there is no such plane.
+
+Examples
+--------
+>>> import bathyal
+>>> floor = bathyal.TriangleMesh([[0, 0, 0], [4, 0, 0], [0, 4, 0]], [[0, 1, 2]])
+>>> line, = bathyal.Scene(floor).section((0, 1, 9), (2, 1, 9))
+>>> line.points.tolist()
+[[0.0, 1.0, 0.0], [2.0, 1.0, 0.0]]
+)");
+}
+
+}  // namespace
+
+void bind_scene(py::module_& module) {
+  bind_nearest(module);
+  bind_polyline(module);
+  py::class_<Scene> scene(module, "Scene");
+  scene.def(py::init([](const TriangleMesh& mesh, int num_threads) {
+              return Scene({mesh}, num_threads);
+            }),
+            py::arg("mesh"), py::kw_only(), py::arg("num_threads") = 0);
+  scene.def(py::init<std::vector<TriangleMesh>, int>(), py::arg("meshes"), py::kw_only(),
+            py::arg("num_threads") = 0);
+  bind_queries(scene);
+}
 
 }  // namespace bathyal::python

@@ -1,9 +1,333 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <pybind11/stl.h>
+
+#include <algorithm>
+#include <string>
+
 #include "arrays.hpp"
+#include "bathyal/base/error.hpp"
+#include "bathyal/toolpath/coverage.hpp"
+#include "bathyal/toolpath/toolpath.hpp"
 #include "bindings.hpp"
+#include "toolpath_docs.hpp"
 
 namespace bathyal::python {
+namespace {
 
-void bind_toolpath(py::module_& /*module*/) {}
+// Arguments -------------------------------------------------------------------------------------
+
+Surface surface_argument(const py::object& object) {
+  if (py::isinstance<Plane>(object)) return object.cast<Plane>();
+  if (py::isinstance<Scene>(object)) return object.cast<Scene>();
+  throw_argument("surface", "a Scene or a Plane",
+                 std::string(py::str(py::type::of(object).attr("__name__"))));
+}
+
+Aims aims_argument(const py::object& object) { return table_argument("aims", object, 6); }
+
+Pose pose_argument(std::string_view name, const py::object& object) {
+  Pose pose = Pose::Identity();
+  if (object.is_none()) return pose;
+  const auto table = table_argument(name, object, 4);
+  if (table.rows() != 4) {
+    throw_argument(name, "shape (4, 4)", "shape (" + std::to_string(table.rows()) + ", 4)");
+  }
+  pose.matrix() = table;
+  return pose;
+}
+
+/// The names of an enum's values in Python.
+template <class Enum>
+using Words = std::vector<std::pair<std::string, Enum>>;
+
+const Words<AimsFrame>& frame_words() {
+  static const Words<AimsFrame> words{{"vehicle", AimsFrame::kVehicle},
+                                      {"world", AimsFrame::kWorld}};
+  return words;
+}
+const Words<Vertical>& vertical_words() {
+  static const Words<Vertical> words{{"gravity", Vertical::kGravity},
+                                     {"vehicle", Vertical::kVehicle}};
+  return words;
+}
+const Words<Orientation>& orientation_words() {
+  static const Words<Orientation> words{{"blended", Orientation::kBlended},
+                                        {"piecewise_constant", Orientation::kPiecewiseConstant}};
+  return words;
+}
+const Words<MissedAims>& missed_words() {
+  static const Words<MissedAims> words{{"leave_out", MissedAims::kLeaveOut},
+                                       {"refuse", MissedAims::kRefuse}};
+  return words;
+}
+
+template <class Enum>
+Enum word_argument(std::string_view name, const std::string& word, const Words<Enum>& words) {
+  std::string expected;
+  for (const auto& [known, value] : words) {
+    if (known == word) return value;
+    expected += (expected.empty() ? "\"" : " or \"") + known + "\"";
+  }
+  throw_argument(name, expected, "\"" + word + "\"");
+}
+
+template <class Enum>
+std::string word_of(Enum value, const Words<Enum>& words) {
+  for (const auto& [word, known] : words) {
+    if (known == value) return word;
+  }
+  return {};
+}
+
+TargetOptions target_options(const py::object& world_from_vehicle, const std::string& frame,
+                             const std::string& vertical, double grazing_angle, double max_range,
+                             int num_threads) {
+  TargetOptions options;
+  options.vehicle.world_from_vehicle = pose_argument("world_from_vehicle", world_from_vehicle);
+  options.vehicle.frame = word_argument("frame", frame, frame_words());
+  options.vehicle.vertical = word_argument("vertical", vertical, vertical_words());
+  options.grazing_angle = grazing_angle;
+  options.max_range = max_range;
+  options.num_threads = num_threads;
+  return options;
+}
+
+// Results ---------------------------------------------------------------------------------------
+// Arrays share the memory of the result they are read from, which each keeps alive.
+
+template <class Result>
+using Pointer = std::shared_ptr<Result>;
+
+py::array read_only(py::array array) {
+  array.attr("setflags")(py::arg("write") = false);
+  return array;
+}
+
+template <class Result>
+py::array to_array(const Pointer<Result>& owner, const std::vector<Vec3>& values) {
+  static_assert(sizeof(Vec3) == 3 * sizeof(double));
+  return read_only_array(reinterpret_cast<const double*>(values.data()),
+                         {static_cast<py::ssize_t>(values.size()), 3}, owner);
+}
+
+template <class Result>
+py::array to_array(const Pointer<Result>& owner, const std::vector<std::array<double, 4>>& values) {
+  return read_only_array(values.empty() ? nullptr : values[0].data(),
+                         {static_cast<py::ssize_t>(values.size()), 4}, owner);
+}
+
+template <class Result, class Scalar>
+py::array to_array(const Pointer<Result>& owner, const std::vector<Scalar>& values) {
+  return read_only_array(values.data(), {static_cast<py::ssize_t>(values.size())}, owner);
+}
+
+template <class Result>
+py::array to_array(const Pointer<Result>& /*owner*/, const std::vector<bool>& values) {
+  py::array_t<bool> array(static_cast<py::ssize_t>(values.size()));
+  std::copy(values.begin(), values.end(), array.mutable_data());
+  return read_only(array);
+}
+
+template <class Result>
+py::array to_array(const Pointer<Result>& /*owner*/, const std::vector<TargetStatus>& values) {
+  py::list words;
+  for (const TargetStatus status : values) words.append(std::string(to_text(status)));
+  return read_only(py::module_::import("numpy").attr("array")(words, py::arg("dtype") = "<U8"));
+}
+
+/// A property that shows one array of a struct of arrays.
+template <class Result, class Field>
+void add_array(py::class_<Result, Pointer<Result>>& cls, const char* name, Field Result::*field,
+               const char* doc) {
+  cls.def_property_readonly(
+      name, [field](const Pointer<Result>& result) { return to_array(result, (*result).*field); },
+      doc);
+}
+
+py::array frames(const ToolPath& path) {
+  std::vector<double> values;
+  values.reserve(16 * path.size());
+  for (std::size_t j = 0; j < path.size(); ++j) {
+    const Eigen::Matrix<double, 4, 4, Eigen::RowMajor> frame = path.frame(j).matrix();
+    values.insert(values.end(), frame.data(), frame.data() + 16);
+  }
+  return to_numpy(std::move(values), {4, 4});
+}
+
+void bind_targets(py::module_& module) {
+  py::class_<Targets, Pointer<Targets>> cls(
+      module, "Targets", "Where camera axes meet the bottom, one target a row of the aims.");
+  add_array(cls, "point", &Targets::point, "(K, 3) A_i [m], NaN where there is none.");
+  add_array(cls, "normal", &Targets::normal,
+            "(K, 3) unit, out of the bottom, NaN where there is none.");
+  add_array(cls, "mesh", &Targets::mesh, "(K,) mesh of the scene, −1 where there is none.");
+  add_array(cls, "triangle", &Targets::triangle,
+            "(K,) triangle of the mesh, −1 where there is none.");
+  add_array(cls, "barycentric", &Targets::barycentric,
+            "(K, 3) (u, v, w) of eq 4: A = w V0 + u V1 + v V2; NaN where there is none.");
+  add_array(cls, "range", &Targets::range,
+            "(K,) along the unit direction [m], inf where there is none.");
+  add_array(cls, "incidence", &Targets::incidence,
+            "(K,) between the axis and the normal [rad], above π/2 from beneath.");
+  add_array(cls, "status", &Targets::status,
+            "(K,) \"hit\", \"miss\", \"parallel\", \"behind\", \"hole\" or \"grazing\".");
+  cls.def("__len__", &Targets::size).def("__repr__", [](const Targets& targets) {
+    std::size_t found = 0;
+    for (std::size_t i = 0; i < targets.size(); ++i) found += targets.found(i) ? 1 : 0;
+    return "Targets(" + std::to_string(found) + " of " + std::to_string(targets.size()) + " found)";
+  });
+}
+
+void bind_path(py::module_& module) {
+  py::class_<ToolPath, Pointer<ToolPath>> cls(
+      module, "ToolPath",
+      "An oriented tool path along the bottom, one sample a row, in the world frame.\n\n"
+      "Positions [m], times [s], angles [rad]. All arrays are read-only.");
+  add_array(cls, "position", &ToolPath::position,
+            "(M, 3) the tool's point: T_j, or T_j + standoff · a_j.");
+  add_array(cls, "surface", &ToolPath::surface, "(M, 3) T_j, on the bottom.");
+  add_array(cls, "approach", &ToolPath::approach,
+            "(M, 3) a_j, unit, out of the bottom; the tool's z is −a_j.");
+  add_array(cls, "travel", &ToolPath::travel,
+            "(M, 3) n_j, unit, along the travel, perpendicular to a_j.");
+  add_array(cls, "side", &ToolPath::side, "(M, 3) b_j = a_j × n_j.");
+  cls.def_property_readonly(
+      "frame", &frames,
+      "(M, 4, 4) world_from_tool: rotation columns [n, −b, −a], translation the position.");
+  add_array(cls, "quaternion", &ToolPath::quaternion,
+            "(M, 4) x y z w of the frame, continuous in sign.");
+  add_array(cls, "segment", &ToolPath::segment,
+            "(M,) i of the pair A_i A_{i+1}: a row of the aims.");
+  add_array(cls, "mesh", &ToolPath::mesh, "(M,) mesh of the scene, −1 on a plane.");
+  add_array(cls, "triangle", &ToolPath::triangle,
+            "(M,) triangle of the stretch that begins here, −1 on a plane.");
+  add_array(cls, "gap", &ToolPath::gap,
+            "(M,) whether the stretch to the next sample crosses a gap of the bottom.");
+  add_array(cls, "arc_length", &ToolPath::arc_length, "(M,) along the positions, from 0.");
+  add_array(cls, "time", &ToolPath::time, "(M,) from 0, never falling.");
+  add_array(cls, "normal_std", &ToolPath::normal_std,
+            "(M,) root mean square of the angle the true normal may lie off; NaN where unknown.");
+  add_array(cls, "crossing", &ToolPath::crossing,
+            "(M,) whether the stood-off path turns back or crosses itself here.");
+  add_array(cls, "contact", &ToolPath::contact, "(M,) whether the tool's body meets ground here.");
+  cls.def_property_readonly(
+         "targets",
+         [](const Pointer<ToolPath>& path) { return Pointer<Targets>(path, &path->targets); },
+         "The Targets the path goes through, one a row of the aims.")
+      .def_property_readonly(
+          "warnings", [](const ToolPath& path) { return path.warnings; },
+          "What a person should know before the path is followed: list of str.")
+      .def(
+          "write",
+          [](const py::object& self, const py::object& path) {
+            py::module_::import("bathyal.paths").attr("write_path")(self, path);
+          },
+          py::arg("path"), "Write to a .csv, .json or .vtp file (bathyal.paths.write_path).")
+      .def(
+          "show",
+          [](const py::object& self) {
+            return py::module_::import("bathyal.views").attr("show_path")(self);
+          },
+          "An interactive figure (bathyal.views.show_path).")
+      .def("__len__", &ToolPath::size)
+      .def("__repr__", [](const ToolPath& path) {
+        return "ToolPath(" + std::to_string(path.size()) + " samples, " +
+               to_text(path.arc_length.back()) + " m, " + to_text(path.time.back()) + " s)";
+      });
+}
+
+// Functions -------------------------------------------------------------------------------------
+
+Pointer<Targets> find_targets_python(const py::object& surface, const py::object& aims,
+                                     const TargetOptions& options) {
+  const Surface bottom = surface_argument(surface);
+  const Aims rows = aims_argument(aims);
+  const py::gil_scoped_release release;
+  return std::make_shared<Targets>(find_targets(bottom, rows, options));
+}
+
+Pointer<ToolPath> plan_toolpath_python(const py::object& surface, const py::object& aims,
+                                       const ToolPathOptions& options) {
+  const Surface bottom = surface_argument(surface);
+  const Aims rows = aims_argument(aims);
+  const py::gil_scoped_release release;
+  return std::make_shared<ToolPath>(plan_toolpath(bottom, rows, options));
+}
+
+}  // namespace
+
+void bind_toolpath(py::module_& module) {
+  bind_targets(module);
+  bind_path(module);
+
+  const ToolPathOptions path;
+  const TargetOptions target = path.targets;
+  const CoverOptions cover;
+  module.def(
+      "find_targets",
+      [](const py::object& surface, const py::object& aims, const py::object& world_from_vehicle,
+         const std::string& frame, const std::string& vertical, double grazing_angle,
+         double max_range, int num_threads) {
+        return find_targets_python(surface, aims,
+                                   target_options(world_from_vehicle, frame, vertical,
+                                                  grazing_angle, max_range, num_threads));
+      },
+      py::arg("surface"), py::arg("aims"), py::kw_only(),
+      py::arg("world_from_vehicle") = py::none(),
+      py::arg("frame") = word_of(target.vehicle.frame, frame_words()),
+      py::arg("vertical") = word_of(target.vehicle.vertical, vertical_words()),
+      py::arg("grazing_angle") = target.grazing_angle, py::arg("max_range") = target.max_range,
+      py::arg("num_threads") = target.num_threads, kFindTargetsDoc);
+  module.def(
+      "plan_toolpath",
+      [](const py::object& surface, const py::object& aims, const py::object& world_from_vehicle,
+         const std::string& frame, const std::string& vertical, double grazing_angle,
+         double max_range, const std::string& missed, const std::string& orientation,
+         double blend_length, double angular_rate, double speed, double acceleration,
+         double standoff, double step, double normal_radius, double tool_radius, double tool_length,
+         double contact_tolerance, int num_threads) {
+        ToolPathOptions options;
+        options.targets = target_options(world_from_vehicle, frame, vertical, grazing_angle,
+                                         max_range, num_threads);
+        options.missed = word_argument("missed", missed, missed_words());
+        options.orientation = word_argument("orientation", orientation, orientation_words());
+        options.blend_length = blend_length;
+        options.angular_rate = angular_rate;
+        options.speed = speed;
+        options.acceleration = acceleration;
+        options.standoff = standoff;
+        options.step = step;
+        options.normal_radius = normal_radius;
+        options.tool_radius = tool_radius;
+        options.tool_length = tool_length;
+        options.contact_tolerance = contact_tolerance;
+        return plan_toolpath_python(surface, aims, options);
+      },
+      py::arg("surface"), py::arg("aims"), py::kw_only(),
+      py::arg("world_from_vehicle") = py::none(),
+      py::arg("frame") = word_of(target.vehicle.frame, frame_words()),
+      py::arg("vertical") = word_of(target.vehicle.vertical, vertical_words()),
+      py::arg("grazing_angle") = target.grazing_angle, py::arg("max_range") = target.max_range,
+      py::arg("missed") = word_of(path.missed, missed_words()),
+      py::arg("orientation") = word_of(path.orientation, orientation_words()),
+      py::arg("blend_length") = path.blend_length, py::arg("angular_rate") = path.angular_rate,
+      py::arg("speed") = path.speed, py::arg("acceleration") = path.acceleration,
+      py::arg("standoff") = path.standoff, py::arg("step") = path.step,
+      py::arg("normal_radius") = path.normal_radius, py::arg("tool_radius") = path.tool_radius,
+      py::arg("tool_length") = path.tool_length,
+      py::arg("contact_tolerance") = path.contact_tolerance,
+      py::arg("num_threads") = target.num_threads, kPlanToolpathDoc);
+  module.def(
+      "cover_polygon",
+      [](const py::object& surface, const py::object& polygon, double spacing, double direction,
+         double margin) {
+        const Surface bottom = surface_argument(surface);
+        const Polygon corners = table_argument("polygon", polygon, 2);
+        const Aims aims = cover_polygon(bottom, corners, spacing, {direction, margin});
+        return to_numpy(std::vector<double>(aims.data(), aims.data() + aims.size()), {6});
+      },
+      py::arg("surface"), py::arg("polygon"), py::arg("spacing"), py::kw_only(),
+      py::arg("direction") = cover.direction, py::arg("margin") = cover.margin, kCoverPolygonDoc);
+}
 
 }  // namespace bathyal::python

@@ -1,1 +1,114 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "bathyal/toolpath/toolpath.hpp"
+
+#include <algorithm>
+#include <map>
+
+#include "bathyal/base/check.hpp"
+#include "bathyal/toolpath/flags.hpp"
+#include "bathyal/toolpath/frames.hpp"
+#include "bathyal/toolpath/normals.hpp"
+#include "bathyal/toolpath/timing.hpp"
+
+namespace bathyal {
+namespace {
+
+/// "2 hole, 1 parallel"
+std::string count_text(const Targets& targets) {
+  std::map<TargetStatus, int> counts;
+  for (const TargetStatus status : targets.status) ++counts[status];
+  std::string text;
+  for (const auto& [status, count] : counts) {
+    text += (text.empty() ? "" : ", ") + std::to_string(count) + " " + std::string(to_text(status));
+  }
+  return text;
+}
+
+void check_found(const Targets& targets, MissedAims missed) {
+  std::size_t found = 0, first_missed = targets.size();
+  for (std::size_t i = targets.size(); i-- > 0;) {
+    if (targets.found(i)) {
+      ++found;
+    } else {
+      first_missed = i;
+    }
+  }
+  if (found == 0) throw_argument("aims", "at least one that meets the bottom", count_text(targets));
+  if (missed == MissedAims::kRefuse && found < targets.size()) {
+    throw_argument("aims", "all to meet the bottom, as missed = \"refuse\" asks",
+                   count_text(targets) + "; row " + std::to_string(first_missed) +
+                       " is the first (" + std::string(to_text(targets.status[first_missed])) +
+                       ")");
+  }
+}
+
+void stand_off(ToolPath& path, double standoff) {
+  if (standoff == 0.0) return;
+  for (std::size_t j = 0; j < path.size(); ++j) path.position[j] += standoff * path.approach[j];
+}
+
+void warn_of_flags(ToolPath& path) {
+  const auto crossings = std::count(path.crossing.begin(), path.crossing.end(), true);
+  const auto contacts = std::count(path.contact.begin(), path.contact.end(), true);
+  if (crossings > 0) {
+    path.warnings.push_back("samples where the stood-off path turns back or crosses itself: " +
+                            std::to_string(crossings));
+  }
+  if (contacts > 0) {
+    path.warnings.push_back("samples where the tool's body meets ground: " +
+                            std::to_string(contacts));
+  }
+}
+
+}  // namespace
+
+void ToolPathOptions::check() const {
+  targets.check();
+  check_positive("blend_length", blend_length);
+  check_positive("angular_rate", angular_rate);
+  check_positive("speed", speed);
+  check_positive("acceleration", acceleration);
+  check_not_negative("standoff", standoff);
+  check_not_negative("step", step);
+  check_not_negative("normal_radius", normal_radius);
+  check_not_negative("tool_radius", tool_radius);
+  check_not_negative("tool_length", tool_length);
+  check_not_negative("contact_tolerance", contact_tolerance);
+  if (tool_length > 0.0 && tool_length < 2.0 * tool_radius) {
+    throw_argument("tool_length", "0, or at least twice tool_radius (" + to_text(tool_radius) + ")",
+                   to_text(tool_length));
+  }
+}
+
+Pose ToolPath::frame(std::size_t j) const {
+  Pose world_from_tool = Pose::Identity();
+  world_from_tool.linear() << travel[j], -side[j], -approach[j];
+  world_from_tool.translation() = position[j];
+  return world_from_tool;
+}
+
+ToolPath plan_toolpath(const Surface& surface, const Aims& aims, const ToolPathOptions& options) {
+  options.check();
+  if (aims.rows() == 0) throw_argument("aims", "at least one row", "none");
+  const Vec3 up = options.targets.vehicle.up();
+  const int threads = options.targets.num_threads;
+
+  Targets targets = find_targets(surface, aims, options.targets);
+  check_found(targets, options.missed);
+  Route route = join_targets(surface, targets, up, threads);
+  estimate_normals(route, surface, options.normal_radius, threads);
+  ToolPath path = options.orientation == Orientation::kBlended
+                      ? sample_blended(route, options.blend_length, options.step)
+                      : sample_piecewise_constant(route, options.step);
+  path.targets = std::move(targets);
+  path.warnings = std::move(route.warnings);
+  stand_off(path, options.standoff);
+  set_times(path, {options.speed, options.acceleration, options.angular_rate});
+  flag_crossings(path, up, options.standoff);
+  flag_contacts(path, surface,
+                {options.tool_radius, options.tool_length, options.contact_tolerance}, threads);
+  warn_of_flags(path);
+  return path;
+}
+
+}  // namespace bathyal

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "bathyal/toolpath/coverage.hpp"
+
+namespace bathyal {
+
+using Point2 = Eigen::Vector2d;
+using Corners = std::vector<Point2>;
+
+/// Part of a line, from low to high along it.
+struct Interval {
+  double low, high;
+};
+
+/// The corners about `origin`, turned by −direction so that lines of that direction run along x;
+/// repeated corners are dropped.
+/// \throw std::invalid_argument as cover_polygon.
+Corners corners_along(const Polygon& polygon, const Point2& origin, double direction);
+
+/// Parts of the line y = `y` inside the polygon and at least `margin` from every edge, rising.
+std::vector<Interval> stretches(const Corners& corners, double y, double margin);
+
+}  // namespace bathyal

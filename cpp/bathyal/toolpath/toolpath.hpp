@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "bathyal/toolpath/targets.hpp"
+
+namespace bathyal {
+
+enum class Orientation {
+  kBlended,           ///< every turn is spread over blend_length of the path
+  kPiecewiseConstant  ///< the paper's: constant on a facet, T_j twice on an edge, once per facet
+};
+
+enum class MissedAims {
+  kLeaveOut,  ///< warned of; the stretch over them is a gap
+  kRefuse     ///< an error that names them
+};
+
+struct ToolPathOptions {
+  TargetOptions targets;
+  MissedAims missed = MissedAims::kLeaveOut;  ///< what to do with aims that have no target
+  Orientation orientation = Orientation::kBlended;
+  double blend_length = 0.1;   ///< path over which one turn is spread [m], above 0
+  double angular_rate = 0.5;   ///< of the tool's whole frame [rad/s], above 0
+  double speed = 0.1;          ///< of the tool's point along its path [m/s], above 0
+  double acceleration = 0.1;   ///< along the path [m/s²], above 0
+  double standoff = 0.0;       ///< of the tool's point from the bottom, along a_j [m], 0 or more
+  double step = 0.0;           ///< longest stretch between samples on the bottom [m]; 0: T_j as cut
+  double normal_radius = 0.0;  ///< of the footprint normals are taken over [m]; 0: facet normals
+  double tool_radius = 0.0;    ///< of the tool's body [m]; 0: its axis only
+  double tool_length = 0.0;    ///< of the tool's body from its point back along a [m]; 0: no body
+  double contact_tolerance = 0.01;  ///< how far ground may reach into the body unflagged [m]
+
+  void check() const;
+};
+
+/// An oriented path, one sample a row, in the world frame.
+struct ToolPath {
+  std::vector<Vec3> position;  ///< the tool's point: surface + standoff · a [m]
+  std::vector<Vec3> surface;   ///< T_j, on the bottom [m]
+  std::vector<Vec3> approach;  ///< a_j, unit, out of the bottom; the tool's z is −a_j
+  std::vector<Vec3> travel;    ///< n_j, unit, perpendicular to a_j
+  std::vector<Vec3> side;      ///< b_j = a_j × n_j
+  std::vector<std::array<double, 4>> quaternion;  ///< x y z w of [n, −b, −a], continuous in sign
+  std::vector<std::int32_t> segment;              ///< i of the pair A_i A_{i+1} (rows of the aims)
+  std::vector<std::int32_t> mesh;                 ///< −1 on a plane
+  std::vector<std::int32_t> triangle;  ///< facet of the stretch that begins here, −1 on a plane
+  std::vector<bool> gap;               ///< the stretch from here to the next sample crosses a gap
+  std::vector<double> arc_length;      ///< along the positions, from 0 [m]
+  std::vector<double> time;            ///< from 0, never falling [s]
+  std::vector<double> normal_std;      ///< of a_j [rad], NaN where unknown (see estimate_normals)
+  std::vector<bool> crossing;          ///< the stood-off path turns back or crosses itself here
+  std::vector<bool> contact;           ///< the tool's body meets ground here
+  Targets targets;
+  std::vector<std::string> warnings;
+
+  std::size_t size() const { return position.size(); }
+
+  /// world_from_tool: rotation columns [n, −b, −a], translation the position.
+  Pose frame(std::size_t j) const;
+};
+
+/// Plans the path of a tool along the bottom through the targets the camera axes point at, in their
+/// order.
+///
+/// Steps: find_targets; the section between each pair and the next, following the sheet that joins
+/// them (follow_sheet says what happens on overhangs, vertical pairs, gaps); a normal per facet or
+/// footprint (estimate_normals); frames, constant per facet or blended; standoff; time stamps;
+/// flags.
+///
+/// - n_j is T_jT_{j+1} made perpendicular to a_j, so that [n, −b, −a] is a rotation.
+/// - Blended: the turn from one facet's frame to the next's, and at a target from one heading to
+/// the
+///   next, is spread smoothly over blend_length of path, half before and half after; samples are
+///   added there. Turns closer than that add up. Away from edges a_j is the facet's normal.
+/// - Piecewise constant: the tool stops at an edge and turns in place at angular_rate.
+/// - A gap is crossed in a straight line between two samples, the first with its gap flag set; no
+///   surface is claimed between them, no step divides it, and the tool is at rest at both its ends.
+///   The flag says that whoever executes the path decides what happens there.
+/// - Aims without a target are warned of and the stretch over them is a gap, since the bottom
+///   between their neighbours is not what was aimed at; missed = kRefuse makes them an error.
+/// - Targets that coincide (to 1 µm) give no length and no stop, and a warning. One target gives
+/// one
+///   sample, n_j along the world's x as far as a_j lets it.
+/// - Speed, acceleration along the path and angular rate hold between any two samples; it starts
+/// and
+///   ends at rest.
+///
+/// \throw std::invalid_argument for no aims, aims that are not finite, or no target at all.
+/// Filaretov, Konoplin, Konoplin (2018), section 2.
+ToolPath plan_toolpath(const Surface& surface, const Aims& aims,
+                       const ToolPathOptions& options = {});
+
+}  // namespace bathyal
