@@ -63,4 +63,9 @@ py::array to_numpy(std::vector<Scalar> values, std::vector<py::ssize_t> tail = {
   return read_only_array(owned->data(), std::move(tail), owned);
 }
 
+/// (3,)
+inline py::array to_numpy(const Vec3& vector) {
+  return to_numpy(std::vector<double>(vector.begin(), vector.end()));
+}
+
 }  // namespace bathyal::python

@@ -8,6 +8,7 @@ namespace bathyal::python {
 // One function a room, called in floor order; inside: enums, options, results, classes, functions.
 void bind_base(pybind11::module_& module);
 void bind_geometry(pybind11::module_& module);
+void bind_mesh_report(pybind11::module_& module);  // of the room geometry too
 void bind_soundings(pybind11::module_& module);
 void bind_terrain(pybind11::module_& module);
 void bind_scene(pybind11::module_& module);

@@ -6,6 +6,7 @@ PYBIND11_MODULE(_core, module) {
   module.doc() = "The engine. Its public names are those of the package bathyal.";
   bind_base(module);
   bind_geometry(module);
+  bind_mesh_report(module);
   bind_soundings(module);
   bind_terrain(module);
   bind_scene(module);

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cmath>
+
+// Exact decisions about points of the plane, on doubles taken as they are: survey coordinates of
+// 10⁷ m need no origin subtracted. A floating-point filter decides what is clear, inline; what is
+// not goes to integer arithmetic out of line. The sign is always that of the exact value.
+//
+// Range: |coordinate| ≤ kLargestCoordinate and finite, so that no product of the filter overflows
+// and what underflows stays below its absolute margin. Outside it the result is undefined; the
+// public functions above refuse such points.
+
+namespace bathyal {
+
+struct Point2 {
+  double x;
+  double y;
+
+  friend bool operator==(const Point2&, const Point2&) = default;
+};
+
+/// Lexicographic order by x, then y.
+inline bool before(const Point2& a, const Point2& b) {
+  return a.x < b.x || (a.x == b.x && a.y < b.y);
+}
+
+inline constexpr double kLargestCoordinate = 1e75;
+
+namespace exact {
+
+int orient2d(const Point2& a, const Point2& b, const Point2& c);
+int incircle(const Point2& a, const Point2& b, const Point2& c, const Point2& d);
+
+/// The sign after the tie is broken: never 0 for four distinct points.
+int perturbed_incircle(const Point2& a, const Point2& b, const Point2& c, const Point2& d);
+
+// Errors of the filters relative to the sum of the magnitudes (Shewchuk 1997, "ccwerrboundA" and
+// "iccerrboundA"), and what underflow can add to them within the range above.
+inline constexpr double kUnit = 0x1.0p-53;
+inline constexpr double kOrientError = (3.0 + 16.0 * kUnit) * kUnit;
+inline constexpr double kIncircleError = (10.0 + 96.0 * kUnit) * kUnit;
+inline constexpr double kOrientUnderflow = 1e-300;
+inline constexpr double kIncircleUnderflow = 1e-170;
+
+}  // namespace exact
+
+/// +1 when a, b, c turn counter-clockwise, −1 when clockwise, 0 when they lie on one line.
+inline int orient2d(const Point2& a, const Point2& b, const Point2& c) {
+  const double left = (a.x - c.x) * (b.y - c.y);
+  const double right = (a.y - c.y) * (b.x - c.x);
+  const double det = left - right;
+  const double bound =
+      exact::kOrientError * (std::fabs(left) + std::fabs(right)) + exact::kOrientUnderflow;
+  if (det > bound) return 1;
+  if (-det > bound) return -1;
+  return exact::orient2d(a, b, c);
+}
+
+namespace exact {
+
+/// The determinant of the in-circle test and the error it may have.
+struct Incircle {
+  double det;
+  double bound;
+
+  Incircle(const Point2& a, const Point2& b, const Point2& c, const Point2& d) {
+    const double adx = a.x - d.x, ady = a.y - d.y;
+    const double bdx = b.x - d.x, bdy = b.y - d.y;
+    const double cdx = c.x - d.x, cdy = c.y - d.y;
+    const double bc = bdx * cdy, cb = cdx * bdy;
+    const double ca = cdx * ady, ac = adx * cdy;
+    const double ab = adx * bdy, ba = bdx * ady;
+    const double a_lift = adx * adx + ady * ady;
+    const double b_lift = bdx * bdx + bdy * bdy;
+    const double c_lift = cdx * cdx + cdy * cdy;
+    det = a_lift * (bc - cb) + b_lift * (ca - ac) + c_lift * (ab - ba);
+    bound = kIncircleError * (a_lift * (std::fabs(bc) + std::fabs(cb)) +
+                              b_lift * (std::fabs(ca) + std::fabs(ac)) +
+                              c_lift * (std::fabs(ab) + std::fabs(ba))) +
+            kIncircleUnderflow;
+  }
+};
+
+}  // namespace exact
+
+/// Where d lies against the circle through a, b, c, which turn counter-clockwise: +1 inside, −1
+/// outside, 0 on it. Clockwise a, b, c reverse the sign.
+inline int incircle(const Point2& a, const Point2& b, const Point2& c, const Point2& d) {
+  const exact::Incircle test(a, b, c, d);
+  if (test.det > test.bound) return 1;
+  if (-test.det > test.bound) return -1;
+  return exact::incircle(a, b, c, d);
+}
+
+/// Whether d lies inside the circle through a, b, c (counter-clockwise), co-circular points decided
+/// as if every point lay a little above the paraboloid z = x² + y², the lexicographically last by
+/// far the most (Devillers, Teillaud 2003): the Delaunay triangulation of distinct points is then
+/// unique. For four distinct points with a, b, c not on one line.
+inline bool in_perturbed_circle(const Point2& a, const Point2& b, const Point2& c,
+                                const Point2& d) {
+  const exact::Incircle test(a, b, c, d);
+  if (test.det > test.bound) return true;
+  if (-test.det > test.bound) return false;
+  return exact::perturbed_incircle(a, b, c, d) > 0;
+}
+
+}  // namespace bathyal

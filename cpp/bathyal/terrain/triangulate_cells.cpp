@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bathyal/terrain/triangulate_cells.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "bathyal/base/parallel.hpp"
+#include "bathyal/terrain/triangulator.hpp"
+
+namespace bathyal {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr std::size_t kSample = 4096;  // points looked at to place the cuts
+constexpr std::size_t kGrain = 1 << 15;
+
+using Corners = std::array<std::int32_t, 3>;
+
+/// The same triangle, beginning with its lowest vertex.
+Corners lowest_first(const Corners& t) {
+  if (t[0] < t[1] && t[0] < t[2]) return t;
+  if (t[1] < t[2]) return {t[1], t[2], t[0]};
+  return {t[2], t[0], t[1]};
+}
+
+/// low ≤ x < high, the same for y; infinite where no cut was made.
+struct Box {
+  double x_low = -kInfinity, x_high = kInfinity;
+  double y_low = -kInfinity, y_high = kInfinity;
+
+  bool holds(const Point2& p) const {
+    return p.x >= x_low && p.x < x_high && p.y >= y_low && p.y < y_high;
+  }
+  double distance_to_cut(const Point2& p) const {
+    return std::min(std::min(p.x - x_low, x_high - p.x), std::min(p.y - y_low, y_high - p.y));
+  }
+};
+
+/// One box, what was made of its points, and which of it is not yet known to be final.
+struct Cell {
+  Box box;
+  std::vector<LinkedTriangle> triangles;  ///< those to leave out carry a ghost
+  std::vector<Corners> open;              ///< not final, lowest vertex first, sorted
+};
+
+/// Median cuts through a sample, across the longer side, until there are `count` boxes.
+void cut(std::span<Point2> sample, const Box& box, int count, std::vector<Cell>& cells) {
+  if (count == 1 || sample.empty()) {
+    cells.push_back({box, {}, {}});
+    return;
+  }
+  const auto by_x = [](const Point2& a, const Point2& b) { return a.x < b.x; };
+  const auto by_y = [](const Point2& a, const Point2& b) { return a.y < b.y; };
+  const auto [left, right] = std::minmax_element(sample.begin(), sample.end(), by_x);
+  const auto [bottom, top] = std::minmax_element(sample.begin(), sample.end(), by_y);
+  const bool across_x = right->x - left->x >= top->y - bottom->y;
+  const int first = count / 2;
+  const std::size_t middle = sample.size() * static_cast<std::size_t>(first) / count;
+  const auto at = sample.begin() + static_cast<std::ptrdiff_t>(middle);
+  Box low = box, high = box;
+  if (across_x) {
+    std::nth_element(sample.begin(), at, sample.end(), by_x);
+    low.x_high = high.x_low = at->x;
+  } else {
+    std::nth_element(sample.begin(), at, sample.end(), by_y);
+    low.y_high = high.y_low = at->y;
+  }
+  cut(sample.first(middle), low, first, cells);
+  cut(sample.subspan(middle), high, count - first, cells);
+}
+
+std::vector<Cell> make_cells(std::span<const Point2> points, int count) {
+  std::vector<Point2> sample;
+  const std::size_t step = points.size() / kSample + 1;
+  for (std::size_t i = 0; i < points.size() && count > 1; i += step) sample.push_back(points[i]);
+  std::vector<Cell> cells;
+  cut(sample, {}, count, cells);
+  return cells;
+}
+
+std::vector<std::int32_t> vertices_within(std::span<const Point2> points, const Box& box) {
+  std::vector<std::int32_t> vertices;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (box.holds(points[i])) vertices.push_back(static_cast<std::int32_t>(i));
+  }
+  return vertices;
+}
+
+/// Whether the circle through a, b, c lies within the box for certain. It reaches no further from a
+/// than its diameter |ab| |bc| |ca| / (2 area); the margin is far above the rounding of all of it,
+/// and lengths whose products could leave the range of a double count as not certain.
+bool is_final(const Point2& a, const Point2& b, const Point2& c, const Box& box) {
+  const double abx = b.x - a.x, aby = b.y - a.y;
+  const double acx = c.x - a.x, acy = c.y - a.y;
+  const double bcx = c.x - b.x, bcy = c.y - b.y;
+  const double ab = abx * abx + aby * aby;
+  const double ac = acx * acx + acy * acy;
+  const double bc = bcx * bcx + bcy * bcy;
+  const double left = abx * acy, right = aby * acx;
+  const double double_area =
+      (left - right) - 4.0 * exact::kOrientError * (std::fabs(left) + std::fabs(right));
+  if (!(std::min({ab, ac, bc}) > 1e-90 && std::max({ab, ac, bc}) < 1e90 && double_area > 0.0)) {
+    return false;
+  }
+  const double reach = box.distance_to_cut(a) * double_area;
+  return ab * ac * bc < 0.99 * reach * reach;
+}
+
+/// Which vertices take part in the common triangulation, by the number of their cell plus 1; 0 for
+/// those whose triangles are all final.
+using Seam = std::vector<std::uint16_t>;
+
+/// Triangulates a cell; triangles that are not final go to `open` and their vertices to the seam.
+void triangulate_cell(std::span<const Point2> points, Cell& cell, std::uint16_t mark, Seam& seam) {
+  const std::vector<std::int32_t> vertices = vertices_within(points, cell.box);
+  cell.triangles = triangulate_points(points, vertices);
+  if (cell.triangles.empty()) {
+    for (const std::int32_t v : vertices) seam[v] = mark;
+  }
+  for (LinkedTriangle& t : cell.triangles) {
+    if (is_ghost(t)) {
+      for (const std::int32_t v : t.vertex) {
+        if (v != kGhost) seam[v] = mark;
+      }
+    } else if (!is_final(points[t.vertex[0]], points[t.vertex[1]], points[t.vertex[2]], cell.box)) {
+      for (const std::int32_t v : t.vertex) seam[v] = mark;
+      cell.open.push_back(lowest_first(t.vertex));
+      t.vertex[0] = kGhost;
+    }
+  }
+  std::sort(cell.open.begin(), cell.open.end());
+}
+
+/// The triangles that no cell could settle. In the triangulation of the seam's vertices these are
+/// the ones that join cells, and those that their own cell had found too.
+std::vector<LinkedTriangle> triangulate_seam(std::span<const Point2> points,
+                                             const std::vector<Cell>& cells, const Seam& seam) {
+  std::vector<std::int32_t> vertices;
+  for (std::size_t i = 0; i < seam.size(); ++i) {
+    if (seam[i] != 0) vertices.push_back(static_cast<std::int32_t>(i));
+  }
+  std::vector<LinkedTriangle> triangles = triangulate_points(points, vertices);
+  for (LinkedTriangle& t : triangles) {
+    if (is_ghost(t)) continue;
+    const std::uint16_t mark = seam[t.vertex[0]];
+    if (seam[t.vertex[1]] != mark || seam[t.vertex[2]] != mark) continue;
+    const std::vector<Corners>& open = cells[mark - 1].open;
+    if (!std::binary_search(open.begin(), open.end(), lowest_first(t.vertex))) {
+      t.vertex[0] = kGhost;
+    }
+  }
+  return triangles;
+}
+
+/// Counting sort by lowest vertex. The cells' triangles have theirs in different places and go side
+/// by side; `seam` goes by itself.
+class Ordering {
+ public:
+  Ordering(std::size_t vertex_count, const std::vector<Cell>& cells,
+           const std::vector<LinkedTriangle>& seam, int num_threads)
+      : cells_(cells), seam_(seam), num_threads_(num_threads), start_(vertex_count + 1, 0) {}
+
+  TriangleMatrix run() {
+    for_all([&](const Corners& t) { ++start_[static_cast<std::size_t>(t[0]) + 1]; });
+    for (std::size_t v = 1; v < start_.size(); ++v) start_[v] += start_[v - 1];
+    TriangleMatrix sorted(static_cast<Index>(start_.back()), 3);
+    for_all([&](const Corners& t) {
+      const Index row = start_[static_cast<std::size_t>(t[0])]++;
+      for (int c = 0; c < 3; ++c) sorted(row, c) = t[c];
+    });
+    return sorted;
+  }
+
+ private:
+  template <class Visit>
+  void for_all(const Visit& visit) const {
+    const auto visit_part = [&](const std::vector<LinkedTriangle>& part) {
+      for (const LinkedTriangle& t : part) {
+        if (!is_ghost(t)) visit(lowest_first(t.vertex));
+      }
+    };
+    parallel_for(cells_.size(), 1, num_threads_,
+                 [&](std::size_t i, std::size_t) { visit_part(cells_[i].triangles); });
+    visit_part(seam_);
+  }
+
+  const std::vector<Cell>& cells_;
+  const std::vector<LinkedTriangle>& seam_;
+  int num_threads_;
+  std::vector<std::uint32_t> start_;
+};
+
+/// Puts the triangles that begin with the same vertex in order.
+void sort_within_vertex(TriangleMatrix& triangles, int num_threads) {
+  static_assert(sizeof(Corners) == 3 * sizeof(std::int32_t));
+  parallel_for(static_cast<std::size_t>(triangles.rows()), kGrain, num_threads,
+               [&](std::size_t begin, std::size_t end) {
+                 const auto lowest = [&](std::size_t row) {
+                   return triangles(static_cast<Index>(row), 0);
+                 };
+                 const auto rows = static_cast<std::size_t>(triangles.rows());
+                 while (begin > 0 && begin < rows && lowest(begin) == lowest(begin - 1)) ++begin;
+                 while (begin < end) {
+                   std::size_t stop = begin + 1;
+                   while (stop < rows && lowest(stop) == lowest(begin)) ++stop;
+                   for (std::size_t i = begin + 1; i < stop; ++i) {
+                     for (std::size_t j = i; j > begin; --j) {
+                       const auto low = static_cast<Index>(j - 1), high = static_cast<Index>(j);
+                       if (triangles(low, 1) < triangles(high, 1)) break;
+                       triangles.row(low).swap(triangles.row(high));
+                     }
+                   }
+                   begin = stop;
+                 }
+               });
+}
+
+}  // namespace
+
+TriangleMatrix triangulate_in_cells(std::span<const Point2> points, int cells, int num_threads) {
+  std::vector<Cell> parts = make_cells(points, cells);
+  std::vector<LinkedTriangle> seam_triangles;
+  Seam seam(points.size(), 0);
+  parallel_for(parts.size(), 1, num_threads, [&](std::size_t i, std::size_t) {
+    triangulate_cell(points, parts[i], static_cast<std::uint16_t>(i + 1), seam);
+  });
+  if (parts.size() > 1) seam_triangles = triangulate_seam(points, parts, seam);
+  TriangleMatrix triangles = Ordering(points.size(), parts, seam_triangles, num_threads).run();
+  sort_within_vertex(triangles, num_threads);
+  return triangles;
+}
+
+}  // namespace bathyal
