@@ -113,6 +113,12 @@ Examples
           "What rides along: name → (N,) array.")
       .def_property_readonly("crs", [](const PointCloud& c) { return c.datum().crs; })
       .def_property_readonly("vertical_datum", [](const PointCloud& c) { return c.datum().vertical; })
+      .def(
+          "write",
+          [](const py::object& cloud, const py::object& path) {
+            py::module_::import("bathyal.clouds").attr("write_cloud")(cloud, path);
+          },
+          py::arg("path"), "Write a file of the format its suffix names: see bathyal.write_cloud.")
       .def("__len__", &PointCloud::size)
       .def("__repr__", [](const PointCloud& c) {
         return "PointCloud(" + count_text(c.size(), "point") + ")";
@@ -163,6 +169,12 @@ TriangleMesh(3 vertices, 1 triangle)
       .def_property_readonly("crs", [](const TriangleMesh& m) { return m.datum().crs; })
       .def_property_readonly("vertical_datum",
                              [](const TriangleMesh& m) { return m.datum().vertical; })
+      .def(
+          "write",
+          [](const py::object& mesh, const py::object& path) {
+            py::module_::import("bathyal.meshes").attr("write_mesh")(mesh, path);
+          },
+          py::arg("path"), "Write a file of the format its suffix names: see bathyal.write_mesh.")
       .def("__repr__", [](const TriangleMesh& m) {
         return "TriangleMesh(" + std::to_string(m.vertex_count()) +
                (m.vertex_count() == 1 ? " vertex, " : " vertices, ") +

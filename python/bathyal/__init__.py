@@ -19,10 +19,14 @@ from bathyal._core import (
     find_sheets,
     find_targets,
     fit_plane,
+    generate_survey,
     mesh_report,
     plan_toolpath,
+    survey_height,
 )
 from bathyal.aims import read_aims
+from bathyal.clouds import read_cloud, write_cloud
+from bathyal.meshes import read_mesh, write_mesh
 from bathyal.terrain import SheetWarning, triangulate
 
 __all__ = [
@@ -44,8 +48,14 @@ __all__ = [
     "find_sheets",
     "find_targets",
     "fit_plane",
+    "generate_survey",
     "mesh_report",
     "plan_toolpath",
     "read_aims",
+    "read_cloud",
+    "read_mesh",
+    "survey_height",
     "triangulate",
+    "write_cloud",
+    "write_mesh",
 ]
