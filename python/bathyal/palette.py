@@ -1,0 +1,31 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The colours that pictures and views share."""
+
+from __future__ import annotations
+
+# Deep to shallow. Lightness rises evenly (CIE L* from 18 to 96), so that equal steps of depth look
+# equal, also in grey and to colour-blind readers.
+DEPTH = (
+    "#1c2a55",
+    "#22447c",
+    "#266297",
+    "#2f80a5",
+    "#449eac",
+    "#69b9ae",
+    "#96d2b3",
+    "#c5e7bf",
+    "#eff6d6",
+)
+
+# One after the other along the path; none is close to the red of a gap or the blues of depth.
+SEGMENTS = ("#ff9e1b", "#c2189b", "#ffe347", "#7a3b00", "#8f5bff", "#ffb3c7")
+
+GAP = "#e3120b"
+INK = "#1b1f24"
+PALE = "#ffffff"
+BOTTOM = "#8a7f72"
+
+
+def segment_colour(segment: int) -> str:
+    """The colour of the stretch between target `segment` and the next one."""
+    return SEGMENTS[int(segment) % len(SEGMENTS)]
