@@ -197,23 +197,22 @@ class Ordering {
   PageVector<std::uint32_t> start_;
 };
 
-/// Puts the triangles that begin with the same vertex in order, by an insertion sort: there are two
-/// of them on average.
+/// Puts the triangles that begin with the same vertex in order: two of them on average, and all of
+/// them around the hub of a fan.
 void sort_within_vertex(TriangleMatrix& matrix, int num_threads) {
-  auto* triangles = reinterpret_cast<Corners*>(matrix.data());
   static_assert(sizeof(Corners) == 3 * sizeof(std::int32_t));
+  auto* triangles = reinterpret_cast<Corners*>(matrix.data());
   const auto count = static_cast<std::size_t>(matrix.rows());
   const auto belongs_to_previous = [&](std::size_t i) {
     return i > 0 && i < count && triangles[i][0] == triangles[i - 1][0];
   };
   parallel_for(count, kGrain, num_threads, [&](std::size_t begin, std::size_t end) {
     while (belongs_to_previous(begin)) ++begin;  // the chunk before finishes what it began
-    while (belongs_to_previous(end)) ++end;
-    for (std::size_t i = begin; i < end; ++i) {
-      for (std::size_t j = i; j > begin && belongs_to_previous(j); --j) {
-        if (triangles[j - 1][1] < triangles[j][1]) break;
-        std::swap(triangles[j - 1], triangles[j]);
-      }
+    while (begin < end) {
+      std::size_t stop = begin + 1;
+      while (belongs_to_previous(stop)) ++stop;
+      if (stop - begin > 1) std::sort(triangles + begin, triangles + stop);
+      begin = stop;
     }
   });
 }
