@@ -142,10 +142,12 @@ Delaunay delaunay(PointView points, const DelaunayOptions& options) {
   TriangleMatrix triangles = triangulate(plane, num_threads);
   const Index complete = triangles.rows();
   const PageVector<double> longest = longest_edges(plane, triangles, num_threads);
-  const double automatic =
-      rows.size() < kFewestForMedian ? kInfinity : kMedianFactor * median(longest);
   Delaunay result;
-  result.max_edge = options.max_edge.value_or(automatic);
+  if (options.max_edge) {
+    result.max_edge = *options.max_edge;
+  } else {
+    result.max_edge = rows.size() < kFewestForMedian ? kInfinity : kMedianFactor * median(longest);
+  }
   keep_triangles(triangles, longest, result.max_edge, rows, num_threads);
   result.cut_triangles = complete - triangles.rows();
   result.merged_points = points.rows() - static_cast<Index>(rows.size());

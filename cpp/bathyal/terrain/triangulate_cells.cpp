@@ -159,23 +159,38 @@ PageVector<Corners> triangulate_seam(std::span<const Point2> points, const std::
   return triangles;
 }
 
+/// The triangles that begin with one vertex, in order: two of them on average, which is no work for
+/// a general sort, and all of them around the hub of a fan, which is.
+void sort_bucket(Corners* first, Corners* last) {
+  constexpr std::ptrdiff_t kFew = 8;
+  if (last - first > kFew) return std::sort(first, last);
+  for (Corners* next = first; next < last; ++next) {
+    for (Corners* t = next; t > first && t[0] < t[-1]; --t) std::swap(t[0], t[-1]);
+  }
+}
+
 /// Counting sort by lowest vertex. The cells' triangles have theirs in different places and go side
 /// by side; `seam` goes by itself.
 class Ordering {
  public:
   Ordering(std::size_t vertex_count, const std::vector<Cell>& cells,
            const PageVector<Corners>& seam, int num_threads)
-      : cells_(cells), seam_(seam), num_threads_(num_threads), start_(vertex_count + 1, 0) {}
+      : cells_(cells), seam_(seam), num_threads_(num_threads), place_(vertex_count + 1, 0) {}
 
   TriangleMatrix run() {
-    for_all([&](const Corners& t) { ++start_[static_cast<std::size_t>(t[0]) + 1]; });
-    for (std::size_t v = 1; v < start_.size(); ++v) start_[v] += start_[v - 1];
-    TriangleMatrix sorted(static_cast<Index>(start_.back()), 3);
-    for_all([&](const Corners& t) {
-      const Index row = start_[static_cast<std::size_t>(t[0])]++;
-      for (int c = 0; c < 3; ++c) sorted(row, c) = t[c];
+    for_all([&](const Corners& t) { ++place_[static_cast<std::size_t>(t[0]) + 1]; });
+    for (std::size_t v = 1; v < place_.size(); ++v) place_[v] += place_[v - 1];
+    TriangleMatrix matrix(static_cast<Index>(place_.back()), 3);
+    static_assert(sizeof(Corners) == 3 * sizeof(std::int32_t));
+    auto* sorted = reinterpret_cast<Corners*>(matrix.data());
+    for_all([&](const Corners& t) { sorted[place_[static_cast<std::size_t>(t[0])]++] = t; });
+    // place_[v] has come to where the triangles of v end.
+    parallel_for(place_.size() - 1, kGrain, num_threads_, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t v = begin; v < end; ++v) {
+        sort_bucket(sorted + (v == 0 ? 0 : place_[v - 1]), sorted + place_[v]);
+      }
     });
-    return sorted;
+    return matrix;
   }
 
  private:
@@ -194,28 +209,8 @@ class Ordering {
   const std::vector<Cell>& cells_;
   const PageVector<Corners>& seam_;
   int num_threads_;
-  PageVector<std::uint32_t> start_;
+  PageVector<std::uint32_t> place_;  ///< where the next triangle of a vertex goes
 };
-
-/// Puts the triangles that begin with the same vertex in order: two of them on average, and all of
-/// them around the hub of a fan.
-void sort_within_vertex(TriangleMatrix& matrix, int num_threads) {
-  static_assert(sizeof(Corners) == 3 * sizeof(std::int32_t));
-  auto* triangles = reinterpret_cast<Corners*>(matrix.data());
-  const auto count = static_cast<std::size_t>(matrix.rows());
-  const auto belongs_to_previous = [&](std::size_t i) {
-    return i > 0 && i < count && triangles[i][0] == triangles[i - 1][0];
-  };
-  parallel_for(count, kGrain, num_threads, [&](std::size_t begin, std::size_t end) {
-    while (belongs_to_previous(begin)) ++begin;  // the chunk before finishes what it began
-    while (begin < end) {
-      std::size_t stop = begin + 1;
-      while (belongs_to_previous(stop)) ++stop;
-      if (stop - begin > 1) std::sort(triangles + begin, triangles + stop);
-      begin = stop;
-    }
-  });
-}
 
 }  // namespace
 
@@ -227,9 +222,7 @@ TriangleMatrix triangulate_in_cells(std::span<const Point2> points, int cells, i
     triangulate_cell(points, parts[i], static_cast<std::uint16_t>(i + 1), seam);
   });
   if (parts.size() > 1) seam_triangles = triangulate_seam(points, parts, seam);
-  TriangleMatrix triangles = Ordering(points.size(), parts, seam_triangles, num_threads).run();
-  sort_within_vertex(triangles, num_threads);
-  return triangles;
+  return Ordering(points.size(), parts, seam_triangles, num_threads).run();
 }
 
 }  // namespace bathyal

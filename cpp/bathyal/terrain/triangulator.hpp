@@ -25,8 +25,8 @@ inline bool is_ghost(const Corners& t) { return (t[0] | t[1] | t[2]) < 0; }
 ///
 /// Incremental (Bowyer 1981, Watson 1981): each point is found by walking from the last one and the
 /// triangles whose circle it lies in give way to a star around it. Points are taken in rounds of
-/// random thinning, coarse first, each in the order given (Amenta, Choi, Rote 2003), so that no
-/// arrangement of points makes it quadratic.
+/// random thinning, coarse first, each in the order given (Amenta, Choi, Rote 2003), which
+/// guards against the arrangements that would make it quadratic.
 PageVector<Corners> triangulate_points(std::span<const Point2> points,
                                        std::span<const std::int32_t> vertices);
 
