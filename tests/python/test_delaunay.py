@@ -73,7 +73,7 @@ def integer_circle():
 rng = np.random.default_rng(5)
 ARRANGEMENTS = {
     "scattered": rng.random((60, 2)),
-    "scattered far off": rng.random((60, 2)) + [6.2e5, 1e7],
+    "scattered far off": rng.random((60, 2)) + np.array([6.2e5, 1e7]),
     "grid": [(x, y) for x in range(7) for y in range(6)],
     "survey grid": [(620152.873 + 2 * x, 7246504.912 + 2 * y) for x in range(7) for y in range(6)],
     "fine grid about zero": [(0.1 * x - 0.3, 0.1 * y) for x in range(7) for y in range(6)],
