@@ -12,8 +12,8 @@ struct FindSheetsOptions {
   /// Vertical distance from which two sheets count [m]; 0 takes the larger of 6 × noise and
   /// 1 × spacing, both measured from the cloud.
   double min_separation = 0.0;
-  /// Soundings that a place needs on each of its two sheets, 12 or more. Fewer are spikes.
-  int min_points = 16;
+  /// Soundings that a place needs on each of its two sheets, 5 or more. Fewer are spikes.
+  int min_points = 12;
   int num_threads = 0;  ///< 0 = all
 
   void check() const;
