@@ -18,6 +18,7 @@
 #include "bathyal/base/random.hpp"
 #include "bathyal/geometry/orient.hpp"
 #include "bathyal/terrain/sheets.hpp"
+#include "bathyal/terrain/triangulate.hpp"
 
 namespace bathyal {
 namespace {
@@ -224,7 +225,7 @@ void GreedyOptions::check() const {
 
 Greedy greedy(PointView points, const GreedyOptions& options) {
   options.check();
-  check_points_finite("points", points);
+  check_clean("points", points);
   Input input = to_pcl(points);
   check_spans_a_surface(*input.cloud);
 

@@ -45,7 +45,7 @@ struct Greedy {
 /// their spacing, without which it leaves holes in grids. Triangles without area and repeated ones
 /// are dropped. The rest are turned up where the cloud is a height field (find_sheets); elsewhere
 /// consistently across every edge that two of them share, where that is possible at all, and each
-/// connected piece so that it faces up on balance (outward, when it is closed).
+/// connected piece so that it faces up on balance (outward, when it is closed or nearly so).
 ///
 /// One thread; the same triangles every time.
 /// \throw std::invalid_argument for points that are not finite, and when there are not three that

@@ -80,20 +80,25 @@ struct Local {
   }
 };
 
-/// Cuts `heights` at the widest void that leaves kMinGroup values on each side.
-void cut_at_widest_void(const Heights& heights, std::size_t count, Mask& mask) {
+/// Cuts the points at the widest void of their heights over `plane` that leaves kMinGroup of them
+/// on each side.
+void cut_at_widest_void(const Local& local, const Fit& plane, Mask& mask) {
   Heights sorted;
-  std::copy_n(heights.begin(), count, sorted.begin());
-  std::sort(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(count));
+  for (std::size_t i = 0; i < local.count; ++i) {
+    sorted[i] = local.points[i].z - plane.at(local.points[i]);
+  }
+  std::sort(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(local.count));
   std::size_t best = kMinGroup;
-  for (std::size_t i = kMinGroup; i + kMinGroup <= count; ++i) {
+  for (std::size_t i = kMinGroup; i + kMinGroup <= local.count; ++i) {
     if (sorted[i] - sorted[i - 1] > sorted[best] - sorted[best - 1]) best = i;
   }
-  for (std::size_t i = 0; i < count; ++i) mask[i] = heights[i] >= sorted[best];
+  for (std::size_t i = 0; i < local.count; ++i) {
+    mask[i] = local.points[i].z - plane.at(local.points[i]) >= sorted[best];
+  }
 }
 
 struct Split {
-  Mask mask;
+  Mask mask{};
   double rms = 0.0;  ///< the larger of the two groups'
   double separation = 0.0, middle = 0.0;
   double contrast = 0.0;  ///< separation over rms; 0 when the groups are too small or cross
@@ -145,17 +150,14 @@ void refine(const Local& local, Split& split) {
   if (!fit_groups(local, split, lower, upper)) split.contrast = 0.0;
 }
 
-/// A cut by height, or where that is not clear, by height about the joint plane.
+/// A cut by height, or where that is not clear, by height over the joint plane.
 Split best_split(const Local& local, const Fit& joint) {
-  Heights heights;
-  for (std::size_t i = 0; i < local.count; ++i) heights[i] = local.points[i].z;
   Split level;
-  cut_at_widest_void(heights, local.count, level.mask);
+  cut_at_widest_void(local, Fit{}, level.mask);
   refine(local, level);
   if (level.contrast >= kSeed.contrast) return level;
-  for (std::size_t i = 0; i < local.count; ++i) heights[i] -= joint.at(local.points[i]);
   Split tilted;
-  cut_at_widest_void(heights, local.count, tilted.mask);
+  cut_at_widest_void(local, joint, tilted.mask);
   refine(local, tilted);
   return tilted.contrast > level.contrast ? tilted : level;
 }
