@@ -12,7 +12,7 @@
 namespace bathyal {
 namespace {
 
-constexpr std::size_t kLines = 2048;
+constexpr std::size_t kLines = 1024;
 constexpr double kMostCrossings = 2e7;
 constexpr double kOverlap = 1e-9;  // of the length; less is rounding at shared edges
 

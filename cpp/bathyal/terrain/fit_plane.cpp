@@ -3,11 +3,10 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <string>
+#include <unordered_map>
 
 #include "bathyal/base/check.hpp"
 #include "bathyal/base/parallel.hpp"
@@ -237,6 +236,16 @@ Vec3 turned_up(const Vec3& normal) {
   return normal;
 }
 
+/// One number for the square (floor u, floor v). Squares 2³⁰ sides away share the outermost: only
+/// single gross errors lie there.
+std::uint64_t patch_key(double u, double v) {
+  const auto index = [](double w) {
+    return static_cast<std::uint32_t>(
+        static_cast<std::int32_t>(std::clamp(std::floor(w), -0x1p30, 0x1p30)));
+  };
+  return std::uint64_t{index(u)} << 32U | index(v);
+}
+
 /// Distances of the patches' medians from the plane [m].
 std::vector<double> patch_distances(const Local& cloud, const Refined& fit, int patch_points) {
   const auto n = static_cast<double>(cloud.points.rows());
@@ -249,12 +258,11 @@ std::vector<double> patch_distances(const Local& cloud, const Refined& fit, int 
   // (width = √12 standard deviations), give the density.
   const Vec3& spread = fit.inliers.spread;
   const double side = std::sqrt(12.0 * spread[1] * spread[2] * patch_points / fit.inliers.n);
-  std::map<std::array<double, 2>, std::vector<double>> patches;
+  std::unordered_map<std::uint64_t, std::vector<double>> patches;
   for (Index i = 0; i < cloud.points.rows(); ++i) {
     const Vec3 d = cloud.at(i) - fit.plane.mean;
-    const double u = std::floor(d.dot(fit.inliers.axes.col(1)) / side);
-    const double v = std::floor(d.dot(fit.inliers.axes.col(2)) / side);
-    patches[{u, v}].push_back(fit.residuals[static_cast<std::size_t>(i)]);
+    patches[patch_key(d.dot(fit.inliers.axes.col(1)) / side, d.dot(fit.inliers.axes.col(2)) / side)]
+        .push_back(fit.residuals[static_cast<std::size_t>(i)]);
   }
   for (auto& [at, residuals] : patches) {
     // A patch cut by the rim of the cloud has too few points for a median to speak of.
