@@ -2,8 +2,8 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
+#include "bathyal/base/page_allocator.hpp"
 #include "bathyal/geometry/shared_array.hpp"
 
 namespace bathyal {
@@ -13,6 +13,6 @@ namespace bathyal {
 /// finer curve of their own, or x, then y when they are few: the order is a matter of the points
 /// and not of their rows. Rows of equal (x, y) are merged into the one of lowest z, then lowest
 /// row. For finite points; the same for any number of threads.
-std::vector<std::int32_t> hilbert_order(PointView points, int num_threads);
+PageVector<std::int32_t> hilbert_order(PointView points, int num_threads);
 
 }  // namespace bathyal
