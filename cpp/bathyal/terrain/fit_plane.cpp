@@ -19,6 +19,7 @@ using Matrix3 = Eigen::Matrix3d;
 
 constexpr std::size_t kGrain = 1 << 15;
 constexpr Index kMaxRanked = 2000;  // points that rank a trial; the median needs no more
+constexpr double kFarthest = 1e75;  // so that fourth powers of coordinates stay finite
 constexpr int kLineTrials = 50;
 constexpr double kMadToSigma = 1.482602218;    // of normal residuals
 constexpr double kCut = 3.0;                   // sigmas within which a point is an inlier
@@ -301,6 +302,9 @@ PlaneFit fit_plane(PointView points, const FitPlaneOptions& options) {
     throw_argument("points", "three points or more", std::to_string(points.rows()));
   }
   const double largest = points.cwiseAbs().maxCoeff();
+  if (largest > kFarthest) {
+    throw_argument("points", "coordinates of 1e75 at most", to_text(largest));
+  }
   const Local cloud{points, local_origin(points),
                     8.0 * std::numeric_limits<double>::epsilon() * largest};
   const Scatter all = scatter(cloud, {}, options.num_threads);

@@ -15,6 +15,7 @@
 namespace bathyal {
 namespace {
 
+constexpr double kFarthest = 1e75;       // so that squares and their sums stay finite
 constexpr double kPointsPerCell = 2.25;  // cells of 1.5 spacings
 constexpr int kMinSeeds = 3;             // one or two alone are chance
 
@@ -117,6 +118,10 @@ SheetReport find_sheets(PointView points, const FindSheetsOptions& options) {
   check_points_finite("points", points);
   SheetReport report;
   if (points.rows() < 2 * options.min_points) return report;
+  const double largest = points.cwiseAbs().maxCoeff();
+  if (largest > kFarthest) {
+    throw_argument("points", "coordinates of 1e75 at most", to_text(largest));
+  }
 
   const PlanGrid grid(points, kPointsPerCell);
   const double cell_area = grid.cell_size() * grid.cell_size();

@@ -60,12 +60,13 @@ struct SheetReport {
 /// Relief finer than the spacing cannot be told from several sheets and counts as such where it
 /// meets both conditions. A vertical wall with soundings all the way up is not two sheets. Two
 /// passes over the same ground count when the step between them passes condition 1. Sheets are
-/// missed where soundings stand four times closer along scan lines than across, and within a
-/// spacing or two of the rim where they join.
+/// missed where soundings stand four times closer along scan lines than across, among spikes in one
+/// sounding of five (clean the cloud first), and within a spacing or two of the rim where they
+/// join.
 ///
 /// Fewer than 2 × min_points points, or all in one place: no sheets. The same report for any
 /// number of threads.
-/// \throw std::invalid_argument for points that are not finite.
+/// \throw std::invalid_argument for points that are not finite or above 1e75.
 SheetReport find_sheets(PointView points, const FindSheetsOptions& options = {});
 
 /// One sentence for people: where and how much, or that there is one sheet.

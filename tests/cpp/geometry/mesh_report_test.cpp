@@ -188,6 +188,9 @@ TEST(MeshReport, TakesAnEmptyMeshAndOneWithoutArea) {
   EXPECT_EQ(point.zero_area_triangles, 1);
   EXPECT_TRUE(std::isnan(point.slope_median));
   EXPECT_FALSE(describe(point).empty());
+  const MeshReport vast =
+      mesh_report(mesh_of({{0, 0, 0}, {1e300, 0, 0}, {0, 1e300, 0}}, {{0, 1, 2}}));
+  EXPECT_FALSE(std::isfinite(vast.planar_area));
 }
 
 TEST(MeshReport, IsTheSameForAnyNumberOfThreads) {

@@ -173,6 +173,8 @@ TEST(FitPlane, RefusesWhatHasNoPlane) {
   for (int i = 0; i < 30; ++i)
     points.row(i) += Vec3(0.1 * (i % 7), -0.2 * (i % 5), 1.0 + i).transpose();
   EXPECT_NE(refusal(points).find("over 90 % of the"), std::string::npos);
+  points(3, 1) = -1e80;
+  EXPECT_NE(refusal(points).find("1e75"), std::string::npos);
   points(3, 1) = NAN;
   EXPECT_NE(refusal(points).find("row 3"), std::string::npos);
 }

@@ -189,6 +189,7 @@ TEST(FindSheets, TakesEveryDegenerateCloud) {
   EXPECT_TRUE(find(mast).single_valued());
   EXPECT_TRUE(find(thin).single_valued());
   EXPECT_THROW(find({Vec3(1, 2, NAN)}), std::invalid_argument);
+  EXPECT_THROW(find(std::vector<Vec3>(100, Vec3(1e80, 1, 1))), std::invalid_argument);
 }
 
 TEST(FindSheets, ASlantedTrackCostsOnlyTheCellsThatItCovers) {
