@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "bathyal/scene/packet.hpp"
+#include "bathyal/scene/interleave.hpp"
 
 // A packet's walk down the hierarchy: neighbouring rays of a fan visit much the same boxes and
 // triangles, so each is tested against all of them at once. Where the rays part, what is left of
@@ -10,8 +10,12 @@
 namespace bathyal::scene {
 namespace {
 
-inline constexpr int kFewRays = 2;         ///< under a box: go on ray by ray
-inline constexpr int kFewRaysInBlock = 4;  ///< in a block: eight triangles at once for each ray
+/// In a block: eight triangles at once for each ray, rather than all rays for each triangle.
+inline constexpr int kFewRaysInBlock = 4;
+
+/// Under a box: every ray goes on by itself.
+template <class Simd>
+inline constexpr int kFewRays = Simd::kRays / 4;
 
 /// Places that wait, the nearest on top, with the rays that may meet them and from which t on.
 template <class Simd>
@@ -206,20 +210,9 @@ inline void visit_block(const CastScene& scene, Packet<Simd>& packet, const Tria
   }
 }
 
-/// What lies at `place`, for one ray of the packet.
-template <class Simd>
-inline void walk_lane(const CastScene& scene, Packet<Simd>& packet, int lane, std::uint32_t place) {
-  const CullRay cull = cull_lane(packet, lane);
-  Nearest best = nearest_lane(packet, lane);
-  Stack stack;
-  stack.entry[0] = entry_of(0.0F, place);
-  stack.size = 1;
-  walk<Simd, false>(scene, exact_lane(packet, lane), cull, stack, best);
-  keep_lane(packet, lane, best, cull_bound(cull, best.t));
-}
-
 template <class Simd, bool kMixed>
-inline void walk_packet(const CastScene& scene, Packet<Simd>& packet, unsigned rays) {
+inline void walk_packet(const CastScene& scene, Packet<Simd>& packet, unsigned rays,
+                        Walkers<Simd>& walkers) {
   PacketStack<Simd> stack;
   stack.size = 0;
   push_children<Simd, kMixed>(packet, scene.nodes[0], 0, rays, stack);
@@ -233,12 +226,13 @@ inline void walk_packet(const CastScene& scene, Packet<Simd>& packet, unsigned r
     const std::int32_t child = node.child[place % kWidth];
     if (child < 0) {
       visit_block<Simd>(scene, packet, scene.blocks[~child], node.edge[place % kWidth], left);
-    } else if (__builtin_popcount(left) > kFewRays) {
+    } else if (__builtin_popcount(left) > kFewRays<Simd>) {
       push_children<Simd, kMixed>(packet, scene.nodes[child], static_cast<std::uint32_t>(child),
                                   left, stack);
     } else {
       for (unsigned rest = left; rest != 0; rest &= rest - 1) {
-        walk_lane<Simd>(scene, packet, __builtin_ctz(rest), place);
+        const int lane = __builtin_ctz(rest);
+        walkers.leave(lane, stack.near[top][lane], place);
       }
     }
   }
@@ -247,16 +241,18 @@ inline void walk_packet(const CastScene& scene, Packet<Simd>& packet, unsigned r
 template <class Simd>
 std::size_t cast(const CastScene& scene, const RayBatch& batch, RayHit* hits) {
   Packet<Simd> packet;
+  Walkers<Simd> walkers;
   for (std::size_t row = batch.begin; row < batch.end; row += Simd::kRays) {
     const std::size_t left = batch.end - row;
     const int count = left < Simd::kRays ? static_cast<int>(left) : Simd::kRays;
     const SetUp lanes = set_up<Simd>(scene, batch, row, count, packet);
     if (scene.nodes != nullptr && lanes.enter != 0) {
       if (packet.mixed) {
-        walk_packet<Simd, true>(scene, packet, lanes.enter);
+        walk_packet<Simd, true>(scene, packet, lanes.enter, walkers);
       } else {
-        walk_packet<Simd, false>(scene, packet, lanes.enter);
+        walk_packet<Simd, false>(scene, packet, lanes.enter, walkers);
       }
+      walkers.walk_all(scene, packet);
     }
     for (int lane = 0; lane < count; ++lane) {
       const std::size_t at = row + static_cast<std::size_t>(lane);

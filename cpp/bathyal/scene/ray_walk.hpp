@@ -116,14 +116,26 @@ inline float cull_bound(const CullRay& cull, double t) {
   return static_cast<float>(smaller(bound + room, 3e38));
 }
 
-/// Where the mesh keeps the corners of a primitive.
-inline void corners_of(const CastScene& scene, std::uint32_t primitive, const double** corner) {
+/// Where a mesh keeps the indices of a primitive's corners.
+struct Indices {
+  const std::int32_t* index;
+  const double* vertices;
+};
+
+inline Indices indices_of(const CastScene& scene, std::uint32_t primitive) {
   const std::int32_t mesh =
       scene.mesh_count == 1 ? 0 : name_of(scene.meshes, scene.mesh_count, primitive).mesh;
   const MeshArrays& arrays = scene.meshes[mesh];
-  const std::int32_t* index =
-      arrays.triangles + 3 * static_cast<std::int64_t>(primitive - arrays.first_primitive);
-  for (int c = 0; c < 3; ++c) corner[c] = arrays.vertices + 3 * static_cast<std::int64_t>(index[c]);
+  return {arrays.triangles + 3 * static_cast<std::int64_t>(primitive - arrays.first_primitive),
+          arrays.vertices};
+}
+
+/// Where it keeps the corners.
+inline void corners_of(const CastScene& scene, std::uint32_t primitive, const double** corner) {
+  const Indices from = indices_of(scene, primitive);
+  for (int c = 0; c < 3; ++c) {
+    corner[c] = from.vertices + 3 * static_cast<std::int64_t>(from.index[c]);
+  }
 }
 
 /// Puts the double decision on one primitive.
