@@ -15,7 +15,6 @@ import platform
 import statistics
 import time
 
-import bathyal
 import embreex
 import numpy as np
 import open3d
@@ -23,6 +22,8 @@ from bathyal._core import simd_level
 from embreex.mesh_construction import TriangleMesh as EmbreeMesh
 from embreex.rtcore_scene import EmbreeScene
 from open3d.t.geometry import RaycastingScene
+
+import bathyal
 
 WIDTH = 500.0  # of the seabed [m]
 RAYS = 500_000
@@ -55,7 +56,7 @@ def side_scan():
 
 
 def multibeam(seed=3):
-    """400 beams over ±65° a ping, from a vehicle that rolls, pitches and yaws along a slanted track."""
+    """400 beams over ±65° a ping, from a vehicle that rolls, pitches and yaws on a slanted track."""
     random = np.random.default_rng(seed)
     beams = np.radians(np.linspace(-65.0, 65.0, 400))
     pings = RAYS // beams.size
@@ -143,7 +144,11 @@ def embreex_hits(scene, origins, directions):
 
 def cast_rows(scenes, count, rounds):
     ours, by_open3d, by_embreex = scenes
-    for name, rays in (("side-scan", side_scan()), ("multibeam", multibeam()), ("random", random_rays())):
+    for name, rays in (
+        ("side-scan", side_scan()),
+        ("multibeam", multibeam()),
+        ("random", random_rays()),
+    ):
         origins, directions = rays
         single = np.concatenate(rays, axis=1).astype(np.float32)
         origins32, directions32 = origins.astype(np.float32), directions.astype(np.float32)
@@ -170,8 +175,9 @@ def cast_rows(scenes, count, rounds):
             embreex_ratio = f"{ratio[3]:.2f} ×" if threads == 1 else "—"
             embreex_rate = f"{rate[3]:.1f}" if threads == 1 else "—"
             print(
-                f"| {name} | {count:,} | {threads} | {ratio[1]:.2f} × | {embreex_ratio} | {rate[0]:.1f} "
-                f"| {rate[1]:.1f} | {embreex_rate} | {rate[2]:.1f} | {100 * agree:.4f} % |"
+                f"| {name} | {count:,} | {threads} | {ratio[1]:.2f} × | {embreex_ratio} "
+                f"| {rate[0]:.1f} | {rate[1]:.1f} | {embreex_rate} | {rate[2]:.1f} "
+                f"| {100 * agree:.4f} % |"
             )
 
 
@@ -198,8 +204,10 @@ def build_rows(mesh, vertices, triangles, rounds):
 
 def run(rounds):
     print("## Rays\n")
-    print("| rays | triangles | threads | ours / Open3D | ours / embreex | ours [Mray/s] "
-          "| Open3D | embreex | ours with normals and points | same hits |")
+    print(
+        "| rays | triangles | threads | ours / Open3D | ours / embreex | ours [Mray/s] "
+        "| Open3D | embreex | ours with normals and points | same hits |"
+    )
     print("|---|---|---|---|---|---|---|---|---|---|")
     builds = []
     for side in (317, 1001):
@@ -210,14 +218,19 @@ def run(rounds):
         cast_rows(scenes, len(triangles), rounds)
         del keep_alive
         builds += build_rows(mesh, vertices, triangles, max(3, rounds // 3))
-    print("\n| build, triangles | threads | Open3D / ours | ours [ms] | Open3D [ms] | ours [B/triangle] |")
+    print(
+        "\n| build, triangles | threads | ours / Open3D | ours [ms] | Open3D [ms] "
+        "| ours [B/triangle] |"
+    )
     print("|---|---|---|---|---|---|")
     print("\n".join(builds))
-    print(f"\nRates and times are medians of {rounds} interleaved rounds of {RAYS:,} rays, ratios medians "
-          "of each round's ratio, above 1 where ours is faster. Open3D's build takes the float32 arrays "
-          f"over and asks one ray. One thread: processor time; two: the wall clock. SIMD level {simd_level()}; "
-          f"Open3D {open3d.__version__}, "
-          f"embreex {embreex.__version__}, numpy {np.__version__}, Python {platform.python_version()}.")
+    print(
+        f"\nRates and times are medians of {rounds} interleaved rounds of {RAYS:,} rays; ratios are "
+        "medians of each round's, above 1 where ours is faster. One thread: processor time; two: "
+        "the wall clock. Open3D's build takes float32 arrays over and asks one ray. "
+        f"SIMD level {simd_level()}; Open3D {open3d.__version__}, embreex {embreex.__version__}, "
+        f"numpy {np.__version__}, Python {platform.python_version()}."
+    )
 
 
 if __name__ == "__main__":
