@@ -1,6 +1,26 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Supervised underwater manipulation: soundings to seabed to tool path."""
 
-from bathyal._core import Error, Nearest, Plane, PointCloud, Polyline, Scene, TriangleMesh
+from bathyal._core import (
+    Error,
+    Hits,
+    Nearest,
+    Plane,
+    PointCloud,
+    Polyline,
+    Scene,
+    TriangleMesh,
+    intersect_moller_trumbore,
+)
 
-__all__ = ["Error", "Nearest", "Plane", "PointCloud", "Polyline", "Scene", "TriangleMesh"]
+__all__ = [
+    "Error",
+    "Hits",
+    "Nearest",
+    "Plane",
+    "PointCloud",
+    "Polyline",
+    "Scene",
+    "TriangleMesh",
+    "intersect_moller_trumbore",
+]
