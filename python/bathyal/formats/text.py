@@ -92,23 +92,34 @@ def _head(path: PathLike, separator: str | None, skip_lines: int) -> _Head:
         text = stream.read(_HEAD).decode("utf-8-sig", "replace")
     head = _Head()
     comment: list[str] = []
-    for line in text.splitlines()[skip_lines:]:
+    title: list[str] = []
+    for line in text.splitlines()[skip_lines:] if "\0" not in text else []:
         if (found := _COMMENT.fullmatch(line)) is not None:
             words = found[1].split(None, 1)
             if len(words) == 2 and words[0].rstrip(":") in _NOTES:
                 head.notes[words[0].rstrip(":")] = words[1].strip()
             comment = _fields(found[1], separator)
             continue
-        if not line.strip():
-            continue
         fields = _fields(line, separator)
-        head.grid = fields[0].lower() == "ncols"
-        if not any(_is_number(text) for text in fields):
-            head.names = [unquote(name) for name in fields]
-        elif len(comment) == len(fields) and not any(map(_is_number, comment)):
-            head.names = [unquote(name) for name in comment]
-        break
+        if not any(fields):
+            continue
+        if fields[0].lower() == "ncols":
+            head.grid = True
+            break
+        if any(map(_is_number, fields)):
+            head.names = [unquote(name) for name in _names(title, comment, len(fields))]
+            break
+        title = fields
     return head
+
+
+def _names(title: list[str], comment: list[str], count: int) -> list[str]:
+    """The last line above the numbers, or a comment that speaks of x and y, if it fits them."""
+    if len(title) == count:
+        return title
+    if len(comment) == count and {"x", "y"} <= {_axis(unquote(name)) for name in comment}:
+        return comment
+    return []
 
 
 def _fields(line: str, separator: str | None) -> list[str]:
