@@ -95,7 +95,10 @@ def reading(path: PathLike, format_name: str) -> Iterator[None]:
         if str(error).startswith(os.fspath(path)):
             raise
         raise Error(f"{os.fspath(path)}: {error}") from error.__cause__
-    except Exception as error:
+    except BaseException as error:
+        # A library in Rust that gives up raises what is no Exception.
+        if not isinstance(error, Exception) and type(error).__name__ != "PanicException":
+            raise
         reason = str(error).strip() or type(error).__name__
         if isinstance(error, KeyError):
             reason = f"{reason} is missing"

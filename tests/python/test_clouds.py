@@ -146,6 +146,14 @@ def test_bag_layers_that_do_not_fit_are_errors(tmp_path):
         file.create_group("other")
     with pytest.raises(bathyal.Error, match="BAG_root"):
         bathyal.read_cloud(tmp_path / "c.bag")
+    path = write_bag(tmp_path / "e.bag")
+    with h5py.File(path, "a") as file:
+        del file["BAG_root/elevation"]
+        file["BAG_root/elevation"] = h5py.ExternalLink(
+            str(tmp_path / "a.bag"), "/BAG_root/elevation"
+        )
+    with pytest.raises(bathyal.Error, match="link to another place"):
+        bathyal.read_cloud(path)
     path = write_bag(tmp_path / "d.bag")
     with h5py.File(path, "a") as file:
         file["BAG_root/varres_refinements"] = np.zeros((1, 1))
@@ -226,10 +234,11 @@ def test_geotiff_without_a_place_is_an_error(tmp_path):
 
 def test_geotiff_sizes_are_checked(tmp_path):
     rasterio = pytest.importorskip("rasterio")
-    path = tmp_path / "a.tif"
+    path, transform = tmp_path / "a.tif", rasterio.Affine(1, 0, 6e5, 0, -1, 7e6)
     with rasterio.open(path, "w", driver="GTiff", height=200_000, width=200_000, count=1,
                        dtype="float32", tiled=True, sparse_ok=True, crs="EPSG:32602",
-                       transform=rasterio.Affine(1, 0, 6e5, 0, -1, 7e6), compress="zstd", blockxsize=16384, blockysize=16384):  # fmt: skip
+                       transform=transform, compress="zstd", blockxsize=16384,
+                       blockysize=16384):  # fmt: skip
         pass
     name, grown = refusal_and_memory("read_cloud", path)
     assert name == "Error"
@@ -303,6 +312,27 @@ def test_las_headers_are_checked(tmp_path):
         name, grown = refusal_and_memory("read_cloud", path)
         assert name == "Error", place
         assert grown < 64e6
+
+
+def test_laz_chunks_are_checked(tmp_path):
+    pytest.importorskip("lazrs")
+    path = tmp_path / "a.laz"
+    las = write_las(path)
+    whole = path.read_bytes()
+    points = struct.unpack_from("<I", whole, 96)[0]
+    table = struct.unpack_from("<q", whole, points)[0]
+    layers = points + 8 + las.point_format.size + 4
+    for place, value, reason in (
+        (table + 4, b"\xff\xff\xff\xff", "4294967295 chunks"),
+        (table + 4, b"\0\0\0\0", "hold fewer than the 100 points"),
+        (points, b"\xff\xff\xff\x7f\0\0\0\0", "table of its chunks is not in the file"),
+        (layers, b"\xff\xff\xff\xff", "layers of the chunk"),
+    ):
+        content = bytearray(whole)
+        content[place : place + len(value)] = value
+        path.write_bytes(content)
+        with pytest.raises(bathyal.Error, match=reason):
+            bathyal.read_cloud(path)
 
 
 # --- text ----------------------------------------------------------------------------------------
