@@ -355,6 +355,17 @@ def test_text_names_in_a_comment(tmp_path):
     assert bathyal.read_cloud(tmp_path / "a.xyz", crs="EPSG:32603").crs == "EPSG:32603"
 
 
+def test_text_names_that_come_twice_lose_nothing(tmp_path):
+    path = write_text(tmp_path / "a.csv", "x,y,z,x,a,a,\n1,2,3,4,5,6,7\n")
+    cloud = bathyal.read_cloud(path)
+    assert cloud.points.tolist() == [[1, 2, 3]]
+    attributes = {name: values.tolist() for name, values in cloud.attributes.items()}
+    assert attributes == {"column_3": [4], "a": [5], "column_5": [6], "column_6": [7]}
+    for suffix in (".xyz", ".csv", ".ply"):
+        with pytest.raises(ValueError, match="other than a coordinate"):
+            survey(1, attributes={"x": np.zeros(1)}).write(tmp_path / f"b{suffix}")
+
+
 def test_text_without_names(tmp_path):
     title = "Survey north\n# made by hand\n1 2 3\n4 5 6\n"
     cloud = bathyal.read_cloud(write_text(tmp_path / "b.xyz", title))

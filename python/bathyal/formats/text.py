@@ -168,9 +168,12 @@ def _found(names: list[str], path: PathLike) -> dict[str, int | str]:
             f"{os.fspath(path)}: no column is called {' or '.join(missing)} among "
             f"{', '.join(names)}: say columns="
         )
-    leading = {axis: axes.index(axis) for axis in ("x", "y", third)}
-    rest = {name or f"column_{i}": i for i, name in enumerate(names) if i not in leading.values()}
-    return {**leading, **rest}
+    found: dict[str, int | str] = {axis: axes.index(axis) for axis in ("x", "y", third)}
+    taken = set(found.values())
+    for i, name in enumerate(names):
+        if i not in taken:
+            found[name if name and name not in found else f"column_{i}"] = i
+    return found
 
 
 def _chosen(columns: Columns, names: list[str]) -> dict[str, int | str]:
@@ -196,6 +199,9 @@ def write_text(
     Comments at the top hold the notes and, where `separator` is a blank, the names of the columns;
     else the names are a line of their own.
     """
+    if clash := {"x", "y", "z"} & set(cloud.attributes):
+        name = min(clash)
+        raise ValueError(f"attributes[{name!r}]: expected a name other than a coordinate's")
     names = ["x", "y", "z", *(quote(name, safe="/()[]+:") for name in cloud.attributes)]
     lines = ["# metres, z up", *(f"# {k} {' '.join(text.split())}" for k, text in notes.items())]
     lines.append(("# " if separator == " " else "") + separator.join(names))
