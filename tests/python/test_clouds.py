@@ -356,6 +356,8 @@ def test_text_names_in_a_comment(tmp_path):
 
 
 def test_text_names_that_come_twice_lose_nothing(tmp_path):
+    path = write_text(tmp_path / "rgb.csv", "x,y,z,R,G,B,std\n1,2,3,4,5,6,7\n")
+    assert sorted(bathyal.read_cloud(path).attributes) == ["blue", "green", "red", "std"]
     path = write_text(tmp_path / "a.csv", "x,y,z,x,a,a,\n1,2,3,4,5,6,7\n")
     cloud = bathyal.read_cloud(path)
     assert cloud.points.tolist() == [[1, 2, 3]]
