@@ -9,6 +9,7 @@ namespace bathyal::python {
 void bind_base(pybind11::module_& module);
 void bind_geometry(pybind11::module_& module);
 void bind_soundings(pybind11::module_& module);
+void bind_survey(pybind11::module_& module);  // the second file of soundings
 void bind_terrain(pybind11::module_& module);
 void bind_scene(pybind11::module_& module);
 void bind_toolpath(pybind11::module_& module);
