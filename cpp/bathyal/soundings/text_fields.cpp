@@ -101,6 +101,11 @@ bool is_blank_or_comment(std::string_view line, const TextFormat& format) {
   return line.empty() || starts_comment(line, format);
 }
 
+bool is_missing(std::string_view field) {
+  return field.empty() || equals_ignoring_case(field, "na") || equals_ignoring_case(field, "n/a") ||
+         equals_ignoring_case(field, "null");
+}
+
 bool field_value(std::string_view field, const TextFormat& format, double& value) {
   if (is_missing(field)) {
     value = std::numeric_limits<double>::quiet_NaN();
