@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import contextlib
+import pathlib
 import re
 import struct
 import warnings
@@ -168,7 +169,7 @@ def write_tiff(path, crs="EPSG:32602", bands=None, nodata=-9999.0, origin=UTM, *
     rasterio = pytest.importorskip("rasterio")
     bands = [np.array([[-51, -9999, -52.5], [-53, -54, np.nan]])] if bands is None else bands
     height, width = bands[0].shape
-    transform = rasterio.transform.from_origin(origin[0], origin[1], 2.0, 1.0)
+    transform = rasterio.Affine(2.0, 0, origin[0], 0, -1.0, origin[1])
     with rasterio.open(
         path, "w", driver="GTiff", height=height, width=width, count=len(bands),
         dtype=profile.pop("dtype", "float32"), crs=crs, transform=transform, nodata=nodata,
@@ -465,6 +466,7 @@ def test_what_rides_along_comes_back(tmp_path, suffix):
     wkt = 'PROJCS["UTM 2N",\n  AUTHORITY["EPSG","32602"]]'
     cloud = survey(attributes=attributes, crs=wkt, vertical_datum="Mean Sea Level")
     cloud.write(tmp_path / f"a{suffix}")
+    assert [path.name for path in tmp_path.iterdir()] == [f"a{suffix}"]
     back = bathyal.read_cloud(tmp_path / f"a{suffix}")
     assert np.array_equal(back.points, cloud.points)
     assert set(back.attributes) == set(attributes)
@@ -491,6 +493,16 @@ def test_an_empty_cloud_is_written(tmp_path):
     for suffix in (".ply", ".vtp"):
         empty.write(tmp_path / f"a{suffix}")
         assert len(bathyal.read_cloud(tmp_path / f"a{suffix}")) == 0
+
+
+@pytest.mark.parametrize("suffix", WRITTEN)
+def test_a_disk_without_room_is_told(tmp_path, suffix):
+    full = pathlib.Path("/dev/full")
+    if not full.exists():
+        pytest.skip("no /dev/full here")
+    (tmp_path / f"a{suffix}").symlink_to(full)
+    with pytest.raises((OSError, bathyal.Error), match="No space left"):
+        survey(2000).write(tmp_path / f"a{suffix}")
 
 
 def test_vtk_opens_the_cloud(tmp_path):

@@ -102,6 +102,7 @@ def test_scanned_corals():
 def test_coordinates_come_back_bit_for_bit_at_survey_coordinates(tmp_path, suffix):
     mesh = cube()
     mesh.write(tmp_path / f"cube{suffix}")
+    assert [path.name for path in tmp_path.iterdir()] == [f"cube{suffix}"]
     back = bathyal.read_mesh(tmp_path / f"cube{suffix}")
     corners = back.vertices[back.triangles]
     assert np.array_equal(corners, mesh.vertices[mesh.triangles])
@@ -275,7 +276,8 @@ def test_ply_faults_are_errors(tmp_path, fault):
     text = SQUARE.format(faces="7 3 0 1 2\n7 3 0 2 3")
     assert old in text
     path = write_text(tmp_path / "a.ply", text.replace(old, new, 1))
-    with pytest.raises(bathyal.Error, match=re.escape(str(path))):
+    reason = "announces at least" if "billion" in fault else ""
+    with pytest.raises(bathyal.Error, match=f"{re.escape(str(path))}: .*{reason}"):
         bathyal.read_mesh(path)
 
 

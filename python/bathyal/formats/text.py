@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import os
 import re
-import shutil
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
@@ -205,8 +204,8 @@ def write_text(
     names = ["x", "y", "z", *(quote(name, safe="/()[]+:") for name in cloud.attributes)]
     lines = ["# metres, z up", *(f"# {k} {' '.join(text.split())}" for k, text in notes.items())]
     lines.append(("# " if separator == " " else "") + separator.join(names))
-    with replacing(path) as aside, replacing(f"{aside}.rows") as rows:
-        _core.write_xyz(rows, cloud, separator=separator, attributes=list(cloud.attributes))
-        with open(rows, "rb") as source, open(aside, "wb") as stream:
-            stream.write(("\n".join(lines) + "\n").encode())
-            shutil.copyfileobj(source, stream, 1 << 20)
+    preamble = "\n".join([*lines, ""])
+    with replacing(path) as aside:
+        _core.write_xyz(
+            aside, cloud, separator=separator, preamble=preamble, attributes=list(cloud.attributes)
+        )
