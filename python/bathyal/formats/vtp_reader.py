@@ -127,7 +127,7 @@ class _ArrayReader:
         texts = kind == "String"
         expected = None if rows is None or texts else rows * width
         if element.get("format") == "ascii":
-            flat = _ascii_numbers(element.text or "", dtype)
+            flat = _ascii_numbers(_inline_text(element), dtype)
         else:
             most = None if expected is None else expected * dtype.itemsize
             flat = _numbers(self._bytes(element, most), dtype)
@@ -144,7 +144,7 @@ class _ArrayReader:
             offset = _whole(element, "offset", None)
             source = (_Raw if self._appended_raw else _Base64)(self._appended, offset)
         elif kind == "binary":
-            source = _Base64("".join((element.text or "").split()).encode(), 0)
+            source = _Base64("".join(_inline_text(element).split()).encode(), 0)
         else:
             raise Error(f"format {kind!r} is not known")
         if self._compressed:
@@ -229,6 +229,11 @@ def _numbers(data: bytes, dtype: np.dtype[Any]) -> NDArray[Any]:
     if len(data) % dtype.itemsize:
         raise Error(f"{len(data)} bytes are no whole number of {dtype.itemsize}-byte values")
     return np.frombuffer(data, dtype).astype(dtype.newbyteorder("="))
+
+
+def _inline_text(element: Element) -> str:
+    """An element's own text, before and behind what else stands in it (InformationKey)."""
+    return (element.text or "") + "".join(child.tail or "" for child in element)
 
 
 def _ascii_numbers(text: str, dtype: np.dtype[Any]) -> NDArray[Any]:
