@@ -281,11 +281,16 @@ def test_ply_faults_are_errors(tmp_path, fault):
         bathyal.read_mesh(path)
 
 
-def test_ply_without_faces_names_the_other_reader(tmp_path):
-    cloud = bathyal.PointCloud(CUBE_VERTICES)
-    bathyal.write_cloud(cloud, tmp_path / "a.ply")
-    with pytest.raises(bathyal.Error, match="read_cloud"):
-        bathyal.read_mesh(tmp_path / "a.ply")
+@pytest.mark.parametrize("suffix", [".ply", ".vtp", ".stl"])
+def test_files_without_faces_name_the_other_reader(tmp_path, suffix):
+    empty = bathyal.TriangleMesh(CUBE_VERTICES, np.empty((0, 3), int))
+    bathyal.write_mesh(empty, tmp_path / f"a{suffix}")
+    with pytest.raises(bathyal.Error, match="no faces; read_cloud"):
+        bathyal.read_mesh(tmp_path / f"a{suffix}")
+    if suffix != ".stl":
+        bathyal.write_cloud(bathyal.PointCloud(CUBE_VERTICES), tmp_path / f"b{suffix}")
+        with pytest.raises(bathyal.Error, match="no faces; read_cloud"):
+            bathyal.read_mesh(tmp_path / f"b{suffix}")
 
 
 # --- STL, OBJ, axes and units --------------------------------------------------------------------

@@ -36,9 +36,9 @@ class Ply:
     notes: dict[str, str]
 
     def triangles(self) -> NDArray[np.int64]:
-        """(T, 3); `Error` where the file has no faces."""
-        if self.faces is None or len(self.faces) == 0:
-            raise Error("it holds points and no faces; read_cloud reads it")
+        """(T, 3), none where the file has no faces."""
+        if self.faces is None:
+            return np.empty((0, 3), np.int64)
         self.faces.check(len(self.points))
         return triangles_of_polygons(self.faces, self.points)
 
