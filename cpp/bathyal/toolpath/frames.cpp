@@ -144,6 +144,28 @@ double smooth_step(double x) {
   return c * c * (3.0 - 2.0 * c);
 }
 
+/// R(s). All turns before `first` are done. Built up from behind and built back from ahead, which
+/// differ where turns overlap since rotations do not commute; halfway between is the same for a
+/// path and the reversed path.
+Eigen::Matrix3d blended_frame(const std::vector<Eigen::Matrix3d>& frames,
+                              const std::vector<Turn>& turns, std::size_t first, double s,
+                              double blend_length) {
+  const auto done = [&](const Turn& turn) {
+    return smooth_step((s - turn.at) / blend_length + 0.5);
+  };
+  std::size_t last = first;
+  while (last < turns.size() && turns[last].at - 0.5 * blend_length < s) ++last;
+  if (first == last) return frames[first];
+  Quaternion behind(frames[first]), ahead(frames[last]);
+  for (std::size_t k = first; k < last; ++k) {
+    behind = Eigen::AngleAxisd(done(turns[k]) * turns[k].angle, turns[k].axis) * behind;
+  }
+  for (std::size_t k = last; k-- > first;) {
+    ahead = Eigen::AngleAxisd((done(turns[k]) - 1.0) * turns[k].angle, turns[k].axis) * ahead;
+  }
+  return behind.slerp(0.5, ahead).normalized().toRotationMatrix();
+}
+
 void append_blended(ToolPath& path, const Run& run, const std::vector<Eigen::Matrix3d>& frames,
                     double blend_length, double step) {
   std::vector<double> starts{0.0};
@@ -153,18 +175,10 @@ void append_blended(ToolPath& path, const Run& run, const std::vector<Eigen::Mat
   for (const double s : knots_of(starts, turns, blend_length, step)) {
     while (piece + 1 < run.pieces.size() && s >= starts[piece + 1]) ++piece;
     while (first < turns.size() && turns[first].at + 0.5 * blend_length <= s) ++first;
-    Eigen::Matrix3d frame = frames[first];  // all turns before `first` are done
-    bool turned = false;
-    for (std::size_t k = first; k < turns.size() && turns[k].at - 0.5 * blend_length < s; ++k) {
-      const double done = smooth_step((s - turns[k].at) / blend_length + 0.5);
-      if (turns[k].angle <= kNoTurn) continue;
-      frame = Eigen::AngleAxisd(done * turns[k].angle, turns[k].axis) * frame;
-      turned = true;
-    }
-    if (turned) frame = Quaternion(frame).normalized().toRotationMatrix();
+    const Eigen::Matrix3d frame = blended_frame(frames, turns, first, s, blend_length);
     const Piece& on = run.pieces[piece];
     const double along = on.length() > 0.0 ? (s - starts[piece]) / on.length() : 0.0;
-    const Vec3 point = along >= 1.0 ? on.to : Vec3(on.from + along * (on.to - on.from));
+    const Vec3 point = s >= starts[piece + 1] ? on.to : Vec3(on.from + along * (on.to - on.from));
     append(path, on, point, frame);
   }
 }
