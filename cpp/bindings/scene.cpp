@@ -10,6 +10,7 @@
 #include "arrays.hpp"
 #include "bathyal/base/error.hpp"
 #include "bindings.hpp"
+#include "rays.hpp"
 
 namespace bathyal::python {
 namespace {
@@ -283,15 +284,51 @@ Examples
 }  // namespace
 
 void bind_scene(py::module_& module) {
+  bind_hits(module);
   bind_nearest(module);
   bind_polyline(module);
-  py::class_<Scene> scene(module, "Scene");
-  scene.def(py::init([](const TriangleMesh& mesh, int num_threads) {
-              return Scene({mesh}, num_threads);
-            }),
-            py::arg("mesh"), py::kw_only(), py::arg("num_threads") = 0);
-  scene.def(py::init<std::vector<TriangleMesh>, int>(), py::arg("meshes"), py::kw_only(),
-            py::arg("num_threads") = 0);
+  py::class_<Scene> scene(module, "Scene",
+                          R"(One or more meshes, made ready for rays, nearest points and sections.
+
+Answers are decided in double, the same bytes on every instruction set and for any number of
+threads; equal ranges or distances give the lowest (mesh, triangle). The meshes are shared, not
+copied. Any number of threads may ask at once.
+
+Parameters
+----------
+mesh : TriangleMesh, or a sequence of them
+    One at least; meshes without triangles are allowed and never hit.
+num_threads : int
+    For the build; 0 means all.
+
+Examples
+--------
+>>> import bathyal
+>>> floor = bathyal.TriangleMesh([[0, 0, 0], [4, 0, 0], [0, 4, 0]], [[0, 1, 2]])
+>>> bathyal.Scene(floor)
+Scene(1 mesh, 1 triangle)
+)");
+  scene
+      .def(py::init([](const TriangleMesh& mesh, int num_threads) {
+             const py::gil_scoped_release release;
+             return Scene({mesh}, num_threads);
+           }),
+           py::arg("mesh"), py::kw_only(), py::arg("num_threads") = 0)
+      .def(py::init([](std::vector<TriangleMesh> meshes, int num_threads) {
+             const py::gil_scoped_release release;
+             return Scene(std::move(meshes), num_threads);
+           }),
+           py::arg("mesh"), py::kw_only(), py::arg("num_threads") = 0)
+      .def_property_readonly("meshes", &Scene::meshes, "The meshes, as a list.")
+      .def_property_readonly("memory", &Scene::memory, "Bytes held beside the meshes' own arrays.")
+      .def("__repr__", [](const Scene& s) {
+        Index triangles = 0;
+        for (const TriangleMesh& mesh : s.meshes()) triangles += mesh.triangle_count();
+        return "Scene(" + std::to_string(s.meshes().size()) +
+               (s.meshes().size() == 1 ? " mesh, " : " meshes, ") + std::to_string(triangles) +
+               (triangles == 1 ? " triangle)" : " triangles)");
+      });
+  bind_rays(scene);
   bind_queries(scene);
 }
 

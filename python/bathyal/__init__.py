@@ -3,6 +3,7 @@
 
 from bathyal._core import (
     Error,
+    Hits,
     Nearest,
     Plane,
     PointCloud,
@@ -13,12 +14,14 @@ from bathyal._core import (
     TriangleMesh,
     cover_polygon,
     find_targets,
+    intersect_moller_trumbore,
     plan_toolpath,
 )
 from bathyal.aims import read_aims
 
 __all__ = [
     "Error",
+    "Hits",
     "Nearest",
     "Plane",
     "PointCloud",
@@ -29,6 +32,7 @@ __all__ = [
     "TriangleMesh",
     "cover_polygon",
     "find_targets",
+    "intersect_moller_trumbore",
     "plan_toolpath",
     "read_aims",
 ]
