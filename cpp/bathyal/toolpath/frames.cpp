@@ -134,7 +134,9 @@ std::vector<double> knots_of(const std::vector<double>& starts, const std::vecto
       divide(knots, std::clamp(turning, knots.back(), end), step);
       divide(knots, end, turning < end ? fine : step);
     }
-    if (end > knots.back()) knots.back() = end;  // what was too short for a part of its own
+    if (knots.back() == end) continue;
+    if (knots.back() > starts[k]) knots.pop_back();  // what is left is too short for its own part
+    knots.push_back(end);
   }
   return knots;
 }

@@ -250,6 +250,53 @@ TEST(Section, ATargetAboveTheNextOnUprightNormalsIsJoinedRoundTheLipOrFlagged) {
   EXPECT_TRUE(flagged.gap[0]);
 }
 
+/// A closed box of 2 × 2 × 2 m about the origin, turned by 30° about z.
+Scene turned_box() {
+  std::vector<Vec3> corners;
+  for (int k = 0; k < 8; ++k) {
+    const Vec3 corner((k & 1) != 0 ? 1 : -1, (k & 2) != 0 ? 1 : -1, (k & 4) != 0 ? 1 : -1);
+    corners.push_back(Eigen::AngleAxisd(std::numbers::pi / 6, Vec3::UnitZ()) * corner);
+  }
+  return scene_of(mesh_of(corners, {{0, 2, 3},
+                                    {0, 3, 1},
+                                    {4, 5, 7},
+                                    {4, 7, 6},
+                                    {0, 1, 5},
+                                    {0, 5, 4},
+                                    {2, 6, 7},
+                                    {2, 7, 3},
+                                    {0, 4, 6},
+                                    {0, 6, 2},
+                                    {1, 3, 7},
+                                    {1, 7, 5}}));
+}
+
+TEST(Section, AVerticalPairGoesStraightDownItsWallTheShorterWayRoundAClosedSection) {
+  const Vec3 out(std::cos(std::numbers::pi / 6), std::sin(std::numbers::pi / 6), 0);
+  const Vec3 along = Vec3::UnitZ().cross(out);
+  const auto at = [&](double z) { return axis(4 * out + 0.3 * along + z * Vec3::UnitZ(), -out); };
+  for (const double sign : {1.0, -1.0}) {
+    const ToolPath path =
+        plan_toolpath(turned_box(), rows({at(0.7 * sign), at(-0.6 * sign)}), piecewise_constant());
+    EXPECT_FALSE(any(path.gap));
+    EXPECT_NEAR(path.arc_length.back(), 1.3, 1e-9);
+    EXPECT_EQ(path.surface.back(), path.targets.point.back());
+    for (const Vec3& a : path.approach) {
+      EXPECT_LT((a - out).norm(), 1e-12);
+    }
+  }
+}
+
+TEST(Section, FromTheWallOfABoxToItsTopIsRoundTheEdge) {
+  const Vec3 out(std::cos(std::numbers::pi / 6), std::sin(std::numbers::pi / 6), 0);
+  const ToolPath path = plan_toolpath(turned_box(),
+                                      rows({axis(4 * out + 0.7 * Vec3::UnitZ(), -out),
+                                            axis(0.5 * out + 4 * Vec3::UnitZ(), -Vec3::UnitZ())}),
+                                      piecewise_constant());
+  EXPECT_FALSE(any(path.gap));
+  EXPECT_NEAR(path.arc_length.back(), 0.3 + 0.5, 1e-9);
+}
+
 TEST(Section, CoincidentTargetsAddNoLengthAndAreToldOf) {
   const Scene scene = scene_of(grid(kFlat, 0, 4, 4, 0, 4, 4));
   for (const Surface& surface : {Surface(scene), Surface(Plane(Vec3::UnitZ(), -5.0))}) {
@@ -287,6 +334,36 @@ TEST(Section, AHoleBetweenTargetsIsCrossedStraightAndFlagged) {
     EXPECT_FALSE(path.gap.back());
     EXPECT_TRUE(warned(path, "cross a gap: 0"));
     for (const Vec3& p : path.surface) EXPECT_NEAR(p.z(), 0.1 * p.x(), 1e-9);
+  }
+}
+
+TEST(Section, TilesThatAbutAreOneSheet) {
+  const Vec3 far(620153, 7246506, -52);
+  const auto waves = [](double x, double) { return std::sin(x); };
+  const auto tile = [&](int k) { return grid(waves, 3.0 * k, 3.0 * (k + 1), 7, 0, 4, 5, far); };
+  const Scene scene({tile(0), tile(1), tile(2)}, 1);
+  Aims aims = down({{0.4, 1.1}, {8.7, 2.9}});
+  aims.leftCols<3>().rowwise() += far.transpose();
+  const ToolPath path = plan_toolpath(scene, aims, piecewise_constant());
+  EXPECT_FALSE(any(path.gap));
+  EXPECT_EQ(path.mesh.front(), 0);
+  EXPECT_EQ(path.mesh.back(), 2);
+  EXPECT_TRUE(path.warnings.empty());
+}
+
+TEST(Section, WhereMeshesLieOnEachOtherThePathStaysOnThatOfItsTargets) {
+  const Vec3 far(620153, 7246506, -52);
+  const auto slope = [](double x, double y) { return 0.3 * x + 0.1 * y; };
+  const Scene scene({grid(slope, 0, 6, 3, 0, 6, 3, far), grid(slope, 0, 6, 5, 0, 6, 4, far)}, 1);
+  for (double y = 0.7; y < 5.5; y += 0.37) {
+    Aims aims = down({{0.9, y}, {5.2, 6.0 - y}});
+    aims.leftCols<3>().rowwise() += far.transpose();
+    const ToolPath path = plan_toolpath(scene, aims, piecewise_constant());
+    if (path.targets.mesh[0] != path.targets.mesh[1]) continue;
+    EXPECT_FALSE(any(path.gap)) << y;
+    for (const std::int32_t mesh : path.mesh) {
+      EXPECT_EQ(mesh, path.targets.mesh[0]) << y;
+    }
   }
 }
 
