@@ -21,8 +21,8 @@ struct Stretch {
 };
 using Cell = std::vector<Stretch>;
 
-/// Chains stretches of neighbouring lines while one meets just one other: at a fork or a join of
-/// the polygon new cells begin (boustrophedon cells, Choset 2000).
+/// Chains stretches of neighbouring lines: at a fork of the polygon new cells begin, at a join one
+/// of them goes on (after the boustrophedon cells of Choset 2000).
 std::vector<Cell> cells_of(const std::vector<std::pair<double, std::vector<Interval>>>& lines) {
   std::vector<Cell> cells;
   std::vector<std::size_t> open;  // cell of each stretch of the line before

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "bathyal/base/random.hpp"
@@ -142,14 +143,18 @@ TEST(Footprint, StaysOnItsSideOfAPlate) {
   EXPECT_LT(path.normal_std[0], 1e-9);
 }
 
-TEST(OutwardNormal, OfAFacetWithoutAreaIsThatOfItsNeighbour) {
-  // The first triangle is flat to a line along y, and so is the path.
-  const Scene scene = scene_of(mesh_of({{0, -1, 0}, {0, 1, 0}, {-2, 0, 0}, {2, 0, 0}, {0, 0, 0}},
-                                       {{0, 4, 1}, {2, 0, 4}, {2, 4, 1}, {0, 3, 4}, {4, 3, 1}}));
-  for (const double x : {0.0, 0.6}) {
-    const ToolPath path = plan_toolpath(scene, down({{-x, -0.4}, {x, 0.4}}));
+TEST(OutwardNormal, OfAFacetWithoutAreaIsThatOfItsNeighbourOnThePath) {
+  // The first triangle is flat to a line along y, and the path begins or ends along it.
+  const auto at = [](double x, double y) { return Vec3(x, y, 0.2 * x + 0.1 * y); };
+  const Scene scene = scene_of(
+      mesh_of({at(0, -1), at(0, 1), at(-2, 0), at(2, 0), at(0, 0), at(0, 3)},
+              {{0, 4, 1}, {2, 0, 4}, {2, 4, 1}, {0, 3, 4}, {4, 3, 1}, {2, 1, 5}, {1, 3, 5}}));
+  for (const Aims& aims : {down({{0, -0.4}, {0, 2}}), down({{0, 2}, {0, -0.4}})}) {
+    const ToolPath path = plan_toolpath(scene, aims, test::piecewise_constant());
+    EXPECT_NE(std::find(path.triangle.begin(), path.triangle.end(), 0), path.triangle.end());
     for (const Vec3& a : path.approach) {
-      EXPECT_LT(angle(a, Vec3::UnitZ()), 1e-12);
+      EXPECT_NEAR(a.norm(), 1.0, 1e-12);
+      EXPECT_LT(angle(a, Vec3(-0.2, -0.1, 1)), 1e-9);
     }
   }
 }

@@ -287,6 +287,21 @@ TEST(Section, AVerticalPairGoesStraightDownItsWallTheShorterWayRoundAClosedSecti
   }
 }
 
+TEST(Section, AVerticalPairOnABulgingWallIsJoinedOverTheBulge) {
+  // A wall across y, 0.5 m proud at half height: the plane that holds its normals is y-z.
+  const Scene scene = scene_of(
+      mesh_of({{-2, 0, 1}, {2, 0, 1}, {-2, -0.5, 0}, {2, -0.5, 0}, {-2, 0, -1}, {2, 0, -1}},
+              {{0, 2, 3}, {0, 3, 1}, {2, 4, 5}, {2, 5, 3}}));
+  const ToolPath path = plan_toolpath(
+      scene, rows({axis({0.3, -5, 0.5}, {0, 1, 0}), axis({0.3, -5, -0.5}, {0, 1, 0})}),
+      piecewise_constant());
+  EXPECT_FALSE(any(path.gap));
+  EXPECT_NEAR(path.arc_length.back(), 2 * std::hypot(0.5, 0.25), 1e-9);
+  for (const Vec3& p : path.surface) {
+    EXPECT_NEAR(p.x(), 0.3, 1e-9);
+  }
+}
+
 TEST(Section, FromTheWallOfABoxToItsTopIsRoundTheEdge) {
   const Vec3 out(std::cos(std::numbers::pi / 6), std::sin(std::numbers::pi / 6), 0);
   const ToolPath path = plan_toolpath(turned_box(),
