@@ -33,10 +33,11 @@ bool precedes(const Vec3& a, const Vec3& b) {
   return std::make_tuple(a.x(), a.y(), a.z()) < std::make_tuple(b.x(), b.y(), b.z());
 }
 
+/// Weyl's multiplier of the golden ratio spreads each word; the high half is the well mixed one.
 std::uint64_t mix(std::uint64_t hash, std::uint64_t value) {
-  hash = (hash ^ value) * 0x9e3779b97f4a7c15U;
-  return hash ^ (hash >> 32U);
+  return (std::rotl(hash, 23) ^ value) * 0x9e3779b97f4a7c15U;
 }
+std::uint32_t fold(std::uint64_t hash) { return static_cast<std::uint32_t>(hash >> 32U); }
 
 bool is_outline(unsigned evidence) {
   const bool left = (evidence & kLeft) != 0;
@@ -153,13 +154,13 @@ CutCollector::CutCollector(const Cutter& cutter, std::size_t expected) : cutter_
 }
 
 template <class Same>
-std::int32_t CutCollector::Index::find_or_add(std::uint64_t hash, std::int32_t next,
+std::int32_t CutCollector::Index::find_or_add(std::uint32_t hash, std::int32_t next,
                                               const Same& same) {
   if (2 * (used_ + 1) > slots_.size()) resize(std::max<std::size_t>(64, 4 * slots_.size()));
   const std::size_t mask = slots_.size() - 1;
   std::size_t i = hash & mask;
-  for (; slots_[i].second >= 0; i = (i + 1) & mask) {
-    if (slots_[i].first == hash && same(slots_[i].second)) return slots_[i].second;
+  for (; slots_[i].number >= 0; i = (i + 1) & mask) {
+    if (slots_[i].hash == hash && same(slots_[i].number)) return slots_[i].number;
   }
   slots_[i] = {hash, next};
   ++used_;
@@ -170,12 +171,12 @@ void CutCollector::Index::reserve(std::size_t count) { resize(std::bit_ceil(2 * 
 
 void CutCollector::Index::resize(std::size_t slot_count) {
   const auto old = std::move(slots_);
-  slots_.assign(slot_count, {0, -1});
+  slots_.assign(slot_count, {});
   const std::size_t mask = slots_.size() - 1;
-  for (const auto& slot : old) {
-    if (slot.second < 0) continue;
-    std::size_t i = slot.first & mask;
-    while (slots_[i].second >= 0) i = (i + 1) & mask;
+  for (const Slot& slot : old) {
+    if (slot.number < 0) continue;
+    std::size_t i = slot.hash & mask;
+    while (slots_[i].number >= 0) i = (i + 1) & mask;
     slots_[i] = slot;
   }
 }
@@ -184,7 +185,7 @@ std::int32_t CutCollector::point_number(const Vec3& point, std::int32_t mesh) {
   auto hash = static_cast<std::uint64_t>(mesh);
   for (const double x : point) hash = mix(hash, std::bit_cast<std::uint64_t>(x + 0.0));  // −0 is 0
   const auto next = static_cast<std::int32_t>(points_.size());
-  const std::int32_t number = point_index_.find_or_add(hash, next, [&](std::int32_t i) {
+  const std::int32_t number = point_index_.find_or_add(fold(hash), next, [&](std::int32_t i) {
     const auto k = static_cast<std::size_t>(i);
     return points_[k] == point && point_mesh_[k] == mesh;
   });
@@ -211,7 +212,7 @@ void CutCollector::add_piece(Vec3 p, Vec3 q, unsigned evidence, std::int32_t mes
   const std::uint64_t hash =
       mix(mix(0, static_cast<std::uint64_t>(low)), static_cast<std::uint64_t>(high));
   const std::array ends{low, high};
-  const std::int32_t number = piece_index_.find_or_add(hash, next, [&](std::int32_t i) {
+  const std::int32_t number = piece_index_.find_or_add(fold(hash), next, [&](std::int32_t i) {
     return pieces_[static_cast<std::size_t>(i)].segment.ends == ends;
   });
   if (number == next) pieces_.push_back({{ends, mesh, triangle}, 0});

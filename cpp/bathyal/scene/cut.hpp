@@ -102,12 +102,16 @@ class CutCollector {
     /// Calls `same(number)` for each number filed under `hash` until it says yes, and returns that
     /// number; files and returns `next` when none does.
     template <class Same>
-    std::int32_t find_or_add(std::uint64_t hash, std::int32_t next, const Same& same);
+    std::int32_t find_or_add(std::uint32_t hash, std::int32_t next, const Same& same);
 
    private:
     void resize(std::size_t slot_count);
 
-    std::vector<std::pair<std::uint64_t, std::int32_t>> slots_;
+    struct Slot {
+      std::uint32_t hash = 0;
+      std::int32_t number = -1;
+    };
+    std::vector<Slot> slots_;
     std::size_t used_ = 0;
   };
 

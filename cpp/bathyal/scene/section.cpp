@@ -171,17 +171,31 @@ std::vector<std::uint32_t> find_candidates(const Cutter& cutter,
 }
 
 std::vector<Polyline> cut_scene(const Cutter& cutter, const Scene::Hierarchy& hierarchy) {
-  const std::vector<std::uint32_t> candidates = find_candidates(cutter, hierarchy);
-  scene::CutCollector collector(cutter, candidates.size());
-  const auto corners_of = [&](std::size_t i) {
-    const auto [mesh, triangle] = hierarchy.name(candidates[i]);
-    return hierarchy.arrays[static_cast<std::size_t>(mesh)].triangles + 3 * std::int64_t{triangle};
+  struct Candidate {
+    scene::PrimitiveName name;
+    const std::int32_t* corners;  // the triangle's row in its mesh
   };
+  std::vector<Candidate> candidates;
+  for (const std::uint32_t primitive : find_candidates(cutter, hierarchy)) {
+    const scene::PrimitiveName name = hierarchy.name(primitive);
+    const scene::MeshArrays& mesh = hierarchy.arrays[static_cast<std::size_t>(name.mesh)];
+    candidates.push_back({name, mesh.triangles + 3 * std::int64_t{name.triangle}});
+    __builtin_prefetch(candidates.back().corners);
+  }
+  const auto corner = [&](const Candidate& c, int i) {
+    return hierarchy.arrays[static_cast<std::size_t>(c.name.mesh)].vertices +
+           3 * std::int64_t{c.corners[i]};
+  };
+  scene::CutCollector collector(cutter, candidates.size());
   fetching_ahead(
-      candidates.size(), [&](std::size_t i) { __builtin_prefetch(corners_of(i)); },
+      candidates.size(),
       [&](std::size_t i) {
-        const auto [mesh, triangle] = hierarchy.name(candidates[i]);
-        collector.add(hierarchy.corners(candidates[i]), mesh, triangle);
+        for (int c = 0; c < 3; ++c) __builtin_prefetch(corner(candidates[i], c));
+      },
+      [&](std::size_t i) {
+        const Candidate& c = candidates[i];
+        collector.add({Vec3(corner(c, 0)), Vec3(corner(c, 1)), Vec3(corner(c, 2))}, c.name.mesh,
+                      c.name.triangle);
       });
   return collector.chain();
 }
