@@ -3,6 +3,8 @@
 
 import doctest
 import inspect
+import sys
+import types
 
 import numpy as np
 import pytest
@@ -228,6 +230,24 @@ def test_arrays_outlive_their_path(scene):
     points = bathyal.plan_toolpath(scene, TOUR).targets.point
     assert np.isfinite(position).all()
     assert np.allclose(position[0], points[0])
+
+
+def test_a_path_says_what_it_is_in_one_line():
+    assert repr(bathyal.plan_toolpath(PLANE, down([[0, 0], [2, 0]]))) == (
+        "ToolPath(2 samples, 2.000 m, 21.0 s)"
+    )
+
+
+def test_write_and_show_hand_the_path_on(monkeypatch):
+    calls = []
+    for module, function in (("paths", "write_path"), ("views", "show_path")):
+        stand_in = types.ModuleType(f"bathyal.{module}")
+        setattr(stand_in, function, lambda *arguments: calls.append(arguments) or "shown")
+        monkeypatch.setitem(sys.modules, f"bathyal.{module}", stand_in)
+    path = bathyal.plan_toolpath(PLANE, TOUR)
+    assert path.write("path.csv") is None
+    assert path.show() == "shown"
+    assert calls == [(path, "path.csv"), (path,)]
 
 
 # Functions ----------------------------------------------------------------------------------------

@@ -402,6 +402,20 @@ TEST(Section, AMissedAimMakesAGapAndIsToldOf) {
   EXPECT_THROW(plan_toolpath(scene, aims, strict), std::invalid_argument);
 }
 
+TEST(Section, AimsThatGrazeOrComeFromBeneathAreUsedAndToldOf) {
+  const Scene scene = scene_of(grid(kFlat, 0, 10, 10, 0, 4, 4));
+  ToolPathOptions options;
+  options.targets.grazing_angle = 1.0;
+  const Aims aims = rows(
+      {axis({1, 1, 9}, {0, 0, -1}), axis({0, 1, -4}, {3, 0, -1}), axis({5, 1, -9}, {0, 0, 1})});
+  const ToolPath path = plan_toolpath(scene, aims, options);
+  EXPECT_TRUE(warned(path, "graze the bottom (used): 1"));
+  EXPECT_TRUE(warned(path, "from beneath (used): camera below it or mesh inside out: 2"));
+  EXPECT_NEAR(path.arc_length.back(), 4.0, 1e-12);
+  options.targets.grazing_angle = std::numbers::pi;
+  EXPECT_TRUE(warned(plan_toolpath(scene, aims, options), "inside out: 2"));
+}
+
 TEST(Section, ALoneTargetBetweenMissedAimsKeepsItsSample) {
   const Scene scene = scene_of(grid(kFlat, 0, 10, 10, 0, 4, 4));
   const ToolPath path =
