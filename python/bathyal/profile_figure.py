@@ -9,6 +9,7 @@ import numpy as np
 from matplotlib.patheffects import withStroke
 
 from bathyal._core import Plane
+from bathyal.map_figure import legend_handlers
 from bathyal.palette import BOTTOM, GAP, INK, PALE, segment_colour
 from bathyal.stations import Stations, runs, spread, unroll
 
@@ -21,7 +22,7 @@ _ARROWS = 60
 _ARROW_PT = 20.0
 
 
-def draw(axes: Axes, bottom: Scene | Plane, path: ToolPath) -> None:
+def draw(axes: Axes, surface: Scene | Plane, path: ToolPath) -> None:
     """Draw height against distance along the section, one segment after the other."""
     axes.set_xlabel("distance along the section, from target to target [m]", fontsize=9)
     axes.set_ylabel("height z [m]", fontsize=9)
@@ -32,7 +33,7 @@ def draw(axes: Axes, bottom: Scene | Plane, path: ToolPath) -> None:
         return
     stations = unroll(path)
     stretch = _set_limits(axes, stations)
-    _draw_bottom(axes, bottom, stations)
+    _draw_bottom(axes, surface, stations)
     _draw_tool(axes, stations, path)
     _draw_normals(axes, stations)
     _draw_targets(axes, path, stations)
@@ -44,7 +45,10 @@ def draw(axes: Axes, bottom: Scene | Plane, path: ToolPath) -> None:
     axes.ticklabel_format(useOffset=False, style="plain")
     for side in ("top", "right"):
         axes.spines[side].set_visible(False)
-    axes.legend(loc="upper right", fontsize=7.5, framealpha=0.85, ncols=4)
+    axes.legend(
+        loc="lower right", bbox_to_anchor=(1.0, 0.99), fontsize=8, frameon=False, ncols=4,
+        handlelength=2.4, borderaxespad=0.1, handler_map=legend_handlers(),
+    )  # fmt: skip
 
 
 def _set_limits(axes: Axes, stations: Stations) -> float:
@@ -78,14 +82,14 @@ def round_down(value: float) -> float:
     return float(max(step for step in (power, 2 * power, 5 * power) if step <= value * (1 + 1e-9)))
 
 
-def _draw_bottom(axes: Axes, bottom: Scene | Plane, stations: Stations) -> None:
+def _draw_bottom(axes: Axes, surface: Scene | Plane, stations: Stations) -> None:
     """Every sheet that the section's plane cuts, so that one sees which of them the path follows."""
     labelled = False
     for number, along in enumerate(stations.along):
         begin, end = stations.begin[number : number + 2]
         if end <= begin:
             continue
-        for line in _cuts(bottom, stations.start[number], along, end - begin):
+        for line in _cuts(surface, stations.start[number], along, end - begin):
             distance = begin + (line - stations.start[number]) @ along
             axes.plot(
                 distance, line[:, 2], color=BOTTOM, lw=2.6, zorder=3, solid_capstyle="round",
@@ -98,14 +102,14 @@ def _draw_bottom(axes: Axes, bottom: Scene | Plane, stations: Stations) -> None:
 
 
 def _cuts(
-    bottom: Scene | Plane, start: np.ndarray, along: np.ndarray, length: float
+    surface: Scene | Plane, start: np.ndarray, along: np.ndarray, length: float
 ) -> list[np.ndarray]:
     end = start + along * length
-    if isinstance(bottom, Plane):
+    if isinstance(surface, Plane):
         both = np.vstack([start, end])
-        both[:, 2] -= bottom.distance(both) / bottom.normal[2]
+        both[:, 2] -= surface.distance(both) / surface.normal[2]
         return [both]
-    return [np.asarray(line.points) for line in bottom.section(start, end)]
+    return [np.asarray(line.points) for line in surface.section(start, end)]
 
 
 def _draw_tool(axes: Axes, stations: Stations, path: ToolPath) -> None:

@@ -50,14 +50,14 @@ class Relief:
         return (self.x[0] - half, self.x[-1] + half, self.y[0] - half, self.y[-1] + half)
 
 
-def bounds(bottom: Scene | Plane, *points: Floats) -> tuple[Floats, Floats]:
+def bounds(surface: Scene | Plane, *points: Floats) -> tuple[Floats, Floats]:
     """Lowest and highest corner (3,) of the bottom's meshes and of what else is given [m].
 
     A plane has no bounds of its own. Rows that are not finite do not count.
     """
     clouds = [np.asarray(p).reshape(-1, 3) for p in points]
-    if not isinstance(bottom, Plane):
-        clouds += [mesh.vertices for mesh in bottom.meshes]
+    if not isinstance(surface, Plane):
+        clouds += [mesh.vertices for mesh in surface.meshes]
     low, high = np.full(3, np.inf), np.full(3, -np.inf)
     for cloud in clouds:
         finite = cloud if np.isfinite(cloud).all() else cloud[np.isfinite(cloud).all(axis=1)]
@@ -69,7 +69,7 @@ def bounds(bottom: Scene | Plane, *points: Floats) -> tuple[Floats, Floats]:
 
 
 def height_image(
-    bottom: Scene | Plane,
+    surface: Scene | Plane,
     low: Floats,
     high: Floats,
     *,
@@ -91,7 +91,7 @@ def height_image(
         centre[k] + (np.arange(shape[k] * samples) - (shape[k] * samples - 1) / 2) * fine
         for k in range(2)
     )
-    height = _heights(bottom, x, y).reshape(shape[1], samples, shape[0], samples)
+    height = _heights(surface, x, y).reshape(shape[1], samples, shape[0], samples)
     seen = np.isfinite(height)
     total = np.where(seen, height, 0.0).sum(axis=(1, 3))
     count = seen.sum(axis=(1, 3))
@@ -100,16 +100,16 @@ def height_image(
     return Relief(mean, x, y)
 
 
-def _heights(bottom: Scene | Plane, x: Floats, y: Floats) -> Floats:
+def _heights(surface: Scene | Plane, x: Floats, y: Floats) -> Floats:
     """z of the highest sheet over the grid of `x` and `y`, row by row (N,)."""
     grid_x, grid_y = (g.ravel() for g in np.meshgrid(x, y))
-    if isinstance(bottom, Plane):
-        nx, ny, nz = bottom.normal
-        return (bottom.offset - nx * grid_x - ny * grid_y) / nz
-    low, high = bounds(bottom)
+    if isinstance(surface, Plane):
+        nx, ny, nz = surface.normal
+        return (surface.offset - nx * grid_x - ny * grid_y) / nz
+    low, high = bounds(surface)
     above = high[2] + 1.0 + 0.1 * (high[2] - low[2])
     origins = np.column_stack([grid_x, grid_y, np.full(grid_x.size, above)])
-    return above - bottom.cast(origins, np.broadcast_to([0.0, 0.0, -1.0], origins.shape)).range
+    return above - surface.cast(origins, np.broadcast_to([0.0, 0.0, -1.0], origins.shape)).range
 
 
 def exaggeration(relief: Relief) -> float:
