@@ -10,6 +10,7 @@ void bind_base(pybind11::module_& module);
 void bind_geometry(pybind11::module_& module);
 void bind_mesh_report(pybind11::module_& module);  // of the room geometry too
 void bind_soundings(pybind11::module_& module);
+void bind_survey(pybind11::module_& module);  // the second file of soundings
 void bind_terrain(pybind11::module_& module);
 void bind_scene(pybind11::module_& module);
 void bind_toolpath(pybind11::module_& module);

@@ -10,25 +10,44 @@
 #include "arrays.hpp"
 #include "bathyal/base/error.hpp"
 #include "bindings.hpp"
+#include "rays.hpp"
 
 namespace bathyal::python {
 namespace {
 
-/// Answers of Scene.nearest as arrays.
+/// Answers of Scene.nearest, a column each.
 struct Nearest {
-  std::vector<NearestPoint> found;
+  py::array distance, point, mesh, triangle, barycentric;
 
-  template <class Scalar, class Take>
-  py::array column(py::ssize_t width, const Take& take) const {
-    std::vector<Scalar> values;
-    values.reserve(found.size() * static_cast<std::size_t>(width));
-    for (const NearestPoint& one : found) take(one, values);
-    return to_numpy(std::move(values),
-                    width == 1 ? std::vector<py::ssize_t>{} : std::vector{width});
+  explicit Nearest(const std::vector<NearestPoint>& found) {
+    std::vector<double> distances, points, weights;
+    std::vector<std::int32_t> meshes, triangles;
+    distances.reserve(found.size());
+    points.reserve(3 * found.size());
+    weights.reserve(3 * found.size());
+    meshes.reserve(found.size());
+    triangles.reserve(found.size());
+    constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
+    for (const NearestPoint& one : found) {
+      distances.push_back(one.distance);
+      points.insert(points.end(), one.point.begin(), one.point.end());
+      meshes.push_back(one.mesh);
+      triangles.push_back(one.triangle);
+      if (one.triangle < 0) {
+        weights.insert(weights.end(), 3, kNothing);
+      } else {
+        weights.insert(weights.end(), {one.u, one.v, 1.0 - one.u - one.v});
+      }
+    }
+    distance = to_numpy(std::move(distances));
+    point = to_numpy(std::move(points), {3});
+    mesh = to_numpy(std::move(meshes));
+    triangle = to_numpy(std::move(triangles));
+    barycentric = to_numpy(std::move(weights), {3});
   }
 };
 
-py::array to_numpy(const std::vector<Vec3>& points) {
+py::array points_to_numpy(const std::vector<Vec3>& points) {
   std::vector<double> values;
   values.reserve(3 * points.size());
   for (const Vec3& p : points) values.insert(values.end(), p.begin(), p.end());
@@ -36,54 +55,21 @@ py::array to_numpy(const std::vector<Vec3>& points) {
 }
 
 void bind_nearest(py::module_& module) {
-  using Doubles = std::vector<double>;
-  using Integers = std::vector<std::int32_t>;
   py::class_<Nearest>(module, "Nearest", "The closest point of a scene to each of N points.")
-      .def_property_readonly(
-          "distance",
-          [](const Nearest& n) {
-            return n.column<double>(
-                1, [](const NearestPoint& p, Doubles& out) { out.push_back(p.distance); });
-          },
-          "(N,) [m], inf where the scene holds no triangle.")
-      .def_property_readonly(
-          "point",
-          [](const Nearest& n) {
-            return n.column<double>(3, [](const NearestPoint& p, Doubles& out) {
-              out.insert(out.end(), p.point.begin(), p.point.end());
-            });
-          },
-          "(N, 3) [m], NaN where there is none.")
-      .def_property_readonly(
-          "mesh",
-          [](const Nearest& n) {
-            return n.column<std::int32_t>(
-                1, [](const NearestPoint& p, Integers& out) { out.push_back(p.mesh); });
-          },
-          "(N,) number of the mesh in the scene, −1 where there is none.")
-      .def_property_readonly(
-          "triangle",
-          [](const Nearest& n) {
-            return n.column<std::int32_t>(
-                1, [](const NearestPoint& p, Integers& out) { out.push_back(p.triangle); });
-          },
-          "(N,) triangle of that mesh, −1 where there is none.")
-      .def_property_readonly(
-          "barycentric",
-          [](const Nearest& n) {
-            return n.column<double>(3, [](const NearestPoint& p, Doubles& out) {
-              const bool found = p.triangle >= 0;
-              const double nothing = std::numeric_limits<double>::quiet_NaN();
-              out.push_back(found ? p.u : nothing);
-              out.push_back(found ? p.v : nothing);
-              out.push_back(found ? 1.0 - p.u - p.v : nothing);
-            });
-          },
-          "(N, 3) weights (u, v, w) of corners 1, 2 and 0, as eq 4; NaN where there is none.")
-      .def("__len__", [](const Nearest& n) { return n.found.size(); })
+      .def_readonly("distance", &Nearest::distance,
+                    "(N,) [m], inf where the scene holds no triangle.")
+      .def_readonly("point", &Nearest::point, "(N, 3) [m], NaN where there is none.")
+      .def_readonly("mesh", &Nearest::mesh,
+                    "(N,) number of the mesh in the scene, −1 where there is none.")
+      .def_readonly("triangle", &Nearest::triangle,
+                    "(N,) triangle of that mesh, −1 where there is none.")
+      .def_readonly("barycentric", &Nearest::barycentric,
+                    "(N, 3) weights (u, v, w) of corners 1, 2 and 0, as eq 4; NaN where there is "
+                    "none.")
+      .def("__len__", [](const Nearest& n) { return n.distance.size(); })
       .def("__repr__", [](const Nearest& n) {
-        return "Nearest(" + std::to_string(n.found.size()) +
-               (n.found.size() == 1 ? " point)" : " points)");
+        return "Nearest(" + std::to_string(n.distance.size()) +
+               (n.distance.size() == 1 ? " point)" : " points)");
       });
 }
 
@@ -91,7 +77,7 @@ void bind_polyline(py::module_& module) {
   py::class_<Polyline>(module, "Polyline",
                        "A line of a section: segment i runs from point i to point i + 1.")
       .def_property_readonly(
-          "points", [](const Polyline& line) { return to_numpy(line.points); },
+          "points", [](const Polyline& line) { return points_to_numpy(line.points); },
           "(P, 3) [m]; a closed line repeats its first point.")
       .def_property_readonly(
           "mesh", [](const Polyline& line) { return to_numpy(line.mesh); },
@@ -136,8 +122,12 @@ void bind_queries(py::class_<Scene>& scene) {
           "nearest",
           [](const Scene& self, const py::object& points, int num_threads) {
             const Points queries = points_argument("points", points);
-            const py::gil_scoped_release release;
-            return Nearest{self.nearest(queries.view(), num_threads)};
+            std::vector<NearestPoint> found;
+            {
+              const py::gil_scoped_release release;
+              found = self.nearest(queries.view(), num_threads);
+            }
+            return Nearest(found);
           },
           py::arg("points"), py::kw_only(), py::arg("num_threads") = 0,
           R"(The closest point of all triangles to each point.
@@ -294,15 +284,51 @@ Examples
 }  // namespace
 
 void bind_scene(py::module_& module) {
+  bind_hits(module);
   bind_nearest(module);
   bind_polyline(module);
-  py::class_<Scene> scene(module, "Scene");
-  scene.def(py::init([](const TriangleMesh& mesh, int num_threads) {
-              return Scene({mesh}, num_threads);
-            }),
-            py::arg("mesh"), py::kw_only(), py::arg("num_threads") = 0);
-  scene.def(py::init<std::vector<TriangleMesh>, int>(), py::arg("meshes"), py::kw_only(),
-            py::arg("num_threads") = 0);
+  py::class_<Scene> scene(module, "Scene",
+                          R"(One or more meshes, made ready for rays, nearest points and sections.
+
+Answers are decided in double, the same bytes on every instruction set and for any number of
+threads; equal ranges or distances give the lowest (mesh, triangle). The meshes are shared, not
+copied. Any number of threads may ask at once.
+
+Parameters
+----------
+mesh : TriangleMesh, or a sequence of them
+    One at least; meshes without triangles are allowed and never hit.
+num_threads : int
+    For the build; 0 means all.
+
+Examples
+--------
+>>> import bathyal
+>>> floor = bathyal.TriangleMesh([[0, 0, 0], [4, 0, 0], [0, 4, 0]], [[0, 1, 2]])
+>>> bathyal.Scene(floor)
+Scene(1 mesh, 1 triangle)
+)");
+  scene
+      .def(py::init([](const TriangleMesh& mesh, int num_threads) {
+             const py::gil_scoped_release release;
+             return Scene({mesh}, num_threads);
+           }),
+           py::arg("mesh"), py::kw_only(), py::arg("num_threads") = 0)
+      .def(py::init([](std::vector<TriangleMesh> meshes, int num_threads) {
+             const py::gil_scoped_release release;
+             return Scene(std::move(meshes), num_threads);
+           }),
+           py::arg("mesh"), py::kw_only(), py::arg("num_threads") = 0)
+      .def_property_readonly("meshes", &Scene::meshes, "The meshes, as a list.")
+      .def_property_readonly("memory", &Scene::memory, "Bytes held beside the meshes' own arrays.")
+      .def("__repr__", [](const Scene& s) {
+        Index triangles = 0;
+        for (const TriangleMesh& mesh : s.meshes()) triangles += mesh.triangle_count();
+        return "Scene(" + std::to_string(s.meshes().size()) +
+               (s.meshes().size() == 1 ? " mesh, " : " meshes, ") + std::to_string(triangles) +
+               (triangles == 1 ? " triangle)" : " triangles)");
+      });
+  bind_rays(scene);
   bind_queries(scene);
 }
 

@@ -11,8 +11,8 @@
 
 #include "arrays.hpp"
 #include "bathyal/base/error.hpp"
+#include "bathyal/soundings/clean_cloud.hpp"
 #include "bathyal/soundings/pcd.hpp"
-#include "bathyal/soundings/survey.hpp"
 #include "bathyal/soundings/text_table.hpp"
 #include "bathyal/soundings/write_xyz.hpp"
 #include "bindings.hpp"
@@ -156,164 +156,140 @@ aside and rename.
 )");
 }
 
-/// Calls `bind(name, function)` with what makes the options from keyword-only arguments: every
-/// function about a generated survey takes the same ones.
-template <class... Extra>
-struct SurveyFunction {
-  template <class Function, class... Named>
-  static void bind(py::module_& module, const char* name, const Function& function, const char* doc,
-                   const Named&... extra) {
-    const SurveyOptions d;
-    module.def(
-        name,
-        [function](const Extra&... arguments, std::uint64_t seed, const py::object& origin,
-                   double length, double width, double wave_height, double wave_length,
-                   double ripple_height, double roughness, int boulders, double boulder_radius,
-                   double trench_depth, double trench_width, int lines, double altitude,
-                   double opening, int beams, double ping_spacing, double lost_width,
-                   double range_noise, double range_noise_rate, double angle_noise,
-                   double spike_fraction, int num_threads) {
-          SurveyOptions options;
-          options.seed = seed;
-          options.origin = vector_argument("origin", origin);
-          options.length = length;
-          options.width = width;
-          options.wave_height = wave_height;
-          options.wave_length = wave_length;
-          options.ripple_height = ripple_height;
-          options.roughness = roughness;
-          options.boulders = boulders;
-          options.boulder_radius = boulder_radius;
-          options.trench_depth = trench_depth;
-          options.trench_width = trench_width;
-          options.lines = lines;
-          options.altitude = altitude;
-          options.opening = opening;
-          options.beams = beams;
-          options.ping_spacing = ping_spacing;
-          options.lost_width = lost_width;
-          options.range_noise = range_noise;
-          options.range_noise_rate = range_noise_rate;
-          options.angle_noise = angle_noise;
-          options.spike_fraction = spike_fraction;
-          options.num_threads = num_threads;
-          return function(arguments..., options);
-        },
-        extra..., py::kw_only(), py::arg("seed") = d.seed,
-        py::arg("origin") = py::make_tuple(d.origin.x(), d.origin.y(), d.origin.z()),
-        py::arg("length") = d.length, py::arg("width") = d.width,
-        py::arg("wave_height") = d.wave_height, py::arg("wave_length") = d.wave_length,
-        py::arg("ripple_height") = d.ripple_height, py::arg("roughness") = d.roughness,
-        py::arg("boulders") = d.boulders, py::arg("boulder_radius") = d.boulder_radius,
-        py::arg("trench_depth") = d.trench_depth, py::arg("trench_width") = d.trench_width,
-        py::arg("lines") = d.lines, py::arg("altitude") = d.altitude,
-        py::arg("opening") = d.opening, py::arg("beams") = d.beams,
-        py::arg("ping_spacing") = d.ping_spacing, py::arg("lost_width") = d.lost_width,
-        py::arg("range_noise") = d.range_noise, py::arg("range_noise_rate") = d.range_noise_rate,
-        py::arg("angle_noise") = d.angle_noise, py::arg("spike_fraction") = d.spike_fraction,
-        py::arg("num_threads") = d.num_threads, doc);
+SamePlace same_place_argument(const std::string& text) {
+  if (text == "keep") return SamePlace::kKeep;
+  if (text == "shallowest") return SamePlace::kShallowest;
+  if (text == "deepest") return SamePlace::kDeepest;
+  throw_argument("same_place", "\"keep\", \"shallowest\" or \"deepest\"", "\"" + text + "\"");
+}
+
+std::string to_text(SamePlace rule) {
+  switch (rule) {
+    case SamePlace::kShallowest:
+      return "shallowest";
+    case SamePlace::kDeepest:
+      return "deepest";
+    default:
+      return "keep";
   }
-};
+}
 
-void bind_survey(py::module_& module) {
-  SurveyFunction<>::bind(
-      module, "generate_survey",
-      [](const SurveyOptions& options) {
+void bind_clean_results(py::module_& module) {
+  py::class_<CleanReport>(
+      module, "CleanReport",
+      "How many soundings each step of clean_cloud dropped; str() is for people.")
+      .def_readonly("before", &CleanReport::before)
+      .def_readonly("not_finite", &CleanReport::not_finite, "x, y or z is NaN or infinite.")
+      .def_readonly("duplicates", &CleanReport::duplicates, "Equal x, y and z, all but one.")
+      .def_readonly("same_place", &CleanReport::same_place,
+                    "Share x, y with a sounding of another z; counted, dropped or not.")
+      .def_readonly("same_place_dropped", &CleanReport::same_place_dropped)
+      .def_readonly("spikes", &CleanReport::spikes)
+      .def_readonly("outliers", &CleanReport::outliers)
+      .def_readonly("thinned", &CleanReport::thinned, "By voxels.")
+      .def_readonly("after", &CleanReport::after)
+      .def(
+          "as_dict",
+          [](const CleanReport& r) {
+            py::dict result;
+            for (const auto& [name, count] : {std::pair{"before", r.before},
+                                              {"not_finite", r.not_finite},
+                                              {"duplicates", r.duplicates},
+                                              {"same_place", r.same_place},
+                                              {"same_place_dropped", r.same_place_dropped},
+                                              {"spikes", r.spikes},
+                                              {"outliers", r.outliers},
+                                              {"thinned", r.thinned},
+                                              {"after", r.after}}) {
+              result[name] = count;
+            }
+            return result;
+          },
+          "Name → count, in the order of the steps.")
+      .def("__str__", &CleanReport::text)
+      .def("__repr__", [](const CleanReport& r) {
+        return "CleanReport(before=" + std::to_string(r.before) +
+               ", after=" + std::to_string(r.after) + ")";
+      });
+  py::class_<CleanResult>(module, "CleanResult", "What clean_cloud returns.")
+      .def_readonly("cloud", &CleanResult::cloud, "PointCloud of what stayed.")
+      .def_readonly("report", &CleanResult::report, "CleanReport: how many went, and why.")
+      .def_property_readonly(
+          "rows", [](const CleanResult& r) { return to_numpy(r.rows); },
+          "(N,) int32: which row of the given cloud each sounding was.");
+}
+
+void bind_clean(py::module_& module) {
+  bind_clean_results(module);
+  const CleanOptions d;
+  module.def(
+      "clean_cloud",
+      [](const PointCloud& cloud, const std::string& same_place, double spike_sigma,
+         double spike_height, int spike_neighbours, double outlier_sigma, int outlier_neighbours,
+         double voxel, int num_threads) {
+        CleanOptions options;
+        options.same_place = same_place_argument(same_place);
+        options.spike_sigma = spike_sigma;
+        options.spike_height = spike_height;
+        options.spike_neighbours = spike_neighbours;
+        options.outlier_sigma = outlier_sigma;
+        options.outlier_neighbours = outlier_neighbours;
+        options.voxel = voxel;
+        options.num_threads = num_threads;
         const py::gil_scoped_release release;
-        return generate_survey(options);
+        return clean_cloud(cloud, options);
       },
-      R"(A multibeam survey that never was, over a bottom that is known exactly.
+      py::arg("cloud"), py::kw_only(), py::arg("same_place") = to_text(d.same_place),
+      py::arg("spike_sigma") = d.spike_sigma, py::arg("spike_height") = d.spike_height,
+      py::arg("spike_neighbours") = d.spike_neighbours, py::arg("outlier_sigma") = d.outlier_sigma,
+      py::arg("outlier_neighbours") = d.outlier_neighbours, py::arg("voxel") = d.voxel,
+      py::arg("num_threads") = d.num_threads,
+      R"(Drop what is no sounding and, where asked, what is too much or out of line; say how many and why.
 
-Sand waves with ripples, boulders with scour and shadow, a trench, a stripe of lost pings, noise that
-grows with range, and the uneven spacing of beams at equal angles. The same seed and options give the
-same numbers, for any number of threads. `survey_height` gives the true height.
+Points that are not finite go first, then exact duplicates. The other steps run only where asked, in
+the order of the parameters. Attributes and datum follow; rows keep their order, and which positions
+stay does not depend on it.
 
 Parameters
 ----------
-seed : int
-origin : (3,) array
-    South-west corner and the bottom's mean height [m].
-length, width : float
-    Along (x) and across (y) the survey lines [m].
-wave_height, wave_length : float
-    Sand waves, trough to crest and crest to crest [m].
-ripple_height, roughness : float
-    Ripples, trough to crest, and the rms of a slow undulation [m].
-boulders : int
-boulder_radius : float
-    Of the largest [m].
-trench_depth, trench_width : float
-    [m]; a depth of 0 for none.
-lines, beams : int
-    Survey lines over the width, and beams a ping.
-altitude : float
-    Of the sounder above the mean height [m].
-opening : float
-    Of the fan of beams [rad].
-ping_spacing : float
-    Along the line [m].
-lost_width : float
-    Length of the stripe of pings that the first line lost [m].
-range_noise, range_noise_rate, angle_noise : float
-    Standard deviation of a range, constant part [m] and growth [m/m], and of a beam's angle [rad].
-spike_fraction : float
-    Of soundings that are echoes from fish above the bottom, 0 to 1.
+cloud : PointCloud
+same_place : "keep", "shallowest" or "deepest"
+    Which of several soundings with equal x, y and different z stays. They are counted in any case.
+spike_sigma, spike_height, spike_neighbours : float, float, int
+    Drop soundings further from the median height of their neighbours in plan than `spike_sigma`
+    robust standard deviations (of the neighbours or of the whole cloud, whichever is larger) and
+    than `spike_height` [m]. 0 does not look for spikes.
+outlier_sigma, outlier_neighbours : float, int
+    Drop soundings whose mean distance to their neighbours in space is above that of all by more than
+    `outlier_sigma` standard deviations (Rusu et al. 2008). 0 does not look for outliers.
+voxel : float
+    Of all soundings in a cube of this edge [m] keep the one nearest to their centroid: what stays
+    was measured. 0 does not thin.
 num_threads : int
     0: all.
 
 Returns
 -------
-PointCloud
-    With the attributes ``uncertainty``, the standard deviation of z [m], and ``intensity`` [dB].
+CleanResult
+    ``.cloud``, ``.report`` and ``.rows``.
 
 Raises
 ------
 ValueError
-    An option out of its range, or a sounder that would touch the bottom.
+    An option out of its range.
 
 Examples
 --------
 >>> import bathyal
->>> cloud = bathyal.generate_survey(seed=1, length=6.0, beams=64)
->>> cloud
-PointCloud(4416 points)
->>> sorted(cloud.attributes)
-['intensity', 'uncertainty']
+>>> cloud = bathyal.PointCloud([[0, 0, -5], [0, 0, -5], [1, 0, float("nan")], [2, 0, -5.1]])
+>>> result = bathyal.clean_cloud(cloud)
+>>> result.cloud
+PointCloud(2 points)
+>>> print(result.report)
+2 of 4 soundings kept
+  1 dropped: a coordinate is not finite
+  1 dropped: exact duplicates (equal x, y, z)
 )");
-  SurveyFunction<py::object, py::object>::bind(
-      module, "survey_height",
-      [](const py::object& x, const py::object& y, const SurveyOptions& options) {
-        const Values east = values_argument("x", x);
-        const Values north = values_argument("y", y);
-        Values height;
-        {
-          const py::gil_scoped_release release;
-          height = survey_height(east, north, options);
-        }
-        return to_numpy(height);
-      },
-      R"(True height of the bottom under a generated survey.
-
-Parameters
-----------
-x, y : (N,) arrays
-    Survey coordinates [m].
-seed, origin, length, …
-    As given to generate_survey.
-
-Returns
--------
-(N,) array
-    [m]
-
-Examples
---------
->>> import bathyal
->>> flat = dict(wave_height=0, ripple_height=0, roughness=0, boulders=0, trench_depth=0)
->>> bathyal.survey_height([431210.0], [6172660.0], **flat)
-array([-38.])
-)",
-      py::arg("x"), py::arg("y"));
 }
 
 }  // namespace
@@ -321,6 +297,7 @@ array([-38.])
 void bind_soundings(py::module_& module) {
   bind_text_table(module);
   bind_files(module);
+  bind_clean(module);
   bind_survey(module);
 }
 

@@ -2,7 +2,10 @@
 """Supervised underwater manipulation: soundings to seabed to tool path."""
 
 from bathyal._core import (
+    CleanReport,
+    CleanResult,
     Error,
+    Hits,
     MeshReport,
     Nearest,
     Plane,
@@ -15,11 +18,13 @@ from bathyal._core import (
     Targets,
     ToolPath,
     TriangleMesh,
+    clean_cloud,
     cover_polygon,
     find_sheets,
     find_targets,
     fit_plane,
     generate_survey,
+    intersect_moller_trumbore,
     mesh_report,
     plan_toolpath,
     survey_height,
@@ -30,7 +35,10 @@ from bathyal.meshes import read_mesh, write_mesh
 from bathyal.terrain import SheetWarning, triangulate
 
 __all__ = [
+    "CleanReport",
+    "CleanResult",
     "Error",
+    "Hits",
     "MeshReport",
     "Nearest",
     "Plane",
@@ -44,11 +52,13 @@ __all__ = [
     "Targets",
     "ToolPath",
     "TriangleMesh",
+    "clean_cloud",
     "cover_polygon",
     "find_sheets",
     "find_targets",
     "fit_plane",
     "generate_survey",
+    "intersect_moller_trumbore",
     "mesh_report",
     "plan_toolpath",
     "read_aims",

@@ -2,12 +2,11 @@
 #include "bathyal/scene/cast_kernel.hpp"
 
 #include <algorithm>
-#include <string>
 
-#include "bathyal/base/error.hpp"
 #include "bathyal/base/parallel.hpp"
 #include "bathyal/base/simd.hpp"
 #include "bathyal/scene/hierarchy.hpp"
+#include "bathyal/scene/ray_rows.hpp"
 
 namespace bathyal {
 namespace scene {
@@ -44,33 +43,6 @@ CastScene cast_scene(const Scene::Hierarchy& h) {
   return scene;
 }
 
-std::string row_text(PointView rows, Index row) {
-  return "row " + std::to_string(row) + " = (" + to_text(rows(row, 0)) + ", " +
-         to_text(rows(row, 1)) + ", " + to_text(rows(row, 2)) + ")";
-}
-
-[[noreturn]] void throw_bad_row(PointView first, PointView second, std::size_t at,
-                                std::string_view first_name, std::string_view second_name) {
-  const auto row = static_cast<Index>(at);
-  const Index first_row = first.rows() == 1 ? 0 : row;
-  if (!first.row(first_row).allFinite()) {
-    throw_argument(first_name, "finite coordinates", row_text(first, first_row));
-  }
-  throw_argument(second_name,
-                 second_name == "directions" ? "finite directions of any length but zero"
-                                             : "finite coordinates",
-                 row_text(second, row));
-}
-
-void check_rows(PointView first, PointView second, std::string_view first_name,
-                std::string_view second_name) {
-  if (first.rows() == second.rows() || first.rows() == 1) return;
-  throw_argument(first_name,
-                 "one row, or as many as `" + std::string(second_name) + "` (" +
-                     std::to_string(second.rows()) + ")",
-                 std::to_string(first.rows()) + " rows");
-}
-
 RayBatch batch_of(PointView first, PointView second, std::size_t begin, std::size_t end) {
   return {first.data(), first.rows() == 1 && second.rows() != 1 ? 0 : 3, second.data(), begin, end};
 }
@@ -79,22 +51,30 @@ RayBatch batch_of(PointView first, PointView second, std::size_t begin, std::siz
 }  // namespace scene
 
 RayHit Scene::cast(const Vec3& origin, const Vec3& direction) const {
-  return cast(PointView(origin.data(), 1, 3), PointView(direction.data(), 1, 3), 1).front();
+  RayHit hit;
+  cast(PointView(origin.data(), 1, 3), PointView(direction.data(), 1, 3), {&hit, 1}, 1);
+  return hit;
 }
 
 std::vector<RayHit> Scene::cast(PointView origins, PointView directions, int num_threads) const {
+  std::vector<RayHit> hits(static_cast<std::size_t>(directions.rows()));
+  cast(origins, directions, hits, num_threads);
+  return hits;
+}
+
+void Scene::cast(PointView origins, PointView directions, std::span<RayHit> hits,
+                 int num_threads) const {
   scene::check_rows(origins, directions, "origins", "directions");
   const scene::CastScene view = scene::cast_scene(*hierarchy_);
   const scene::CastKernel kernel = scene::kernels().cast;
-  std::vector<RayHit> hits(static_cast<std::size_t>(directions.rows()));
   parallel_for(hits.size(), scene::kGrain, num_threads, [&](std::size_t begin, std::size_t end) {
     const std::size_t bad =
         kernel(view, scene::batch_of(origins, directions, begin, end), hits.data());
     if (bad != scene::kNoRow) {
-      scene::throw_bad_row(origins, directions, bad, "origins", "directions");
+      scene::throw_bad_row(origins, directions, static_cast<Index>(bad), "origins", "directions",
+                           "finite directions of any length but zero");
     }
   });
-  return hits;
 }
 
 std::vector<bool> Scene::occluded(PointView from, PointView to, int num_threads) const {
@@ -104,7 +84,9 @@ std::vector<bool> Scene::occluded(PointView from, PointView to, int num_threads)
   std::vector<std::uint8_t> blocked(static_cast<std::size_t>(to.rows()));
   parallel_for(blocked.size(), scene::kGrain, num_threads, [&](std::size_t begin, std::size_t end) {
     const std::size_t bad = kernel(view, scene::batch_of(from, to, begin, end), blocked.data());
-    if (bad != scene::kNoRow) scene::throw_bad_row(from, to, bad, "from", "to");
+    if (bad != scene::kNoRow) {
+      scene::throw_bad_row(from, to, static_cast<Index>(bad), "from", "to", "finite coordinates");
+    }
   });
   return {blocked.begin(), blocked.end()};
 }

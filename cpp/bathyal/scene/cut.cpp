@@ -69,15 +69,15 @@ Cutter Cutter::between(const Vec3& start, const Vec3& end, const Vec3& up) {
   if (!(up_length > 0.0)) throw_argument("up", "a direction of any length but zero", "(0, 0, 0)");
 
   const Vec3 line = end - start;
-  const Vec3 normal = line.cross(up);  // r of the paper
-  const double horizontal = normal.stableNorm() / up_length;
+  const Vec3 unit_up = up / up_length;
+  const Vec3 normal = line.cross(unit_up);  // r of the paper
+  const double horizontal = normal.stableNorm();
   const double rounding = kEpsilon * std::max(reach(start), reach(end));
   if (!(horizontal > kVertexRounding * (rounding + kEpsilon * line.stableNorm()))) {
     throw_argument("b", "a point that is not above, below or at a along up",
                    "one " + to_text(horizontal) + " m beside it");
   }
   Cutter cutter(normal, start);
-  const Vec3 unit_up = up / up_length;
   cutter.along_ = line - line.dot(unit_up) * unit_up;
   cutter.end_ = end;
   cutter.length_ = cutter.along_.dot(line);
@@ -107,8 +107,14 @@ Vec3 Cutter::cut_edge(const Vec3& v0, double p0, const Vec3& v1, double p1) cons
   return v0 + t * (v1 - v0);
 }
 
+bool Cutter::is_well_inside(const Vec3& point) const {
+  if (!has_strip()) return true;
+  const double s = along_.dot(point - anchor_);
+  const double margin = kPointRounding * kEpsilon * along_sum_ * anchor_reach_;
+  return s > margin && s < length_ - margin;
+}
+
 Vec3 Cutter::settle(const Vec3& point) const {
-  if (!has_strip()) return point;
   const double near = kPointRounding * kEpsilon * anchor_reach_;
   if (reach(point - anchor_) <= near) return anchor_;
   if (reach(point - end_) <= near) return end_;
@@ -123,7 +129,6 @@ double Cutter::position(const Vec3& point) const {
 }
 
 bool Cutter::clip(Vec3& p, Vec3& q) const {
-  if (!has_strip()) return true;
   const double sp = position(p);
   const double sq = position(q);
   const auto [low, high] = std::minmax(sp, sq);
@@ -139,10 +144,18 @@ bool Cutter::clip(Vec3& p, Vec3& q) const {
   return true;
 }
 
+CutCollector::CutCollector(const Cutter& cutter, std::size_t expected) : cutter_(cutter) {
+  points_.reserve(expected + 1);
+  point_mesh_.reserve(expected + 1);
+  pieces_.reserve(expected);
+  point_index_.reserve(expected);
+  piece_index_.reserve(expected);
+}
+
 template <class Same>
 std::int32_t CutCollector::Index::find_or_add(std::uint64_t hash, std::int32_t next,
                                               const Same& same) {
-  if (2 * (used_ + 1) > slots_.size()) grow();
+  if (2 * (used_ + 1) > slots_.size()) resize(std::max<std::size_t>(64, 4 * slots_.size()));
   const std::size_t mask = slots_.size() - 1;
   std::size_t i = hash & mask;
   for (; slots_[i].second >= 0; i = (i + 1) & mask) {
@@ -153,9 +166,11 @@ std::int32_t CutCollector::Index::find_or_add(std::uint64_t hash, std::int32_t n
   return next;
 }
 
-void CutCollector::Index::grow() {
-  std::vector<std::pair<std::uint64_t, std::int32_t>> old = std::move(slots_);
-  slots_.assign(std::max<std::size_t>(64, 4 * old.size()), {0, -1});
+void CutCollector::Index::reserve(std::size_t count) { resize(std::bit_ceil(2 * count + 2)); }
+
+void CutCollector::Index::resize(std::size_t slot_count) {
+  const auto old = std::move(slots_);
+  slots_.assign(slot_count, {0, -1});
   const std::size_t mask = slots_.size() - 1;
   for (const auto& slot : old) {
     if (slot.second < 0) continue;
@@ -182,10 +197,13 @@ std::int32_t CutCollector::point_number(const Vec3& point, std::int32_t mesh) {
 
 void CutCollector::add_piece(Vec3 p, Vec3 q, unsigned evidence, std::int32_t mesh,
                              std::int32_t triangle) {
-  p = cutter_.settle(p);
-  q = cutter_.settle(q);
-  if (precedes(q, p)) std::swap(p, q);  // so that every triangle clips its edge alike
-  if (p == q || !cutter_.clip(p, q) || p == q) return;
+  if (!cutter_.is_well_inside(p) || !cutter_.is_well_inside(q)) {
+    p = cutter_.settle(p);
+    q = cutter_.settle(q);
+    if (precedes(q, p)) std::swap(p, q);  // so that every triangle clips its edge alike
+    if (p == q || !cutter_.clip(p, q)) return;
+  }
+  if (p == q) return;
   std::int32_t low = point_number(p, mesh);
   std::int32_t high = point_number(q, mesh);
   if (low > high) std::swap(low, high);

@@ -31,10 +31,15 @@ class Cutter {
   /// whichever triangle asks.
   Vec3 cut_edge(const Vec3& v0, double p0, const Vec3& v1, double p1) const;
 
+  /// Whether neither `settle` nor `clip` would touch a segment between this point and another such.
+  bool is_well_inside(const Vec3& point) const;
+
   /// `point`, or the strip's own start or end where it is that point to rounding.
+  /// \pre has_strip()
   Vec3 settle(const Vec3& point) const;
 
   /// Shortens the segment from p to q to the strip; false where nothing of it is left.
+  /// \pre has_strip()
   bool clip(Vec3& p, Vec3& q) const;
 
   bool has_strip() const { return length_ > 0.0; }
@@ -68,7 +73,8 @@ class Cutter {
 /// that a flat region gives its outline. A triangle met only at a corner gives nothing.
 class CutCollector {
  public:
-  explicit CutCollector(const Cutter& cutter) : cutter_(cutter) {}
+  /// `expected`: about how many triangles are cut.
+  CutCollector(const Cutter& cutter, std::size_t expected);
 
   void add(const std::array<Vec3, 3>& corners, std::int32_t mesh, std::int32_t triangle);
 
@@ -91,13 +97,16 @@ class CutCollector {
   /// node-based map would take longer than the cutting.
   class Index {
    public:
+    void reserve(std::size_t count);
+
     /// Calls `same(number)` for each number filed under `hash` until it says yes, and returns that
     /// number; files and returns `next` when none does.
     template <class Same>
     std::int32_t find_or_add(std::uint64_t hash, std::int32_t next, const Same& same);
 
    private:
-    void grow();
+    void resize(std::size_t slot_count);
+
     std::vector<std::pair<std::uint64_t, std::int32_t>> slots_;
     std::size_t used_ = 0;
   };

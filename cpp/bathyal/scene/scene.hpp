@@ -3,6 +3,7 @@
 
 #include <limits>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "bathyal/geometry/plane.hpp"
@@ -10,6 +11,13 @@
 #include "bathyal/scene/ray_hit.hpp"
 
 namespace bathyal {
+
+/// Where a hit lies, from the corners of its triangle; NaN where nothing was met.
+Vec3 hit_point(const std::vector<TriangleMesh>& meshes, const RayHit& hit);
+
+/// Unit normal of the triangle that was hit, as it is wound; NaN where nothing was met. A triangle
+/// without area gives the direction across its longest edge that points up most.
+Vec3 hit_normal(const std::vector<TriangleMesh>& meshes, const RayHit& hit);
 
 /// The closest point of the scene to a query.
 struct NearestPoint {
@@ -53,14 +61,29 @@ class Scene {
   std::size_t memory() const;
 
   /// First triangle met at t ≥ 0 from `origin` along `direction` (any length but zero), from either
-  /// side. Watertight: where two triangles share an edge or several a vertex, a ray through it
-  /// meets at least one of them.
+  /// side, borders included. The decision is taken in double on the mesh's own vertices, with exact
+  /// signs (Woop, Benthin, Wald 2013, Watertight ray/triangle intersection): a ray through an edge
+  /// or a vertex of a closed mesh meets one of the triangles there, at survey coordinates too.
+  /// Triangles that share what the ray goes through are met at exactly the same range.
+  ///
+  /// A ray that runs in the plane of a triangle does not meet that one, but meets its neighbours'
+  /// borders. A triangle without area is met only where rounding opens it, which keeps a mesh that
+  /// needs it closed. An origin further out than 10²⁵ m meets nothing.
+  /// \throw std::invalid_argument for a direction of zero, or a value that is not finite.
   RayHit cast(const Vec3& origin, const Vec3& direction) const;
 
-  /// The same for (N, 3) origins and directions; one origin serves all directions when N = 1.
+  /// The same for (N, 3) origins and directions; one origin serves all directions.
+  /// \throw std::invalid_argument that names the first row at fault, or when the rows do not match.
   std::vector<RayHit> cast(PointView origins, PointView directions, int num_threads = 0) const;
 
-  /// Whether anything lies on the segment from `from[i]` to `to[i]`, ends included.
+  /// The same into `hits`, which has as many rows as `directions` and needs no first value.
+  void cast(PointView origins, PointView directions, std::span<RayHit> hits,
+            int num_threads = 0) const;
+
+  /// Whether anything lies on the segment from `from[i]` to `to[i]`, ends included; one `from`
+  /// serves all. Decided as by cast. A segment of no length meets nothing.
+  /// \throw std::invalid_argument that names the first row that is not finite, or when the rows do
+  /// not match.
   std::vector<bool> occluded(PointView from, PointView to, int num_threads = 0) const;
 
   /// The closest point of all triangles, decided in double; a triangle without area counts as the

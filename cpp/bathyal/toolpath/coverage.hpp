@@ -30,7 +30,7 @@ struct CoverOptions {
 /// \throw std::invalid_argument for a spacing that is not above 0 or asks for more than a million
 /// lines, fewer than three corners, corners that are not finite, a polygon without area or one that
 /// crosses itself, an upright plane or a scene without triangles.
-Aims cover_polygon(const Surface& surface, const Polygon& polygon,
+Aims cover_polygon(const Surface& surface, const Polygon& polygon, double spacing,
                    const CoverOptions& options = {});
 
 }  // namespace bathyal

@@ -120,6 +120,7 @@ std::vector<double> knots_of(const std::vector<double>& starts, const std::vecto
   });
   std::vector<double> knots;
   const auto add = [&](double at) {
+    if (!knots.empty() && at == knots.back()) return;  // a lone point begins where it ends
     const double from = knots.empty() ? at : knots.back();
     const std::size_t parts = parts_of(at - from, step);
     for (std::size_t i = 1; i < parts; ++i) {

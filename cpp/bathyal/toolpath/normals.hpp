@@ -17,11 +17,9 @@ namespace bathyal {
 ///
 /// Standard deviation, the root mean square of the angle the true normal may lie off, to first
 /// order in the slope: atan √tr Cov(g).
-///  - Facet: g = Σ z_i ∇λ_i with |∇λ_i| = e_i / 2A (e_i the edge across from corner i, A the area),
-///  so
-///    tr Cov(g) = Σ σ_i² (e_i / 2A)². A right isosceles facet of leg h has 2σ/h: with the 2 cm of a
-///    sonar at 5 cm spacing 0.8, so that a single facet is tilted by some 30° (a mean of 30.8°
-///    drawn).
+///  - Facet: g = Σ z_i ∇λ_i, |∇λ_i| = e_i / 2A (e_i the edge across from corner i, A the area), so
+///    tr Cov(g) = Σ σ_i² (e_i / 2A)². A right isosceles facet of leg h has 2σ/h: for a sonar's 2 cm
+///    at 5 cm spacing 0.8, which tilts a single facet by some 30° (32.5° on average).
 ///  - Footprint of n vertices: tr of the slope block of (XᵀX)⁻¹ XᵀΣX (XᵀX)⁻¹, which falls as 1/√n.
 /// σ_i is the larger of the vertex attribute "uncertainty" [m] and the root mean square residual of
 /// the fit, √(Σr²/(n − 3)), of the footprint or, for a facet, of the vertices of all triangles that

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string_view>
+
+#include "bathyal/geometry/shared_array.hpp"
+
+// What the functions that take rays as two arrays say to a caller's mistake.
+
+namespace bathyal::scene {
+
+/// \throw std::invalid_argument unless `first` has one row or as many as `second`.
+void check_rows(PointView first, PointView second, std::string_view first_name,
+                std::string_view second_name);
+
+/// Tells what is wrong with row `row`: `first` not finite, else `second`, of which `expected` says
+/// what it should be.
+[[noreturn]] void throw_bad_row(PointView first, PointView second, Index row,
+                                std::string_view first_name, std::string_view second_name,
+                                std::string_view expected);
+
+}  // namespace bathyal::scene

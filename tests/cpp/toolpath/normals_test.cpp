@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bathyal/toolpath/normals.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "bathyal/base/random.hpp"
+#include "bottoms.hpp"
+
+namespace bathyal {
+namespace {
+
+using test::down;
+using test::grid;
+using test::mesh_of;
+using test::scene_of;
+
+double angle(const Vec3& a, const Vec3& b) { return std::atan2(a.cross(b).norm(), a.dot(b)); }
+
+TriangleMesh with_uncertainty(const TriangleMesh& mesh, double sigma) {
+  Values::Matrix values = Values::Matrix::Constant(mesh.vertex_count(), sigma);
+  return {mesh.shared_vertices(), mesh.shared_triangles(), {{"uncertainty", Values(values)}}};
+}
+
+TriangleMesh noisy(double sigma, double spacing, int cells, std::uint64_t seed) {
+  RandomStream random(seed);
+  const double size = spacing * cells;
+  return grid([&](double, double) { return sigma * random.normal(); }, 0, size, cells, 0, size,
+              cells);
+}
+
+double std_of_one_facet(double leg, double sigma) {
+  const TriangleMesh mesh =
+      with_uncertainty(mesh_of({{0, 0, 0}, {leg, 0, 0}, {0, leg, 0}}, {{0, 1, 2}}), sigma);
+  return plan_toolpath(scene_of(mesh), down({{leg / 4, leg / 4}})).normal_std[0];
+}
+
+TEST(NormalStd, OfARightFacetIsTwoSigmaOverItsLeg) {
+  for (const double ratio : {1e-3, 0.05, 0.4}) {
+    EXPECT_NEAR(std_of_one_facet(2.0, 2.0 * ratio), std::atan(2 * ratio), 1e-12);
+  }
+}
+
+TEST(NormalStd, TwoCentimetresAtFiveCentimetreSpacingTiltAFacetByThirtyDegrees) {
+  double mean = 0.0, squared = 0.0;
+  const int draws = 20000;
+  RandomStream random(1);
+  for (int k = 0; k < draws; ++k) {
+    const double z0 = 0.02 * random.normal(), z1 = 0.02 * random.normal(),
+                 z2 = 0.02 * random.normal();
+    const TriangleMesh mesh = mesh_of({{0, 0, z0}, {0.05, 0, z1}, {0, 0.05, z2}}, {{0, 1, 2}});
+    const double tilt = angle(outward_normal(mesh, 0), Vec3::UnitZ());
+    mean += tilt / draws;
+    squared += tilt * tilt / draws;
+  }
+  const double degrees = 180.0 / std::numbers::pi;
+  EXPECT_NEAR(mean * degrees, 32.5, 0.5);
+  // To first order in the slope, so a little above the drawn root mean square for so steep a tilt.
+  EXPECT_NEAR(std_of_one_facet(0.05, 0.02), std::sqrt(squared), 0.1);
+}
+
+TEST(NormalStd, IsTheDrawnRootMeanSquareOfGentleTilts) {
+  for (const double radius : {0.0, 0.2}) {
+    const double sigma = 0.002;
+    double squared = 0.0, stated = 0.0;
+    const int draws = 300;
+    for (int k = 0; k < draws; ++k) {
+      const TriangleMesh mesh = with_uncertainty(noisy(sigma, 0.05, 12, 100 + k), sigma);
+      ToolPathOptions options;
+      options.normal_radius = radius;
+      const ToolPath path = plan_toolpath(scene_of(mesh), down({{0.31, 0.32}}), options);
+      const double tilt = angle(path.approach[0], Vec3::UnitZ());
+      squared += tilt * tilt / draws;
+      stated += path.normal_std[0] * path.normal_std[0] / draws;
+    }
+    EXPECT_NEAR(std::sqrt(stated / squared), 1.0, radius == 0.0 ? 0.25 : 0.1) << radius;
+  }
+}
+
+TEST(NormalStd, WithoutAnAttributeComesFromTheScatterAround) {
+  const double sigma = 0.002;
+  double without = 0.0;
+  const int draws = 200;
+  for (int k = 0; k < draws; ++k) {
+    const ToolPath path =
+        plan_toolpath(scene_of(noisy(sigma, 0.05, 12, 500 + k)), down({{0.31, 0.32}}));
+    without += path.normal_std[0] * path.normal_std[0] / draws;
+  }
+  EXPECT_NEAR(std::sqrt(without) / std::atan(2 * sigma / 0.05), 1.0, 0.15);
+  const Scene lone = scene_of(mesh_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}));
+  EXPECT_TRUE(std::isnan(plan_toolpath(lone, down({{0.2, 0.2}})).normal_std[0]))
+      << "nothing to tell";
+  EXPECT_EQ(plan_toolpath(Plane(Vec3::UnitZ(), 0), down({{0, 0}})).normal_std[0], 0.0);
+}
+
+TEST(Footprint, IsExactOnATiltedPlaneAndQuietsNoise) {
+  ToolPathOptions options;
+  options.normal_radius = 0.3;
+  const auto tilted = [](double x, double y) { return 0.4 * x - 0.3 * y; };
+  const ToolPath exact =
+      plan_toolpath(scene_of(grid(tilted, 0, 4, 40, 0, 4, 40)), down({{1, 1}, {3, 2.5}}), options);
+  for (const Vec3& a : exact.approach) EXPECT_LT(angle(a, Vec3(-0.4, 0.3, 1)), 1e-9);
+
+  const Scene scene = scene_of(noisy(0.02, 0.05, 60, 3));
+  const auto worst = [&](double radius) {
+    options.normal_radius = radius;
+    double tilt = 0.0;
+    for (const Vec3& a : plan_toolpath(scene, down({{0.5, 0.5}, {2.5, 2.4}}), options).approach) {
+      tilt = std::max(tilt, angle(a, Vec3::UnitZ()));
+    }
+    return tilt;
+  };
+  EXPECT_LT(worst(0.3), 0.2 * worst(0.0));
+}
+
+TEST(Footprint, SmallerThanTheFacetsIsTheFacet) {
+  const auto roof = [](double x, double) { return -std::abs(x); };
+  const Scene scene = scene_of(grid(roof, -4, 4, 2, -2, 2, 1));
+  ToolPathOptions options = test::piecewise_constant();
+  const ToolPath facets = plan_toolpath(scene, down({{-2, 0.5}, {2, 0.5}}), options);
+  options.normal_radius = 0.01;
+  const ToolPath footprint = plan_toolpath(scene, down({{-2, 0.5}, {2, 0.5}}), options);
+  EXPECT_EQ(footprint.approach.front(), facets.approach.front());
+  EXPECT_EQ(footprint.approach.back(), facets.approach.back());
+}
+
+TEST(Footprint, StaysOnItsSheet) {
+  // Two parallel plates 5 cm apart joined at one edge; on the upper the lower must not count.
+  const auto plate = [](double z, bool down_side) {
+    TriangleMesh mesh = grid([z](double, double) { return z; }, 0, 1, 20, 0, 1, 20);
+    if (!down_side) return mesh;
+    TriangleMatrix turned = mesh.triangles();
+    turned.col(1).swap(turned.col(2));
+    return TriangleMesh(mesh.shared_vertices(), turned);
+  };
+  const Scene scene({plate(0.0, false), plate(-0.05, true)}, 1);
+  ToolPathOptions options;
+  options.normal_radius = 0.2;
+  const ToolPath path = plan_toolpath(scene, down({{0.5, 0.5}}), options);
+  EXPECT_EQ(path.approach[0], Vec3::UnitZ());
+  EXPECT_LT(path.normal_std[0], 1e-9);
+}
+
+TEST(OutwardNormal, OfAFacetWithoutAreaIsThatOfItsNeighbour) {
+  // The middle triangle is flat to a line along the path.
+  const Scene scene = scene_of(mesh_of({{0, -1, 0}, {0, 1, 0}, {-2, 0, 0}, {2, 0, 0}, {0, 0, 0}},
+                                       {{2, 0, 4}, {2, 4, 1}, {0, 3, 4}, {4, 3, 1}, {0, 4, 1}}));
+  const ToolPath path = plan_toolpath(scene, down({{-1, 0.2}, {1, 0.2}}));
+  for (const Vec3& a : path.approach) EXPECT_LT(angle(a, Vec3::UnitZ()), 1e-12);
+}
+
+}  // namespace
+}  // namespace bathyal
