@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The picture of a plan: the bottom from above, the profile of the section, and what was planned."""
+"""The picture of a plan: the bottom from above, the profile of the section, what was planned."""
 
 from __future__ import annotations
 

@@ -44,9 +44,7 @@ def draw(
     relief = height_image(surface, window.low, window.high)
     stretch = exaggeration(relief)
     norm = _depth_norm(relief)
-    axes.imshow(
-        _shaded(relief, norm, stretch), extent=relief.extent, origin="lower", zorder=1
-    )
+    axes.imshow(_shaded(relief, norm, stretch), extent=relief.extent, origin="lower", zorder=1)
     axes.set_facecolor("#f3f3f1")
     axes.set(xlim=relief.extent[:2], ylim=relief.extent[2:], aspect="equal")
     _label_axes(axes, crs)

@@ -182,7 +182,9 @@ _DATUM = ("crs", "vertical_datum")
 
 def _datum_notes(provenance: Mapping[str, Any]) -> list[str]:
     """Each on one line: WKT may come on several."""
-    return [f"{name} {' '.join(provenance[name].split())}" for name in _DATUM if provenance.get(name)]
+    return [
+        f"{name} {' '.join(provenance[name].split())}" for name in _DATUM if provenance.get(name)
+    ]
 
 
 def _plain(value: Any) -> Any:

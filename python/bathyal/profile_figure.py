@@ -83,7 +83,7 @@ def round_down(value: float) -> float:
 
 
 def _draw_bottom(axes: Axes, surface: Scene | Plane, stations: Stations) -> None:
-    """Every sheet that the section's plane cuts, so that one sees which of them the path follows."""
+    """Every sheet that the section's plane cuts, so that one sees which the path follows."""
     labelled = False
     for number, along in enumerate(stations.along):
         begin, end = stations.begin[number : number + 2]

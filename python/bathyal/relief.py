@@ -127,7 +127,9 @@ def shade(relief: Relief, stretch: float) -> Floats:
     slope_x, slope_y = _gradient(relief)
     normal = np.stack([-slope_x * stretch, -slope_y * stretch, np.ones_like(slope_x)])
     facing = np.tensordot(_LIGHT, normal / np.linalg.norm(normal, axis=0), axes=1)
-    return np.where(np.isfinite(relief.height), np.clip(np.nan_to_num(facing, nan=0.7), 0, 1), np.nan)
+    return np.where(
+        np.isfinite(relief.height), np.clip(np.nan_to_num(facing, nan=0.7), 0, 1), np.nan
+    )
 
 
 def _gradient(relief: Relief) -> tuple[Floats, Floats]:

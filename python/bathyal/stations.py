@@ -90,8 +90,7 @@ def runs(path: ToolPath) -> list[tuple[int, int]]:
     ends = np.concatenate([new - 1, [count - 1]])
     joined = np.append(~gap[ends[:-1]], False)
     return [
-        (int(begin), int(end + join))
-        for begin, end, join in zip(begins, ends, joined, strict=True)
+        (int(begin), int(end + join)) for begin, end, join in zip(begins, ends, joined, strict=True)
     ]
 
 

@@ -289,7 +289,7 @@ def _aim_traces(aims: NDArray[Any], path: ToolPath, origin: Floats) -> list[go.S
                 go.Scatter3d(
                     x=x, y=y, z=z, mode="markers", name="camera", showlegend=bool(rows is hit),
                     marker={"size": 4, "symbol": "square", "color": colour},
-                    text=[f"camera {row + 1}: {targets.status[row]}" for row in np.flatnonzero(rows)],
+                    text=[f"camera {k + 1}: {targets.status[k]}" for k in np.flatnonzero(rows)],
                     hoverinfo="text",
                 )
             )  # fmt: skip
