@@ -170,9 +170,7 @@ def _from_text(file: Path, text: str) -> NDArray[np.float64]:
 # JSON ---------------------------------------------------------------------------------------------
 
 
-def _from_json(
-    file: Path, text: str, given: NDArray[np.float64] | None
-) -> NDArray[np.float64]:
+def _from_json(file: Path, text: str, given: NDArray[np.float64] | None) -> NDArray[np.float64]:
     try:
         content: Any = json.loads(text)
     except (json.JSONDecodeError, RecursionError) as error:

@@ -11,12 +11,12 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import Annotated, Any
 
-import click
 import typer
 from rich.console import Console
 from rich.markup import escape
 from rich.progress import Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
 from rich.table import Table
+from typer.core import TyperGroup
 
 import bathyal
 from bathyal import options as opt
@@ -26,9 +26,36 @@ _EXIT_CODES = (
     "broken, 2 wrong usage, 130 interrupted."
 )
 
-_app = typer.Typer(
+
+class _Commands(TyperGroup):
+    """Turns what went wrong into one line and an exit code; usage errors are typer's own."""
+
+    def invoke(self, ctx: typer.Context) -> Any:
+        err = Console(stderr=True, highlight=False)
+        try:
+            return super().invoke(ctx)
+        except KeyboardInterrupt:
+            err.print("[red]interrupted[/], nothing was written")
+            raise typer.Exit(130) from None
+        except BrokenPipeError:
+            raise
+        except (bathyal.Error, OSError, ValueError) as error:
+            if ctx.params.get("debug"):
+                err.print_exception()
+            err.print(f"[red]error:[/] {escape(_one_line(error))}", soft_wrap=True)
+            raise typer.Exit(1) from None
+
+
+def _one_line(error: Exception) -> str:
+    if isinstance(error, OSError) and error.strerror:
+        name = f"{error.filename}: " if error.filename else ""
+        return f"{name}{error.strerror}"
+    return " ".join(str(error).split())
+
+
+app = typer.Typer(
     name="bathyal",
-    no_args_is_help=True,
+    cls=_Commands,
     rich_markup_mode="rich",
     add_completion=False,
     pretty_exceptions_enable=False,
@@ -73,8 +100,6 @@ class Missed(str, Enum):
 
 class _Talk:
     """What is said where: results on stdout, progress and warnings on stderr."""
-
-    debug = False
 
     def __init__(self, *, json: bool, quiet: bool) -> None:
         self.json = json
@@ -188,9 +213,10 @@ MethodOption = Annotated[
     ),
 ]
 MaxEdge = Annotated[
-    str | None,
+    float | None,
     typer.Option(
         metavar="METRES",
+        parser=opt.length_or_none,
         help="Longest horizontal edge, so that gaps stay gaps; [b]none[/b] for no limit. "
         "[dim]\\[default: 5 × the median of the triangles' longest edges][/]",
         rich_help_panel="Bottom",
@@ -216,7 +242,7 @@ Pose = Annotated[
 ]
 
 
-@_app.callback(invoke_without_command=True)
+@app.callback(invoke_without_command=True)
 def main(
     context: typer.Context,
     show_version: Annotated[bool, typer.Option("--version", help="Say the version.")] = False,
@@ -232,7 +258,6 @@ def main(
 
       bathyal plan survey.xyz --aims aims.csv --out plan
     """
-    _Talk.debug = debug
     if show_version:
         typer.echo(f"bathyal {version('bathyal')}")
         raise typer.Exit
@@ -240,11 +265,12 @@ def main(
         typer.echo(context.get_help())
 
 
-@_app.command(epilog=_EXIT_CODES)
+@app.command(epilog=_EXIT_CODES)
 def plan(
     cloud: Annotated[
         Path,
         typer.Argument(
+            metavar="CLOUD",
             help="Soundings (.xyz .txt .csv .asc .ply .pcd .las .laz .bag .tif .vtp) or a mesh "
             "(.ply .stl .obj .dae .vtp).",
         ),
@@ -402,7 +428,9 @@ def plan(
     from bathyal.plan import plan as make_plan
 
     if vertical is Vertical.vehicle and world_from_vehicle is None:
-        raise click.UsageError("--vertical vehicle needs the vehicle's pose, --world-from-vehicle")
+        raise typer.BadParameter(
+            "vehicle needs the vehicle's pose, --world-from-vehicle", param_hint="--vertical"
+        )
     talk = _Talk(json=json, quiet=quiet)
     with talk.progress() as progress:
         planned = make_plan(
@@ -433,12 +461,14 @@ def plan(
         "seconds": {name: round(value, 3) for name, value in planned.seconds.items()},
     }
     talk.warn(planned.warnings)
-    talk.result(data, {**planned.facts, "written": "\n".join(map(str, files))})
+    talk.result(
+        data, {**planned.facts, "folder": str(out), "files": " ".join(f.name for f in files)}
+    )
 
 
-@_app.command(epilog=_EXIT_CODES)
+@app.command(epilog=_EXIT_CODES)
 def triangulate(
-    cloud: Annotated[Path, typer.Argument(help="Soundings.")],
+    cloud: Annotated[Path, typer.Argument(metavar="CLOUD", help="Soundings.")],
     out: Annotated[
         Path, typer.Option("--out", "-o", help="Mesh to write: .vtp .ply .obj or .stl.")
     ],
@@ -490,9 +520,9 @@ def triangulate(
     talk.result(data, rows)
 
 
-@_app.command(epilog=_EXIT_CODES)
+@app.command(epilog=_EXIT_CODES)
 def info(
-    file: Annotated[Path, typer.Argument(help="Soundings or a mesh.")],
+    file: Annotated[Path, typer.Argument(metavar="FILE", help="Soundings or a mesh.")],
     columns: Columns = None,
     z: Z = None,
     scale: Scale = None,
@@ -522,7 +552,7 @@ def info(
     talk.result({"file": str(file), **data}, rows, title=file.name)
 
 
-@_app.command(epilog=_EXIT_CODES)
+@app.command(epilog=_EXIT_CODES)
 def survey(
     out: Annotated[
         Path, typer.Argument(metavar="OUT", help="Soundings to write: .xyz .csv .ply or .vtp.")
@@ -586,8 +616,8 @@ def _clean_options(
     return opt.given(voxel=voxel, spike_sigma=spike_sigma, outlier_sigma=outlier_sigma)
 
 
-def _mesh_options(method: Method | None, max_edge: str | None) -> dict[str, Any]:
-    return opt.given(method=method and method.value, max_edge=opt.length_or_none(max_edge))
+def _mesh_options(method: Method | None, max_edge: float | None) -> dict[str, Any]:
+    return opt.given(method=method and method.value, max_edge=max_edge)
 
 
 def _bottom_options(
@@ -598,36 +628,3 @@ def _bottom_options(
     mesh: dict[str, Any],
 ) -> dict[str, Any]:
     return {"as_mesh": as_mesh, "as_plane": as_plane, "read": read, "clean": clean, "mesh": mesh}
-
-
-def app(arguments: list[str] | None = None) -> None:
-    """Run the command line and leave with its exit code; what the script `bathyal` calls."""
-    sys.exit(run(arguments))
-
-
-def run(arguments: list[str] | None = None) -> int:
-    """Run the command line; returns its exit code."""
-    err = Console(stderr=True, highlight=False)
-    try:
-        result = typer.main.get_command(_app).main(
-            args=arguments, prog_name="bathyal", standalone_mode=False
-        )
-        return result if isinstance(result, int) else 0
-    except (click.exceptions.Abort, KeyboardInterrupt):
-        err.print("[red]interrupted[/], nothing was written")
-        return 130
-    except click.ClickException as error:
-        error.show()
-        return error.exit_code
-    except (bathyal.Error, OSError, ValueError) as error:
-        if _Talk.debug:
-            err.print_exception()
-        err.print(f"[red]error:[/] {escape(_one_line(error))}", soft_wrap=True)
-        return 1
-
-
-def _one_line(error: Exception) -> str:
-    if isinstance(error, OSError) and error.strerror:
-        name = f"{error.filename}: " if error.filename else ""
-        return f"{name}{error.strerror}"
-    return " ".join(str(error).split())

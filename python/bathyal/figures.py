@@ -86,7 +86,7 @@ def plan_figure(
     figure.legend(
         handles, labels, loc="lower left", bbox_to_anchor=(_SIDE[0] - 0.008, _SIDE[1] - 0.01),
         fontsize=8, frameon=False, borderaxespad=0.0, handlelength=2.4,
-        handler_map=map_figure.legend_handlers(),
+        handler_map=map_figure.LEGEND_HANDLERS,
     )  # fmt: skip
     profile_figure.draw(figure.add_axes(_PROFILE), surface, path)
     if title:

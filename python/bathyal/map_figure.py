@@ -3,12 +3,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import LinearSegmentedColormap, Normalize
-from matplotlib.legend_handler import HandlerPatch
+from matplotlib.legend_handler import HandlerBase
 from matplotlib.patches import FancyArrowPatch, Rectangle
 from matplotlib.patheffects import withStroke
 from matplotlib.quiver import Quiver
@@ -28,6 +28,7 @@ _DEPTH_MAP = LinearSegmentedColormap.from_list("bathyal_depth", DEPTH)
 _CASED = [withStroke(linewidth=3.2, foreground=INK)]
 _HALO = [withStroke(linewidth=2.5, foreground=PALE)]
 _APPROACH_ARROWS = 32
+MAX_NUMBERS = 40  # targets with their number beside them
 
 
 def draw(
@@ -74,14 +75,22 @@ def draw_locator(axes: Axes, surface: Scene | Plane, window: Window) -> None:
     )
 
 
-def legend_handlers() -> dict[type, HandlerPatch]:
+class _ArrowHandler(HandlerBase):
     """Arrows stand in a legend as arrows: matplotlib draws them as rectangles."""
 
-    def arrow(legend, handle, x, y, width, height, size):  # type: ignore[no-untyped-def]
-        middle = height / 2
-        return FancyArrowPatch((0, middle), (width, middle), arrowstyle="-|>", mutation_scale=8)
+    def create_artists(
+        self, legend: Any, handle: Any, x: float, y: float, width: float, height: float,
+        fontsize: float, trans: Any,
+    ) -> list[FancyArrowPatch]:  # fmt: skip
+        middle = y + height / 2
+        arrow = FancyArrowPatch(
+            (x, middle), (x + width, middle), arrowstyle="-|>", mutation_scale=8, color=INK
+        )
+        arrow.set_transform(trans)
+        return [arrow]
 
-    return {Quiver: HandlerPatch(arrow)}
+
+LEGEND_HANDLERS = {Quiver: _ArrowHandler()}
 
 
 def length_text(metres: float) -> str:
@@ -146,7 +155,7 @@ def tick_offset(low: float, high: float) -> float:
 
 def _add_colour_bar(axes: Axes, bar_axes: Axes, norm: Normalize, stretch: float) -> None:
     bar = axes.figure.colorbar(ScalarMappable(norm, _DEPTH_MAP), cax=bar_axes)
-    bar.set_label("height z [m]", fontsize=9)
+    bar.set_label("height z [m]", fontsize=9, labelpad=5)
     bar.ax.tick_params(labelsize=8)
     bar.formatter.set_useOffset(False)
     if stretch > 1:
@@ -207,12 +216,12 @@ def _draw_targets(axes: Axes, path: ToolPath) -> None:
     rows = np.flatnonzero(np.isfinite(point).all(axis=1))
     axes.plot(
         *point[rows, :2].T, "o", ms=6, mfc=PALE, mec=INK, mew=1.3, zorder=12, ls="none",
-        label="target $A_i$",
+        label="target $A_i$, aim $i$ from 0",
     )  # fmt: skip
-    every = max(1, len(rows) // 40)
+    every = max(1, len(rows) // MAX_NUMBERS)
     for row in rows[::every]:
         axes.annotate(
-            str(row + 1), point[row, :2], xytext=(5, 5), textcoords="offset points", fontsize=9,
+            str(row), point[row, :2], xytext=(5, 5), textcoords="offset points", fontsize=9,
             weight="bold", color=INK, path_effects=_HALO, zorder=13,
         )  # fmt: skip
 

@@ -64,10 +64,8 @@ def column_list(text: str | None) -> list[int | str] | None:
     return [int(name) if name.isdigit() else name for name in names]
 
 
-def length_or_none(text: str | None) -> float | None:
-    """A length [m], or infinity for "none"; what was not given stays None."""
-    if text is None:
-        return None
+def length_or_none(text: str) -> float:
+    """A length [m], or infinity for "none"."""
     if text.strip().lower() == "none":
         return math.inf
     try:

@@ -240,7 +240,8 @@ def make_bottom(
     """
     step = step or nullcontext
     read, clean, mesh = dict(read or {}), dict(clean or {}), dict(mesh or {})
-    with step("Reading the bottom"):
+    told: list[str] = []
+    with step("Reading the bottom"), _noting(told):
         what = read_either(source, as_mesh, read)
     settings = {"read": read, "clean": clean, "triangulate": mesh, "plane": as_plane}
     provenance: dict[str, Any] = {"input": _file_facts(source)}
@@ -251,12 +252,15 @@ def make_bottom(
             raise ValueError(f"`{given}`: expected with soundings only, {source} is a mesh")
         with step("Building the scene"):
             scene = Scene(what)
-        return Bottom(scene, what, 0, settings=settings, provenance=provenance, **datum)
+        return Bottom(
+            scene, what, 0, settings=settings, provenance=provenance, warnings=told, **datum
+        )
     cloud = PointCloud(what.vertices, **datum) if isinstance(what, TriangleMesh) else what
     with step("Cleaning the soundings"):
         cleaned = clean_cloud(cloud, **clean)
     provenance["cleaning"] = cleaned.report.as_dict()
-    cloud, told = cleaned.cloud, _told_by_cleaning(cleaned.report.as_dict())
+    cloud = cleaned.cloud
+    told += _told_by_cleaning(cleaned.report.as_dict())
     common = {"settings": settings, "provenance": provenance, "warnings": told, **datum}
     if as_plane:
         with step("Fitting the plane"):
@@ -271,10 +275,8 @@ def make_bottom(
                 f"(rms {fit.rms:.3g} m); plan on a mesh"
             )
         return Bottom(fit.plane, None, len(cloud), **common)
-    with step("Triangulating"), warnings.catch_warnings(record=True) as caught:
-        warnings.simplefilter("always")
+    with step("Triangulating"), _noting(told):
         seabed = triangulate(cloud, **mesh)
-    told += [str(warning.message) for warning in caught]
     with step("Building the scene"):
         scene = Scene(seabed)
     return Bottom(scene, seabed, len(cloud), **common)
@@ -358,6 +360,15 @@ class _Timed:
         with self._step(name):
             yield
         self.seconds[name] = time.perf_counter() - begin
+
+
+@contextmanager
+def _noting(told: list[str]) -> Iterator[None]:
+    """Python's warnings become lines of the plan's own."""
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        yield
+    told += [str(warning.message) for warning in caught]
 
 
 @contextmanager

@@ -7,9 +7,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 from matplotlib.patheffects import withStroke
+from matplotlib.ticker import MaxNLocator
 
 from bathyal._core import Plane
-from bathyal.map_figure import legend_handlers
+from bathyal.map_figure import LEGEND_HANDLERS, MAX_NUMBERS
 from bathyal.palette import BOTTOM, GAP, INK, PALE, segment_colour
 from bathyal.stations import Stations, runs, spread, unroll
 
@@ -39,15 +40,16 @@ def draw(axes: Axes, surface: Scene | Plane, path: ToolPath) -> None:
     _draw_targets(axes, path, stations)
     scale = "true to scale" if stretch == 1 else f"heights × {stretch:g}"
     axes.set_title(
-        f"Profile of the section ({scale}; approach $a_j$ at its true angle from the vertical)",
+        f"Section ({scale}; $a_j$ at its true angle from the vertical)",
         fontsize=9, loc="left", color=INK,
     )  # fmt: skip
     axes.ticklabel_format(useOffset=False, style="plain")
+    axes.yaxis.set_major_locator(MaxNLocator(6))
     for side in ("top", "right"):
         axes.spines[side].set_visible(False)
     axes.legend(
-        loc="lower right", bbox_to_anchor=(1.0, 0.99), fontsize=8, frameon=False, ncols=4,
-        handlelength=2.4, borderaxespad=0.1, handler_map=legend_handlers(),
+        loc="lower right", bbox_to_anchor=(1.0, 0.99), fontsize=8, frameon=False, ncols=5,
+        handlelength=2.0, columnspacing=1.4, borderaxespad=0.1, handler_map=LEGEND_HANDLERS,
     )  # fmt: skip
 
 
@@ -86,7 +88,7 @@ def _draw_bottom(axes: Axes, surface: Scene | Plane, stations: Stations) -> None
     """Every sheet that the section's plane cuts, so that one sees which the path follows."""
     labelled = False
     for number, along in enumerate(stations.along):
-        begin, end = stations.begin[number : number + 2]
+        begin, end = stations.begin[number], stations.end[number]
         if end <= begin:
             continue
         for line in _cuts(surface, stations.start[number], along, end - begin):
@@ -146,13 +148,14 @@ def _draw_targets(axes: Axes, path: ToolPath, stations: Stations) -> None:
     """The targets stand where segments meet: their numbers are those of the map."""
     known = np.flatnonzero(np.isfinite(path.targets.point).all(axis=1))
     height = path.targets.point[known, 2]
-    x = stations.begin[: len(known)]
+    x = [stations.at_target(row) for row in known]
     for distance in x:
         axes.axvline(distance, color=INK, lw=0.5, ls=":", alpha=0.6, zorder=2)
-    axes.plot(x, height[: len(x)], "o", ms=6, mfc=PALE, mec=INK, mew=1.3, zorder=8, ls="none")
-    for row, distance in zip(known, x, strict=False):
+    axes.plot(x, height, "o", ms=6, mfc=PALE, mec=INK, mew=1.3, zorder=8, ls="none")
+    every = max(1, len(known) // MAX_NUMBERS)
+    for row, distance in zip(known[::every], x[::every], strict=True):
         axes.annotate(
-            str(row + 1), (distance, 0.02), xycoords=("data", "axes fraction"), fontsize=9,
+            str(row), (distance, 0.02), xycoords=("data", "axes fraction"), fontsize=9,
             weight="bold", color=INK, ha="center", zorder=9,
             path_effects=[withStroke(linewidth=2.5, foreground=PALE)],
         )  # fmt: skip

@@ -113,19 +113,26 @@ def _heights(surface: Scene | Plane, x: Floats, y: Floats) -> Floats:
 
 
 def exaggeration(relief: Relief) -> float:
-    """How much heights must be stretched for the shading to show them: 1 for rough ground, up to
-    50 for flat, rounded to 1, 2 or 5 times a power of ten."""
-    slope = np.hypot(*_gradient(relief))
+    """How much heights must be stretched about their mean plane for the shading to show them: 1 for
+    rough ground and for none at all, up to 50 for flat, rounded to 1, 2 or 5 times a power of
+    ten."""
+    gradient = _gradient(relief)
+    slope = np.hypot(*(part - mean for part, mean in zip(gradient, _tilt(gradient), strict=True)))
     slope = slope[np.isfinite(slope)]
     steep = float(np.quantile(slope, 0.9)) if slope.size else 0.0
-    return _round_125(float(np.clip(0.35 / max(steep, 1e-9), 1.0, 50.0)))
+    if steep < 1e-6:
+        return 1.0
+    return _round_125(float(np.clip(0.35 / steep, 1.0, 50.0)))
 
 
 def shade(relief: Relief, stretch: float) -> Floats:
     """Brightness from 0 (turned away from the light) to 1 (facing it) of each pixel; flat ground
     gives about 0.7 and pixels without bottom NaN."""
-    slope_x, slope_y = _gradient(relief)
-    normal = np.stack([-slope_x * stretch, -slope_y * stretch, np.ones_like(slope_x)])
+    gradient = _gradient(relief)
+    slope_x, slope_y = (
+        mean + stretch * (part - mean) for part, mean in zip(gradient, _tilt(gradient), strict=True)
+    )
+    normal = np.stack([-slope_x, -slope_y, np.ones_like(slope_x)])
     facing = np.tensordot(_LIGHT, normal / np.linalg.norm(normal, axis=0), axes=1)
     return np.where(
         np.isfinite(relief.height), np.clip(np.nan_to_num(facing, nan=0.7), 0, 1), np.nan
@@ -135,6 +142,13 @@ def shade(relief: Relief, stretch: float) -> Floats:
 def _gradient(relief: Relief) -> tuple[Floats, Floats]:
     """dz/dx and dz/dy: central, one-sided beside a hole, NaN where neither side has a bottom."""
     return (_slope(relief.height, relief.pixel), _slope(relief.height.T, relief.pixel).T)
+
+
+def _tilt(gradient: tuple[Floats, Floats]) -> tuple[float, float]:
+    """Median slopes: those of the mean plane, which are not stretched."""
+    finite = (part[np.isfinite(part)] for part in gradient)
+    x, y = (float(np.median(part)) if part.size else 0.0 for part in finite)
+    return x, y
 
 
 def _slope(height: Floats, pixel: float) -> Floats:

@@ -29,8 +29,9 @@ class Stations:
     start, along : (S, 3) arrays
         Where each segment begins [m] and its horizontal unit direction (zero for a segment that
         leads straight up or down).
-    begin : (S + 1,) array
-        Distance at which each segment begins [m], and the end of the last.
+    begin, end : (S,) arrays
+        Distances at which each segment begins and ends [m]. Where a gap leads to the next segment
+        that one begins further on.
     segments : (S,) array of int
         Their numbers in `path.segment`.
     """
@@ -41,7 +42,13 @@ class Stations:
     start: Floats
     along: Floats
     begin: Floats
+    end: Floats
     segments: NDArray[np.int32]
+
+    def at_target(self, row: int) -> float:
+        """The distance at which target `row` stands [m]: its segment's begin, or the end."""
+        segment = int(np.searchsorted(self.segments, row))
+        return float(self.begin[segment] if segment < len(self.begin) else self.end[-1])
 
 
 def unroll(path: ToolPath) -> Stations:
@@ -50,11 +57,11 @@ def unroll(path: ToolPath) -> Stations:
     segments, first, counts = np.unique(segment, return_index=True, return_counts=True)
     last = first + counts - 1
     start = surface[first]
-    span = surface[last] - start
-    span[:, 2] = 0.0
+    span = (surface[last] - start) * [1.0, 1.0, 0.0]
     length = np.linalg.norm(span, axis=1)
     along = np.divide(span, length[:, None], out=np.zeros_like(span), where=length[:, None] > 0)
-    begin = np.concatenate([[0.0], np.cumsum(length)])
+    between = np.linalg.norm((start[1:] - surface[last[:-1]])[:, :2], axis=1)
+    begin = np.concatenate([[0.0], np.cumsum(length[:-1] + between)])
 
     of_point = np.searchsorted(segments, segment)
     direction, origin, offset = along[of_point], start[of_point], begin[of_point]
@@ -71,6 +78,7 @@ def unroll(path: ToolPath) -> Stations:
         start=start,
         along=along,
         begin=begin,
+        end=begin + length,
         segments=segments.astype(np.int32),
     )
 

@@ -120,7 +120,7 @@ def write_html(
     """
     drawing = figure.to_html(
         full_html=False, include_plotlyjs=True, div_id="plan", default_height="100%",
-        config={"displaylogo": False, "responsive": True, "showLink": False},
+        config={"displaylogo": False, "responsive": True},
     )  # fmt: skip
     listed = "".join(
         f"<span><b>{html.escape(name)}</b> {html.escape(value)}</span>"
@@ -179,6 +179,7 @@ def _figure(
         f"{name}axis": {
             "title": {"text": _axis_title(name, offset)}, "range": [a - offset, b - offset],
             "backgroundcolor": "#f3f3f1", "gridcolor": "#dddddd", "zerolinecolor": "#dddddd",
+            "nticks": 3 if name == "z" else 7,
         }
         for name, offset, a, b in zip("xyz", origin, low, high, strict=True)
     }  # fmt: skip
@@ -187,7 +188,7 @@ def _figure(
         scene={
             "aspectmode": "manual",
             "aspectratio": _aspect(size, 1),
-            "camera": {"eye": {"x": -0.9, "y": -1.35, "z": 1.0}},
+            "camera": {"eye": {"x": -0.7, "y": -1.05, "z": 0.8}},
             **axes,
         },
         margin={"l": 0, "r": 0, "t": 36, "b": 0},
@@ -289,7 +290,7 @@ def _aim_traces(aims: NDArray[Any], path: ToolPath, origin: Floats) -> list[go.S
                 go.Scatter3d(
                     x=x, y=y, z=z, mode="markers", name="camera", showlegend=bool(rows is hit),
                     marker={"size": 4, "symbol": "square", "color": colour},
-                    text=[f"camera {k + 1}: {targets.status[k]}" for k in np.flatnonzero(rows)],
+                    text=[f"camera {k}: {targets.status[k]}" for k in np.flatnonzero(rows)],
                     hoverinfo="text",
                 )
             )  # fmt: skip
@@ -318,7 +319,7 @@ def _segment_traces(path: ToolPath, origin: Floats) -> list[go.Scatter3d]:
     segment = np.asarray(path.segment)
     table = np.column_stack(
         [
-            np.arange(len(segment)), segment + 1, path.position, path.approach, path.travel,
+            np.arange(len(segment)), segment, path.position, path.approach, path.travel,
             path.arc_length, path.time,
         ]
     )  # fmt: skip
@@ -357,14 +358,14 @@ def _target_trace(path: ToolPath, origin: Floats) -> go.Scatter3d:
     rows = np.flatnonzero(np.isfinite(targets.point).all(axis=1))
     x, y, z = _local(targets.point[rows], origin)
     told = [
-        f"A{row + 1}: {targets.status[row]}<br>"
+        f"A{row}: {targets.status[row]}<br>"
         + "({:.3f}, {:.3f}, {:.3f}) m".format(*targets.point[row])
         + f"<br>range {targets.range[row]:.2f} m, "
         f"incidence {np.degrees(targets.incidence[row]):.0f}°"
         for row in rows
     ]
     return go.Scatter3d(
-        x=x, y=y, z=z, mode="markers+text", name="target A_i", text=[str(row + 1) for row in rows],
+        x=x, y=y, z=z, mode="markers+text", name="target A_i", text=[str(row) for row in rows],
         textposition="top center", textfont={"size": 14, "color": INK}, hovertext=told,
         hoverinfo="text",
         marker={"size": 6, "color": "white", "line": {"color": INK, "width": 2}},

@@ -67,7 +67,7 @@ def test_formats_agree(path, tmp_path):
 
 def test_vtp_lines_stop_at_gaps(path, tmp_path):
     path.write(tmp_path / "path.vtp")
-    lines = [np.asarray(line) for line in read_vtp(tmp_path / "path.vtp").lines]
+    lines = read_vtp(tmp_path / "path.vtp").lines.lists()
     assert len(lines) == path.gap.sum() + 1
     assert np.concatenate(lines).tolist() == list(range(len(path)))
     assert [line[-1] for line in lines[:-1]] == np.flatnonzero(path.gap).tolist()
