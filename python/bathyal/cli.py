@@ -189,7 +189,7 @@ VerticalDatum = Annotated[
 ]
 Voxel = Annotated[
     float | None,
-    typer.Option(help="Keep one sounding a cube of this edge [m].", rich_help_panel="Cleaning"),
+    typer.Option(help="Keep one sounding a cube of this edge \\[m].", rich_help_panel="Cleaning"),
 ]
 SpikeSigma = Annotated[
     float | None,
@@ -235,8 +235,8 @@ Pose = Annotated[
     tuple[float, float, float, float, float, float] | None,
     typer.Option(
         metavar="X Y Z ROLL PITCH YAW",
-        help="Pose of the vehicle whose frame the aims stand in [m, deg]; x forward, y port, z up, "
-        "so a positive pitch is nose down. Without it the aims stand in the survey's frame.",
+        help="Pose of the vehicle whose frame the aims stand in \\[m, deg]; x forward, y port, z "
+        "up, so a positive pitch is nose down. Without it the aims stand in the survey's frame.",
         rich_help_panel="Aims",
     ),
 ]
@@ -320,7 +320,7 @@ def plan(
     max_range: Annotated[
         float | None,
         typer.Option(
-            help="No target further than this [m]. " + _default(_PLAN, "max_range"),
+            help="No target further than this \\[m]. " + _default(_PLAN, "max_range"),
             rich_help_panel="Aims",
         ),
     ] = None,
@@ -335,7 +335,7 @@ def plan(
     step: Annotated[
         float | None,
         typer.Option(
-            help="Longest stretch between samples [m]; 0 keeps the points as cut. "
+            help="Longest stretch between samples \\[m]; 0 keeps the points as cut. "
             + _default(_PLAN, "step"),
             rich_help_panel="Path",
         ),
@@ -343,28 +343,28 @@ def plan(
     standoff: Annotated[
         float | None,
         typer.Option(
-            help="Of the tool from the bottom, along a_j [m]. " + _default(_PLAN, "standoff"),
+            help="Of the tool from the bottom, along a_j \\[m]. " + _default(_PLAN, "standoff"),
             rich_help_panel="Path",
         ),
     ] = None,
     speed: Annotated[
         float | None,
         typer.Option(
-            help="Of the tool along its path [m/s]. " + _default(_PLAN, "speed"),
+            help="Of the tool along its path \\[m/s]. " + _default(_PLAN, "speed"),
             rich_help_panel="Path",
         ),
     ] = None,
     acceleration: Annotated[
         float | None,
         typer.Option(
-            help="Along the path [m/s²]. " + _default(_PLAN, "acceleration"),
+            help="Along the path \\[m/s²]. " + _default(_PLAN, "acceleration"),
             rich_help_panel="Path",
         ),
     ] = None,
     angular_rate_deg: Annotated[
         float | None,
         typer.Option(
-            help="Fastest turn of the tool [deg/s]; the feed slows where it must. "
+            help="Fastest turn of the tool \\[deg/s]; the feed slows where it must. "
             + _default(_PLAN, "angular_rate", degrees=True),
             rich_help_panel="Path",
         ),
@@ -380,14 +380,14 @@ def plan(
     blend_length: Annotated[
         float | None,
         typer.Option(
-            help="Path over which one turn is spread [m]. " + _default(_PLAN, "blend_length"),
+            help="Path over which one turn is spread \\[m]. " + _default(_PLAN, "blend_length"),
             rich_help_panel="Path",
         ),
     ] = None,
     normal_radius: Annotated[
         float | None,
         typer.Option(
-            help="Take normals over the tool's footprint of this radius [m]; 0: the triangle's "
+            help="Take normals over the tool's footprint of this radius \\[m]; 0: the triangle's "
             "own, which noise tilts. " + _default(_PLAN, "normal_radius"),
             rich_help_panel="Path",
         ),
@@ -395,7 +395,7 @@ def plan(
     tool_radius: Annotated[
         float | None,
         typer.Option(
-            help="Of the tool's body, to flag where it meets ground [m]. "
+            help="Of the tool's body, to flag where it meets ground \\[m]. "
             + _default(_PLAN, "tool_radius"),
             rich_help_panel="Path",
         ),
@@ -403,7 +403,7 @@ def plan(
     tool_length: Annotated[
         float | None,
         typer.Option(
-            help="Of the tool's body [m]; 0 checks no body. " + _default(_PLAN, "tool_length"),
+            help="Of the tool's body \\[m]; 0 checks no body. " + _default(_PLAN, "tool_length"),
             rich_help_panel="Path",
         ),
     ] = None,
@@ -412,16 +412,16 @@ def plan(
 ) -> None:
     """Plan a tool path along the bottom through what the camera was pointed at.
 
-    Writes [b]path.csv path.json path.vtp seabed.vtp plan.png plan.html[/b] into the folder: all of
-    them, or none. A path over a gap, or aims that met nothing, are told as warnings.
+    Writes path.csv path.json path.vtp seabed.vtp plan.png plan.html to the folder,
+    all of them or none. Gaps in the path and aims that met nothing are warnings.
 
     [bold]Examples:[/]
 
       bathyal plan survey.xyz --aims aims.csv --out plan
 
-      bathyal plan survey.csv --columns easting,northing,depth --z down --aims aims.csv -o plan
+      bathyal plan survey.csv --columns 0,1,3 --z down --aims aims.csv -o plan
 
-      bathyal plan survey.laz --aims aims.json --standoff 0.15 --normal-radius 0.3 -o plan
+      bathyal plan survey.laz --aims aims.json --standoff 0.1 --step 0.2 -o plan
 
       bathyal plan coral.ply --aims aims.csv --step 0.005 -o plan
     """
@@ -566,11 +566,11 @@ def survey(
     ] = None,
     length: Annotated[
         float | None,
-        typer.Option(help="Along x [m]. " + _default(bathyal.generate_survey, "length")),
+        typer.Option(help="Along x \\[m]. " + _default(bathyal.generate_survey, "length")),
     ] = None,
     width: Annotated[
         float | None,
-        typer.Option(help="Along y [m]. " + _default(bathyal.generate_survey, "width")),
+        typer.Option(help="Along y \\[m]. " + _default(bathyal.generate_survey, "width")),
     ] = None,
     json: Json = False,
     quiet: Quiet = False,

@@ -13,10 +13,10 @@ import time
 
 import numpy as np
 import pytest
-import scenes
 from typer.testing import CliRunner
 
 import bathyal
+import scenes
 from bathyal import cli, options
 from bathyal.examples import write_aims
 from bathyal.vtp import read_vtp
@@ -90,7 +90,10 @@ def test_plan_writes_everything(job, tmp_path):
 
 
 def test_plan_is_what_the_functions_give(job, tmp_path, capsys):
-    assert run(capsys, "plan", job / "survey.xyz", "--aims", job / "found.csv", "-o", tmp_path)[0] == 0  # fmt: skip
+    code, _, err = run(
+        capsys, "plan", job / "survey.xyz", "--aims", job / "found.csv", "-o", tmp_path
+    )
+    assert code == 0, err
     seabed = bathyal.triangulate(bathyal.read_cloud(job / "survey.xyz"))
     path = bathyal.plan_toolpath(bathyal.Scene(seabed), bathyal.read_aims(job / "found.csv"))
     told = read_vtp(tmp_path / "path.vtp")
@@ -137,7 +140,8 @@ def test_plane_way(job, tmp_path, capsys):
     assert sorted(os.listdir(out)) == [name for name in FILES if name != "seabed.vtp"]
     plane = json.loads((out / "path.json").read_text())["provenance"]["plane"]
     assert plane["flat"]
-    assert plane["normal"] == pytest.approx([-0.05 / np.hypot(1, 0.05), 0, 1 / np.hypot(1, 0.05)], abs=1e-3)  # fmt: skip
+    normal = np.array([-0.05, 0, 1]) / np.hypot(1, 0.05)
+    assert plane["normal"] == pytest.approx(normal, abs=1e-3)
     code, text, _ = run(
         capsys, "plan", job / "survey.xyz", "--aims", job / "found.csv", "-o", tmp_path / "rough",
         "--plane", "--json",
@@ -312,7 +316,9 @@ def test_every_default_in_the_help_is_the_engines():
         (["survey", "nowhere/survey.xyz", "--length", "5", "--width", "5"], 1, "nowhere"),
     ],
 )
-def test_refusals_are_one_line_and_leave_nothing(job, tmp_path, capsys, monkeypatch, arguments, code, says):  # fmt: skip
+def test_refusals_are_one_line_and_leave_nothing(
+    job, tmp_path, capsys, monkeypatch, arguments, code, says
+):
     for name in ("survey.xyz", "aims.csv"):
         (tmp_path / name).write_bytes((job / name).read_bytes())
     (tmp_path / "broken.xyz").write_text("1 2 3\n4 5 six\n")
@@ -385,7 +391,8 @@ def test_signal_ends_the_program_cleanly(job, tmp_path):
 def test_pose_turns_as_it_says():
     pose = options.pose_matrix((1.0, 2.0, -3.0, 0.0, 10.0, 90.0))
     nose = pose[:3, :3] @ [1, 0, 0]
-    np.testing.assert_allclose(nose, [0, np.cos(np.radians(10)), -np.sin(np.radians(10))], atol=1e-12)  # fmt: skip
+    down = np.radians(10)
+    np.testing.assert_allclose(nose, [0, np.cos(down), -np.sin(down)], atol=1e-12)
     np.testing.assert_allclose(pose[:3, 3], [1, 2, -3])
     port_up = options.pose_matrix((0, 0, 0, 10.0, 0, 0))[:3, :3] @ [0, 1, 0]
     assert port_up[2] > 0

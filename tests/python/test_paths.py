@@ -10,9 +10,9 @@ import pathlib
 
 import numpy as np
 import pytest
-import scenes
 
 import bathyal
+import scenes
 from bathyal.paths import json_text, path_columns, write_path
 from bathyal.vtp import read_vtp
 
