@@ -30,7 +30,7 @@ _EXIT_CODES = (
 class _Commands(TyperGroup):
     """Turns what went wrong into one line and an exit code; usage errors are typer's own."""
 
-    def invoke(self, ctx: typer.Context) -> Any:
+    def invoke(self, ctx: Any) -> Any:
         err = Console(stderr=True, highlight=False)
         try:
             return super().invoke(ctx)

@@ -15,6 +15,7 @@ from matplotlib.figure import Figure
 from bathyal import map_figure, profile_figure
 from bathyal.files import replacing
 from bathyal.palette import GAP, INK
+from bathyal.relief import Floats
 from bathyal.window import map_window
 
 if TYPE_CHECKING:
@@ -34,7 +35,7 @@ _WARNINGS_SHOWN = 4
 
 def plan_figure(
     surface: Scene | Plane,
-    aims: np.ndarray,
+    aims: Floats,
     path: ToolPath,
     *,
     title: str = "",

@@ -15,7 +15,7 @@ from matplotlib.quiver import Quiver
 from matplotlib.ticker import FuncFormatter, MaxNLocator
 
 from bathyal.palette import DEPTH, GAP, INK, PALE, segment_colour
-from bathyal.relief import Relief, bounds, exaggeration, height_image, shade
+from bathyal.relief import Floats, Relief, bounds, exaggeration, height_image, shade
 from bathyal.stations import runs, spread
 from bathyal.window import Window
 
@@ -35,7 +35,7 @@ def draw(
     axes: Axes,
     bar_axes: Axes,
     surface: Scene | Plane,
-    aims: np.ndarray,
+    aims: Floats,
     path: ToolPath,
     window: Window,
     *,
@@ -115,10 +115,10 @@ def _depth_norm(relief: Relief) -> Normalize:
     return Normalize(middle - half, middle + half)
 
 
-def _shaded(relief: Relief, norm: Normalize, stretch: float) -> np.ndarray:
+def _shaded(relief: Relief, norm: Normalize, stretch: float) -> Floats:
     """(rows, columns, 4) colours: depth darkened and lightened by the shade, clear over holes."""
     light = shade(relief, stretch)[..., None]
-    colour = _DEPTH_MAP(norm(np.nan_to_num(relief.height)))
+    colour: Floats = _DEPTH_MAP(norm(np.nan_to_num(relief.height)))
     rgb = colour[..., :3]
     # Overlay: dark stays dark and bright stays bright, so that depth is still read from colour.
     light = np.nan_to_num(0.5 + 0.75 * (light - 0.7))
@@ -157,7 +157,7 @@ def _add_colour_bar(axes: Axes, bar_axes: Axes, norm: Normalize, stretch: float)
     bar = axes.figure.colorbar(ScalarMappable(norm, _DEPTH_MAP), cax=bar_axes)
     bar.set_label("height z [m]", fontsize=9, labelpad=5)
     bar.ax.tick_params(labelsize=8)
-    bar.formatter.set_useOffset(False)
+    bar.ax.ticklabel_format(useOffset=False)
     if stretch > 1:
         note = f"shading: heights × {stretch:g}, light from upper left"
     else:
@@ -168,7 +168,7 @@ def _add_colour_bar(axes: Axes, bar_axes: Axes, norm: Normalize, stretch: float)
     )  # fmt: skip
 
 
-def _draw_aims(axes: Axes, aims: np.ndarray, path: ToolPath) -> None:
+def _draw_aims(axes: Axes, aims: Floats, path: ToolPath) -> None:
     targets = path.targets
     hit = np.isfinite(targets.point).all(axis=1)
     reach = np.median(targets.range[hit]) if hit.any() else 1.0
@@ -221,7 +221,7 @@ def _draw_targets(axes: Axes, path: ToolPath) -> None:
     every = max(1, len(rows) // MAX_NUMBERS)
     for row in rows[::every]:
         axes.annotate(
-            str(row), point[row, :2], xytext=(5, 5), textcoords="offset points", fontsize=9,
+            str(row), tuple(point[row, :2]), xytext=(5, 5), textcoords="offset points", fontsize=9,
             weight="bold", color=INK, path_effects=_HALO, zorder=13,
         )  # fmt: skip
 

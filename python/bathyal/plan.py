@@ -142,7 +142,7 @@ class Plan:
 
         step = step or nullcontext
         datum = {"crs": self.bottom.crs, "vertical_datum": self.bottom.vertical_datum}
-        told = {"facts": self.facts, "warnings": self.warnings, "title": title}
+        told: dict[str, Any] = {"facts": self.facts, "warnings": self.warnings, "title": title}
         with _all_or_nothing(Path(folder)) as aside:
             with step("Writing the path"):
                 for suffix in ("csv", "vtp"):
@@ -245,7 +245,7 @@ def make_bottom(
         what = read_either(source, as_mesh, read)
     settings = {"read": read, "clean": clean, "triangulate": mesh, "plane": as_plane}
     provenance: dict[str, Any] = {"input": _file_facts(source)}
-    datum = {"crs": what.crs, "vertical_datum": what.vertical_datum}
+    datum: dict[str, Any] = {"crs": what.crs, "vertical_datum": what.vertical_datum}
     if isinstance(what, TriangleMesh) and not as_plane:
         if clean or mesh:
             given = sorted({**clean, **mesh})[0]
@@ -261,7 +261,12 @@ def make_bottom(
     provenance["cleaning"] = cleaned.report.as_dict()
     cloud = cleaned.cloud
     told += _told_by_cleaning(cleaned.report.as_dict())
-    common = {"settings": settings, "provenance": provenance, "warnings": told, **datum}
+    common: dict[str, Any] = {
+        "settings": settings,
+        "provenance": provenance,
+        "warnings": told,
+        **datum,
+    }
     if as_plane:
         with step("Fitting the plane"):
             fit = fit_plane(cloud)
@@ -333,8 +338,10 @@ def _told_by_cleaning(report: Mapping[str, int]) -> list[str]:
 
 
 def _file_facts(path: PathLike) -> dict[str, Any]:
+    digest = hashlib.sha256()
     with open(path, "rb") as stream:
-        digest = hashlib.file_digest(stream, "sha256")
+        while block := stream.read(1 << 20):
+            digest.update(block)
         size = stream.tell()
     return {"file": Path(path).name, "bytes": size, "sha256": digest.hexdigest()}
 

@@ -12,6 +12,7 @@ from matplotlib.ticker import MaxNLocator
 from bathyal._core import Plane
 from bathyal.map_figure import LEGEND_HANDLERS, MAX_NUMBERS
 from bathyal.palette import BOTTOM, GAP, INK, PALE, segment_colour
+from bathyal.relief import Floats
 from bathyal.stations import Stations, runs, spread, unroll
 
 if TYPE_CHECKING:
@@ -103,9 +104,7 @@ def _draw_bottom(axes: Axes, surface: Scene | Plane, stations: Stations) -> None
             labelled = True
 
 
-def _cuts(
-    surface: Scene | Plane, start: np.ndarray, along: np.ndarray, length: float
-) -> list[np.ndarray]:
+def _cuts(surface: Scene | Plane, start: Floats, along: Floats, length: float) -> list[Floats]:
     end = start + along * length
     if isinstance(surface, Plane):
         both = np.vstack([start, end])

@@ -109,4 +109,5 @@ def spread(points: Floats, count: int) -> NDArray[np.int64]:
     step = np.linalg.norm(np.diff(points, axis=0), axis=1)
     travelled = np.concatenate([[0.0], np.cumsum(step)])
     wanted = np.linspace(0.0, travelled[-1], max(count, 1))
-    return np.unique(np.clip(np.searchsorted(travelled, wanted), 0, len(points) - 1))
+    rows: NDArray[np.int64] = np.searchsorted(travelled, wanted)
+    return np.unique(np.clip(rows, 0, len(points) - 1)).astype(np.int64)
