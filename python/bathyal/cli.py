@@ -453,7 +453,7 @@ def plan(
             ),
             step=progress,
         )  # fmt: skip
-        files = planned.write(out, title=cloud.name, step=progress)
+        files = planned.write(out, title=f"Tool path over {cloud.name}", step=progress)
     data = {
         **planned.summary,
         "warnings": planned.warnings,
@@ -540,16 +540,18 @@ def info(
 
       bathyal info coral.ply --json
     """
-    from bathyal.plan import read_either
+    from bathyal.plan import noting, read_either
     from bathyal.reports import describe
 
     talk = _Talk(json=json, quiet=quiet)
+    warnings: list[str] = []
     with talk.progress() as progress:
-        with progress("Reading"):
+        with progress("Reading"), noting(warnings):
             what = read_either(file, as_mesh, _read_options(columns, z, scale, crs, vertical_datum))
         with progress("Looking at it"):
             data, rows = describe(what)
-    talk.result({"file": str(file), **data}, rows, title=file.name)
+    talk.warn(warnings)
+    talk.result({"file": str(file), **data, "warnings": warnings}, rows, title=file.name)
 
 
 @app.command(epilog=_EXIT_CODES)

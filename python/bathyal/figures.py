@@ -117,7 +117,7 @@ def _write_warnings(figure: Figure, warnings: Sequence[str], top: float) -> floa
     if len(warnings) > len(shown):
         shown.append(f"… and {len(warnings) - len(shown)} more in path.json")
     for warning in shown:
-        wrapped = textwrap.wrap(warning, 44)[:4]
+        wrapped = textwrap.wrap(warning, 44, max_lines=4, placeholder=" …")
         figure.text(_SIDE[0], top, "\n".join(wrapped), va="top", fontsize=8, color=GAP)
         top -= _LINE * 0.95 * len(wrapped) + 0.008
     return top

@@ -246,8 +246,10 @@ def _draw_scale_bar(axes: Axes) -> None:
 
 
 def _draw_north(axes: Axes) -> None:
-    axes.annotate(
+    north = axes.annotate(
         "N", xy=(0.965, 0.965), xytext=(0.965, 0.875), xycoords="axes fraction", ha="center",
         va="center", fontsize=11, weight="bold", color=INK, path_effects=_HALO, zorder=15,
         arrowprops={"arrowstyle": "-|>", "color": INK, "lw": 1.6},
     )  # fmt: skip
+    if north.arrow_patch is not None:
+        north.arrow_patch.set_path_effects(_HALO)

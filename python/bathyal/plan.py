@@ -241,8 +241,9 @@ def make_bottom(
     step = step or nullcontext
     read, clean, mesh = dict(read or {}), dict(clean or {}), dict(mesh or {})
     told: list[str] = []
-    with step("Reading the bottom"), _noting(told):
+    with step("Reading the bottom"), noting(told):
         what = read_either(source, as_mesh, read)
+    told[:] = [line.replace(str(source), Path(source).name) for line in told]
     settings = {"read": read, "clean": clean, "triangulate": mesh, "plane": as_plane}
     provenance: dict[str, Any] = {"input": _file_facts(source)}
     datum: dict[str, Any] = {"crs": what.crs, "vertical_datum": what.vertical_datum}
@@ -280,7 +281,7 @@ def make_bottom(
                 f"(rms {fit.rms:.3g} m); plan on a mesh"
             )
         return Bottom(fit.plane, None, len(cloud), **common)
-    with step("Triangulating"), _noting(told):
+    with step("Triangulating"), noting(told):
         seabed = triangulate(cloud, **mesh)
     with step("Building the scene"):
         scene = Scene(seabed)
@@ -370,7 +371,7 @@ class _Timed:
 
 
 @contextmanager
-def _noting(told: list[str]) -> Iterator[None]:
+def noting(told: list[str]) -> Iterator[None]:
     """Python's warnings become lines of the plan's own."""
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")

@@ -105,14 +105,12 @@ def _heights(surface: Scene | Plane, x: Floats, y: Floats) -> Floats:
     grid_x, grid_y = (g.ravel() for g in np.meshgrid(x, y))
     if isinstance(surface, Plane):
         nx, ny, nz = surface.normal
-        heights: Floats = (surface.offset - nx * grid_x - ny * grid_y) / nz
-        return heights
+        return np.asarray((surface.offset - nx * grid_x - ny * grid_y) / nz)
     low, high = bounds(surface)
     above = high[2] + 1.0 + 0.1 * (high[2] - low[2])
     origins = np.column_stack([grid_x, grid_y, np.full(grid_x.size, above)])
     down = np.broadcast_to([0.0, 0.0, -1.0], origins.shape)
-    depth: Floats = surface.cast(origins, down).range
-    return above - depth
+    return above - np.asarray(surface.cast(origins, down).range, np.float64)
 
 
 def exaggeration(relief: Relief) -> float:

@@ -30,6 +30,7 @@ Floats = NDArray[np.float64]
 TRIANGLE_BUDGET = 90_000
 POINT_BUDGET = 120_000
 _APPROACH_ARROWS = 120
+_ARROW = 0.035  # length of an approach arrow, as a share of the picture's size
 _STRETCHES = (1, 2, 5, 10, 20, 50)
 
 
@@ -64,8 +65,9 @@ def show_cloud(cloud: PointCloud) -> go.Figure:
 def show_path(path: ToolPath) -> go.Figure:
     """A tool path, its targets and its approach arrows; what `ToolPath.show` returns."""
     low, high = _box(np.vstack([path.surface, path.position, path.targets.point]))
-    origin = _origin(low, high)
     size = float(np.max(high - low))
+    low, high = _with_room(low, high, path, np.zeros((0, 6)))
+    origin = _origin(low, high)
     return _figure(_path_traces(path, origin, size), low, high, origin, "")
 
 
@@ -97,12 +99,14 @@ def show_plan(surface: Scene | Plane, aims: NDArray[Any], path: ToolPath) -> go.
         notes.append(_triangle_note(sum(len(part[1]) for part in parts), around, total))
     boxes += [part[0] for part in parts]
     low, high = _box(np.vstack(boxes))
+    size = float(np.max(high - low))
+    low, high = _with_room(low, high, path, aims)
     origin = _origin(low, high)
     heights = [part[0][:, 2] for part in parts] or [np.zeros(1)]
     limits = tuple(np.quantile(np.concatenate(heights), [0.002, 0.998]) - origin[2])
     traces = [_bottom_trace(*part, origin, limits) for part in parts]
     traces += _aim_traces(aims, path, origin)
-    traces += _path_traces(path, origin, float(np.max(high - low)))
+    traces += _path_traces(path, origin, size)
     return _figure(traces, low, high, origin, "; ".join(notes))
 
 
@@ -207,7 +211,7 @@ def _figure(
 
 def _aspect(size: Floats, stretch: float) -> dict[str, float]:
     scaled = size * [1.0, 1.0, stretch]
-    scaled = 1.6 * scaled / scaled[:2].max()
+    scaled = 1.9 * scaled / np.linalg.norm(scaled)
     return dict(zip("xyz", map(float, scaled), strict=True))
 
 
@@ -232,6 +236,20 @@ def _box(points: Floats) -> tuple[Floats, Floats]:
     if len(finite) == 0:
         return np.zeros(3), np.ones(3)
     return finite.min(axis=0), finite.max(axis=0)
+
+
+def _with_room(
+    low: Floats, high: Floats, path: ToolPath, aims: NDArray[Any]
+) -> tuple[Floats, Floats]:
+    """Corners that hold the arrows too, and the cameras as far as half the picture's size up."""
+    size = float(np.max(high - low))
+    tips = np.asarray(path.position) + np.asarray(path.approach) * _ARROW * size
+    cameras = aims[np.isfinite(aims).all(axis=1), :3]
+    inside = cameras[
+        np.all((cameras >= low) & (cameras <= high), axis=1, where=[True, True, False])
+    ]
+    inside = np.column_stack([inside[:, :2], np.minimum(inside[:, 2], high[2] + size / 2)])
+    return _box(np.vstack([low, high, tips, inside]))
 
 
 def _depth_scale() -> list[list[Any]]:
@@ -260,7 +278,12 @@ def _bottom_trace(
         x=x, y=y, z=z, i=i, j=j, k=k, intensity=z, colorscale=_depth_scale(), cmin=low, cmax=high,
         name="bottom", showlegend=True, hoverinfo="skip",
         colorbar={"title": {"text": "z [m]"}, "len": 0.6, "thickness": 14},
-        lighting={"ambient": 0.5, "diffuse": 0.9, "specular": 0.1, "roughness": 0.8},
+        # The epsilons are areas below which plotly takes a triangle to have no normal: at the
+        # scale of a coral that would be all of them.
+        lighting={
+            "ambient": 0.5, "diffuse": 0.9, "specular": 0.1, "roughness": 0.8,
+            "facenormalsepsilon": 0.0, "vertexnormalsepsilon": 0.0,
+        },
         lightposition={"x": -20000, "y": 20000, "z": 15000},
     )  # fmt: skip
 
@@ -305,7 +328,7 @@ def _path_traces(path: ToolPath, origin: Floats, size: float) -> list[go.Scatter
         points = _joined(position[gap], position[gap + 1])
         traces.append(_line(points, origin, GAP, 5, "gap: no bottom known", dash="dash"))
     rows = spread(position, _APPROACH_ARROWS)
-    tips = position[rows] + approach[rows] * 0.035 * size
+    tips = position[rows] + approach[rows] * _ARROW * size
     traces.append(_line(_joined(position[rows], tips), origin, INK, 2, "approach a_j"))
     if not np.array_equal(path.position, path.surface):
         feet = _joined(path.surface[rows], position[rows])
