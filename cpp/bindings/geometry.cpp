@@ -119,6 +119,12 @@ Examples
             py::module_::import("bathyal.clouds").attr("write_cloud")(cloud, path);
           },
           py::arg("path"), "Write a file of the format its suffix names: see bathyal.write_cloud.")
+      .def(
+          "show",
+          [](const py::object& cloud) {
+            return py::module_::import("bathyal.views").attr("show_cloud")(cloud);
+          },
+          "An interactive figure (bathyal.views.show_cloud).")
       .def("__len__", &PointCloud::size)
       .def("__repr__", [](const PointCloud& c) {
         return "PointCloud(" + count_text(c.size(), "point") + ")";
@@ -175,6 +181,12 @@ TriangleMesh(3 vertices, 1 triangle)
             py::module_::import("bathyal.meshes").attr("write_mesh")(mesh, path);
           },
           py::arg("path"), "Write a file of the format its suffix names: see bathyal.write_mesh.")
+      .def(
+          "show",
+          [](const py::object& mesh) {
+            return py::module_::import("bathyal.views").attr("show_mesh")(mesh);
+          },
+          "An interactive figure (bathyal.views.show_mesh).")
       .def("__repr__", [](const TriangleMesh& m) {
         return "TriangleMesh(" + std::to_string(m.vertex_count()) +
                (m.vertex_count() == 1 ? " vertex, " : " vertices, ") +

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The picture of a plan: the bottom from above, the profile of the section, and what was planned."""
+"""The picture of a plan: the bottom from above, the profile of the section, what was planned."""
 
 from __future__ import annotations
 
@@ -13,23 +13,29 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 from bathyal import map_figure, profile_figure
-from bathyal._core import Plane
 from bathyal.files import replacing
 from bathyal.palette import GAP, INK
+from bathyal.relief import Floats
+from bathyal.window import map_window
 
 if TYPE_CHECKING:
-    from matplotlib.axes import Axes
+    from bathyal._core import Plane, Scene, ToolPath
 
-    from bathyal._core import Scene, ToolPath
-
-# A4 turned on its side.
+# A4 turned on its side, and where things stand on it as shares of the page: left, bottom, width,
+# height.
 _SIZE_IN = (11.69, 8.27)
 _DPI = 160
+_MAP = (0.070, 0.385, 0.585, 0.545)
+_COLOUR_BAR = (0.663, 0.385, 0.012, 0.545)
+_SIDE = (0.745, 0.385, 0.240, 0.545)
+_PROFILE = (0.070, 0.070, 0.915, 0.225)
+_LINE = 0.0205
+_WARNINGS_SHOWN = 4
 
 
 def plan_figure(
-    bottom: Scene | Plane,
-    aims: np.ndarray,
+    surface: Scene | Plane,
+    aims: Floats,
     path: ToolPath,
     *,
     title: str = "",
@@ -41,10 +47,10 @@ def plan_figure(
 
     Parameters
     ----------
-    bottom : Scene or Plane
+    surface : Scene or Plane
         What the path was planned on.
     aims : (K, 6) array
-        Camera axes: origin and direction [m], in the frame of the bottom.
+        Camera axes: origin and direction [m], in the frame of the surface.
     path : ToolPath
         What `plan_toolpath` returned for them.
     title : str
@@ -58,28 +64,34 @@ def plan_figure(
     Returns
     -------
     matplotlib.figure.Figure
-        Of its own Agg canvas; no window and no global state of pyplot is touched.
+        With an Agg canvas of its own: no window, and nothing of pyplot's state is touched.
     """
     aims = np.asarray(aims, float).reshape(-1, 6)
     figure = Figure(figsize=_SIZE_IN, dpi=_DPI, facecolor="white")
     FigureCanvasAgg(figure)
-    rows = figure.add_gridspec(
-        2, 1, height_ratios=[2.15, 1.0], left=0.065, right=0.985, top=0.93, bottom=0.07, hspace=0.17
-    )
-    top = rows[0].subgridspec(1, 2, width_ratios=[3.1, 1.0], wspace=0.20)
-    side = top[1].subgridspec(2, 1, height_ratios=[1.0, 1.25], hspace=0.08)
+    aspect = _MAP[2] * _SIZE_IN[0] / (_MAP[3] * _SIZE_IN[1])
+    window = map_window(surface, aims, path, aspect)
 
-    window = map_figure.window(bottom, aims, path)
-    map_figure.draw(figure.add_subplot(top[0]), bottom, aims, path, window, crs=crs)
-    locator = figure.add_subplot(side[0])
-    located = map_figure.draw_locator(locator, bottom, window)
-    told = path.warnings if warnings is None else warnings
-    _draw_facts(figure.add_subplot(side[1] if located else top[1]), facts or {}, told)
-    if not located:
-        locator.remove()
-    profile_figure.draw(figure.add_subplot(rows[1]), bottom, path)
+    plan = figure.add_axes(_MAP)
+    map_figure.draw(plan, figure.add_axes(_COLOUR_BAR), surface, aims, path, window, crs=crs)
+    top = _SIDE[1] + _SIDE[3]
+    if not window.whole:
+        height = 0.20
+        locator = figure.add_axes((_SIDE[0], top - height - 0.012, _SIDE[2], height))
+        map_figure.draw_locator(locator, surface, window)
+        top -= height + 0.045
+    top = _write_facts(figure, facts or {}, top)
+    told = list(path.warnings if warnings is None else warnings)
+    top = _write_warnings(figure, told, top - _LINE)
+    handles, labels = plan.get_legend_handles_labels()
+    figure.legend(
+        handles, labels, loc="lower left", bbox_to_anchor=(_SIDE[0] - 0.008, _SIDE[1] - 0.01),
+        fontsize=8, frameon=False, borderaxespad=0.0, handlelength=2.4,
+        handler_map=map_figure.LEGEND_HANDLERS,
+    )  # fmt: skip
+    profile_figure.draw(figure.add_axes(_PROFILE), surface, path)
     if title:
-        figure.suptitle(title, x=0.065, y=0.975, ha="left", fontsize=13, weight="bold", color=INK)
+        figure.text(_MAP[0], 0.955, title, fontsize=13, weight="bold", color=INK)
     return figure
 
 
@@ -89,20 +101,23 @@ def write_png(figure: Figure, path: str | os.PathLike[str]) -> None:
         figure.savefig(aside, format="png", metadata={"Software": "bathyal"})
 
 
-def _draw_facts(axes: Axes, facts: Mapping[str, str], warnings: Sequence[str]) -> None:
-    axes.set_axis_off()
-    style: dict[str, Any] = {"transform": axes.transAxes, "va": "top", "color": INK}
-    y, line = 1.0, 0.052
+def _write_facts(figure: Figure, facts: Mapping[str, str], top: float) -> float:
+    """Names to the left, values to the right; returns where the next line stands."""
+    style: dict[str, Any] = {"va": "top", "fontsize": 8.5, "color": INK}
     for name, value in facts.items():
-        wrapped = textwrap.wrap(value, 24) or [""]
-        axes.text(0.0, y, name, fontsize=8.5, alpha=0.75, **style)
-        axes.text(1.0, y, "\n".join(wrapped), fontsize=8.5, ha="right", **style)
-        y -= line * len(wrapped) + 0.008
-    y -= line / 2
-    shown = list(warnings[:4])
+        wrapped = textwrap.wrap(value, 26) or [""]
+        figure.text(_SIDE[0], top, name, alpha=0.7, **style)
+        figure.text(_SIDE[0] + _SIDE[2], top, "\n".join(wrapped), ha="right", **style)
+        top -= _LINE * len(wrapped)
+    return top
+
+
+def _write_warnings(figure: Figure, warnings: Sequence[str], top: float) -> float:
+    shown = list(warnings[:_WARNINGS_SHOWN])
     if len(warnings) > len(shown):
-        shown.append(f"and {len(warnings) - len(shown)} more: see path.json")
+        shown.append(f"… and {len(warnings) - len(shown)} more in path.json")
     for warning in shown:
-        wrapped = textwrap.wrap(warning, 40)
-        axes.text(0.0, y, "\n".join(wrapped), fontsize=8, **{**style, "color": GAP})
-        y -= line * len(wrapped) + 0.015
+        wrapped = textwrap.wrap(warning, 44, max_lines=4, placeholder=" …")
+        figure.text(_SIDE[0], top, "\n".join(wrapped), va="top", fontsize=8, color=GAP)
+        top -= _LINE * 0.95 * len(wrapped) + 0.008
+    return top

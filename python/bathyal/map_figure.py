@@ -3,18 +3,21 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from matplotlib.cm import ScalarMappable
 from matplotlib.colors import LinearSegmentedColormap, Normalize
-from matplotlib.patches import Rectangle
+from matplotlib.legend_handler import HandlerBase
+from matplotlib.patches import FancyArrowPatch, Rectangle
 from matplotlib.patheffects import withStroke
+from matplotlib.quiver import Quiver
 from matplotlib.ticker import FuncFormatter, MaxNLocator
 
 from bathyal.palette import DEPTH, GAP, INK, PALE, segment_colour
-from bathyal.relief import Relief, bounds, exaggeration, height_image, shade
+from bathyal.relief import Floats, Relief, bounds, exaggeration, height_image, shade
 from bathyal.stations import runs, spread
+from bathyal.window import Window
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -24,69 +27,41 @@ if TYPE_CHECKING:
 _DEPTH_MAP = LinearSegmentedColormap.from_list("bathyal_depth", DEPTH)
 _CASED = [withStroke(linewidth=3.2, foreground=INK)]
 _HALO = [withStroke(linewidth=2.5, foreground=PALE)]
-_ASPECT = 1.33  # width to height of the map on the page
-_APPROACH_ARROWS = 40
-
-
-@dataclass(frozen=True)
-class Window:
-    """What part of the bottom the map shows: corners (2,) [m]; `whole` when that is all of it."""
-
-    low: np.ndarray
-    high: np.ndarray
-    whole: bool
-
-
-def window(bottom: Scene | Plane, aims: np.ndarray, path: ToolPath) -> Window:
-    """The whole survey where the path can be seen on it, the path's surroundings otherwise."""
-    finite = aims[np.isfinite(aims).all(axis=1), :3]
-    low, high = bounds(bottom)
-    near_low, near_high = _surroundings(path, finite)
-    if np.all(high[:2] <= low[:2]):  # a plane, or a scene without a triangle
-        return Window(*_shaped(near_low, near_high), whole=True)
-    if np.any(near_high <= near_low) or np.max(high - low) <= 2.5 * np.max(near_high - near_low):
-        margin = 0.02 * (high[:2] - low[:2])
-        return Window(*_shaped(low[:2] - margin, high[:2] + margin), whole=True)
-    return Window(*_shaped(near_low, near_high), whole=False)
+_APPROACH_ARROWS = 32
+MAX_NUMBERS = 40  # targets with their number beside them
 
 
 def draw(
     axes: Axes,
-    bottom: Scene | Plane,
-    aims: np.ndarray,
+    bar_axes: Axes,
+    surface: Scene | Plane,
+    aims: Floats,
     path: ToolPath,
     window: Window,
     *,
     crs: str = "",
 ) -> None:
-    """Draw the map, its colour bar, scale bar and legend."""
-    relief = height_image(bottom, window.low, window.high)
+    """Draw the map and its colour bar; what is drawn is labelled for a legend."""
+    relief = height_image(surface, window.low, window.high)
     stretch = exaggeration(relief)
     norm = _depth_norm(relief)
-    axes.imshow(
-        _shaded(relief, norm, stretch), extent=relief.extent, origin="lower", zorder=1
-    )
+    axes.imshow(_shaded(relief, norm, stretch), extent=relief.extent, origin="lower", zorder=1)
     axes.set_facecolor("#f3f3f1")
     axes.set(xlim=relief.extent[:2], ylim=relief.extent[2:], aspect="equal")
     _label_axes(axes, crs)
-    _add_colour_bar(axes, norm, stretch)
+    _add_colour_bar(axes, bar_axes, norm, stretch)
     _draw_aims(axes, aims, path)
     _draw_path(axes, path, relief)
     _draw_targets(axes, path)
     _draw_scale_bar(axes)
     if crs:
         _draw_north(axes)
-    axes.legend(
-        loc="upper left", fontsize=7.5, framealpha=0.85, borderpad=0.5, handlelength=2.2
-    ).set_zorder(20)
 
 
-def draw_locator(axes: Axes, bottom: Scene | Plane, window: Window) -> bool:
-    """Draw where the map lies in the survey; returns False when the map shows all of it."""
-    if window.whole:
-        return False
-    low, high = bounds(bottom)
-    relief = height_image(bottom, low, high, pixels=240, samples=1)
+def draw_locator(axes: Axes, surface: Scene | Plane, window: Window) -> None:
+    """Draw where the map lies in the survey."""
+    low, high = bounds(surface)
+    relief = height_image(surface, low, high, pixels=240, samples=1)
     image = _shaded(relief, _depth_norm(relief), exaggeration(relief))
     axes.imshow(image, extent=relief.extent, origin="lower")
     width, height = window.high - window.low
@@ -96,9 +71,26 @@ def draw_locator(axes: Axes, bottom: Scene | Plane, window: Window) -> bool:
     axes.set(xticks=[], yticks=[], aspect="equal", anchor="N")
     size = high - low
     axes.set_title(
-        f"survey, {length_text(size[0])} × {length_text(size[1])}", fontsize=8.5, color=INK
+        f"the survey, {length_text(size[0])} × {length_text(size[1])}", fontsize=8.5, color=INK
     )
-    return True
+
+
+class _ArrowHandler(HandlerBase):
+    """Arrows stand in a legend as arrows: matplotlib draws them as rectangles."""
+
+    def create_artists(
+        self, legend: Any, handle: Any, x: float, y: float, width: float, height: float,
+        fontsize: float, trans: Any,
+    ) -> list[FancyArrowPatch]:  # fmt: skip
+        middle = y + height / 2
+        arrow = FancyArrowPatch(
+            (x, middle), (x + width, middle), arrowstyle="-|>", mutation_scale=8, color=INK
+        )
+        arrow.set_transform(trans)
+        return [arrow]
+
+
+LEGEND_HANDLERS = {Quiver: _ArrowHandler()}
 
 
 def length_text(metres: float) -> str:
@@ -114,25 +106,6 @@ def plain_text(value: float) -> str:
     return text.replace(",", "\N{THIN SPACE}").replace("-", "\N{MINUS SIGN}")
 
 
-def _surroundings(path: ToolPath, cameras: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    points = np.vstack([path.surface, path.targets.point])
-    points = points[np.isfinite(points).all(axis=1)][:, :2]
-    if len(points) == 0:
-        points = cameras[:, :2]
-    if len(points) == 0:
-        return np.zeros(2), np.zeros(2)
-    low, high = points.min(axis=0), points.max(axis=0)
-    margin = max(0.25 * np.max(high - low), 1e-3)
-    return low - margin, high + margin
-
-
-def _shaped(low: np.ndarray, high: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Widened to the shape of the map on the page."""
-    size, centre = np.maximum(high - low, 1e-6), (low + high) / 2
-    size = np.maximum(size, [size[1] * _ASPECT, size[0] / _ASPECT])
-    return centre - size / 2, centre + size / 2
-
-
 def _depth_norm(relief: Relief) -> Normalize:
     height = relief.height[np.isfinite(relief.height)]
     if height.size == 0:
@@ -142,10 +115,10 @@ def _depth_norm(relief: Relief) -> Normalize:
     return Normalize(middle - half, middle + half)
 
 
-def _shaded(relief: Relief, norm: Normalize, stretch: float) -> np.ndarray:
+def _shaded(relief: Relief, norm: Normalize, stretch: float) -> Floats:
     """(rows, columns, 4) colours: depth darkened and lightened by the shade, clear over holes."""
     light = shade(relief, stretch)[..., None]
-    colour = _DEPTH_MAP(norm(np.nan_to_num(relief.height)))
+    colour: Floats = _DEPTH_MAP(norm(np.nan_to_num(relief.height)))
     rgb = colour[..., :3]
     # Overlay: dark stays dark and bright stays bright, so that depth is still read from colour.
     light = np.nan_to_num(0.5 + 0.75 * (light - 0.7))
@@ -180,15 +153,11 @@ def tick_offset(low: float, high: float) -> float:
     return float(np.floor(low / round_to) * round_to)
 
 
-def _add_colour_bar(axes: Axes, norm: Normalize, stretch: float) -> None:
-    from matplotlib.cm import ScalarMappable
-
-    bar = axes.figure.colorbar(
-        ScalarMappable(norm, _DEPTH_MAP), ax=axes, fraction=0.03, pad=0.012, aspect=34
-    )
-    bar.set_label("height z [m]", fontsize=9)
+def _add_colour_bar(axes: Axes, bar_axes: Axes, norm: Normalize, stretch: float) -> None:
+    bar = axes.figure.colorbar(ScalarMappable(norm, _DEPTH_MAP), cax=bar_axes)
+    bar.set_label("height z [m]", fontsize=9, labelpad=5)
     bar.ax.tick_params(labelsize=8)
-    bar.formatter.set_useOffset(False)
+    bar.ax.ticklabel_format(useOffset=False)
     if stretch > 1:
         note = f"shading: heights × {stretch:g}, light from upper left"
     else:
@@ -199,7 +168,7 @@ def _add_colour_bar(axes: Axes, norm: Normalize, stretch: float) -> None:
     )  # fmt: skip
 
 
-def _draw_aims(axes: Axes, aims: np.ndarray, path: ToolPath) -> None:
+def _draw_aims(axes: Axes, aims: Floats, path: ToolPath) -> None:
     targets = path.targets
     hit = np.isfinite(targets.point).all(axis=1)
     reach = np.median(targets.range[hit]) if hit.any() else 1.0
@@ -236,8 +205,8 @@ def _draw_path(axes: Axes, path: ToolPath, relief: Relief) -> None:
     rows = spread(position[:, :2], _APPROACH_ARROWS)
     width = relief.extent[1] - relief.extent[0]
     axes.quiver(
-        *position[rows, :2].T, *(np.asarray(path.approach)[rows, :2] * width * 0.12).T,
-        angles="xy", scale_units="xy", scale=1, width=0.0022, color=INK, zorder=11,
+        *position[rows, :2].T, *(np.asarray(path.approach)[rows, :2] * width * 0.07).T,
+        angles="xy", scale_units="xy", scale=1, width=0.0018, color=INK, zorder=11,
         headwidth=4, headlength=5, headaxislength=4.5, label="approach $a_j$, horizontal part",
     )  # fmt: skip
 
@@ -247,12 +216,12 @@ def _draw_targets(axes: Axes, path: ToolPath) -> None:
     rows = np.flatnonzero(np.isfinite(point).all(axis=1))
     axes.plot(
         *point[rows, :2].T, "o", ms=6, mfc=PALE, mec=INK, mew=1.3, zorder=12, ls="none",
-        label="target $A_i$",
+        label="target $A_i$, aim $i$ from 0",
     )  # fmt: skip
-    every = max(1, len(rows) // 40)
+    every = max(1, len(rows) // MAX_NUMBERS)
     for row in rows[::every]:
         axes.annotate(
-            str(row + 1), point[row, :2], xytext=(5, 5), textcoords="offset points", fontsize=9,
+            str(row), tuple(point[row, :2]), xytext=(5, 5), textcoords="offset points", fontsize=9,
             weight="bold", color=INK, path_effects=_HALO, zorder=13,
         )  # fmt: skip
 
@@ -277,8 +246,10 @@ def _draw_scale_bar(axes: Axes) -> None:
 
 
 def _draw_north(axes: Axes) -> None:
-    axes.annotate(
+    north = axes.annotate(
         "N", xy=(0.965, 0.965), xytext=(0.965, 0.875), xycoords="axes fraction", ha="center",
         va="center", fontsize=11, weight="bold", color=INK, path_effects=_HALO, zorder=15,
         arrowprops={"arrowstyle": "-|>", "color": INK, "lw": 1.6},
     )  # fmt: skip
+    if north.arrow_patch is not None:
+        north.arrow_patch.set_path_effects(_HALO)

@@ -7,9 +7,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 from matplotlib.patheffects import withStroke
+from matplotlib.ticker import MaxNLocator
 
 from bathyal._core import Plane
+from bathyal.map_figure import LEGEND_HANDLERS, MAX_NUMBERS
 from bathyal.palette import BOTTOM, GAP, INK, PALE, segment_colour
+from bathyal.relief import Floats
 from bathyal.stations import Stations, runs, spread, unroll
 
 if TYPE_CHECKING:
@@ -21,7 +24,7 @@ _ARROWS = 60
 _ARROW_PT = 20.0
 
 
-def draw(axes: Axes, bottom: Scene | Plane, path: ToolPath) -> None:
+def draw(axes: Axes, surface: Scene | Plane, path: ToolPath) -> None:
     """Draw height against distance along the section, one segment after the other."""
     axes.set_xlabel("distance along the section, from target to target [m]", fontsize=9)
     axes.set_ylabel("height z [m]", fontsize=9)
@@ -32,19 +35,23 @@ def draw(axes: Axes, bottom: Scene | Plane, path: ToolPath) -> None:
         return
     stations = unroll(path)
     stretch = _set_limits(axes, stations)
-    _draw_bottom(axes, bottom, stations)
+    _draw_bottom(axes, surface, stations)
     _draw_tool(axes, stations, path)
     _draw_normals(axes, stations)
     _draw_targets(axes, path, stations)
     scale = "true to scale" if stretch == 1 else f"heights × {stretch:g}"
     axes.set_title(
-        f"Profile of the section ({scale}; approach $a_j$ at its true angle from the vertical)",
+        f"Section ({scale}; $a_j$ at its true angle from the vertical)",
         fontsize=9, loc="left", color=INK,
     )  # fmt: skip
     axes.ticklabel_format(useOffset=False, style="plain")
+    axes.yaxis.set_major_locator(MaxNLocator(6))
     for side in ("top", "right"):
         axes.spines[side].set_visible(False)
-    axes.legend(loc="upper right", fontsize=7.5, framealpha=0.85, ncols=4)
+    axes.legend(
+        loc="lower right", bbox_to_anchor=(1.0, 0.99), fontsize=8, frameon=False, ncols=5,
+        handlelength=2.0, columnspacing=1.4, borderaxespad=0.1, handler_map=LEGEND_HANDLERS,
+    )  # fmt: skip
 
 
 def _set_limits(axes: Axes, stations: Stations) -> float:
@@ -78,14 +85,14 @@ def round_down(value: float) -> float:
     return float(max(step for step in (power, 2 * power, 5 * power) if step <= value * (1 + 1e-9)))
 
 
-def _draw_bottom(axes: Axes, bottom: Scene | Plane, stations: Stations) -> None:
-    """Every sheet that the section's plane cuts, so that one sees which of them the path follows."""
+def _draw_bottom(axes: Axes, surface: Scene | Plane, stations: Stations) -> None:
+    """Every sheet that the section's plane cuts, so that one sees which the path follows."""
     labelled = False
     for number, along in enumerate(stations.along):
-        begin, end = stations.begin[number : number + 2]
+        begin, end = stations.begin[number], stations.end[number]
         if end <= begin:
             continue
-        for line in _cuts(bottom, stations.start[number], along, end - begin):
+        for line in _cuts(surface, stations.start[number], along, end - begin):
             distance = begin + (line - stations.start[number]) @ along
             axes.plot(
                 distance, line[:, 2], color=BOTTOM, lw=2.6, zorder=3, solid_capstyle="round",
@@ -97,15 +104,13 @@ def _draw_bottom(axes: Axes, bottom: Scene | Plane, stations: Stations) -> None:
             labelled = True
 
 
-def _cuts(
-    bottom: Scene | Plane, start: np.ndarray, along: np.ndarray, length: float
-) -> list[np.ndarray]:
+def _cuts(surface: Scene | Plane, start: Floats, along: Floats, length: float) -> list[Floats]:
     end = start + along * length
-    if isinstance(bottom, Plane):
+    if isinstance(surface, Plane):
         both = np.vstack([start, end])
-        both[:, 2] -= bottom.distance(both) / bottom.normal[2]
+        both[:, 2] -= surface.distance(both) / surface.normal[2]
         return [both]
-    return [np.asarray(line.points) for line in bottom.section(start, end)]
+    return [np.asarray(line.points) for line in surface.section(start, end)]
 
 
 def _draw_tool(axes: Axes, stations: Stations, path: ToolPath) -> None:
@@ -142,13 +147,14 @@ def _draw_targets(axes: Axes, path: ToolPath, stations: Stations) -> None:
     """The targets stand where segments meet: their numbers are those of the map."""
     known = np.flatnonzero(np.isfinite(path.targets.point).all(axis=1))
     height = path.targets.point[known, 2]
-    x = stations.begin[: len(known)]
+    x = [stations.at_target(row) for row in known]
     for distance in x:
         axes.axvline(distance, color=INK, lw=0.5, ls=":", alpha=0.6, zorder=2)
-    axes.plot(x, height[: len(x)], "o", ms=6, mfc=PALE, mec=INK, mew=1.3, zorder=8, ls="none")
-    for row, distance in zip(known, x, strict=False):
+    axes.plot(x, height, "o", ms=6, mfc=PALE, mec=INK, mew=1.3, zorder=8, ls="none")
+    every = max(1, len(known) // MAX_NUMBERS)
+    for row, distance in zip(known[::every], x[::every], strict=True):
         axes.annotate(
-            str(row + 1), (distance, 0.02), xycoords=("data", "axes fraction"), fontsize=9,
+            str(row), (distance, 0.02), xycoords=("data", "axes fraction"), fontsize=9,
             weight="bold", color=INK, ha="center", zorder=9,
             path_effects=[withStroke(linewidth=2.5, foreground=PALE)],
         )  # fmt: skip

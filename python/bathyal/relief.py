@@ -50,14 +50,14 @@ class Relief:
         return (self.x[0] - half, self.x[-1] + half, self.y[0] - half, self.y[-1] + half)
 
 
-def bounds(bottom: Scene | Plane, *points: Floats) -> tuple[Floats, Floats]:
+def bounds(surface: Scene | Plane, *points: Floats) -> tuple[Floats, Floats]:
     """Lowest and highest corner (3,) of the bottom's meshes and of what else is given [m].
 
     A plane has no bounds of its own. Rows that are not finite do not count.
     """
     clouds = [np.asarray(p).reshape(-1, 3) for p in points]
-    if not isinstance(bottom, Plane):
-        clouds += [mesh.vertices for mesh in bottom.meshes]
+    if not isinstance(surface, Plane):
+        clouds += [mesh.vertices for mesh in surface.meshes]
     low, high = np.full(3, np.inf), np.full(3, -np.inf)
     for cloud in clouds:
         finite = cloud if np.isfinite(cloud).all() else cloud[np.isfinite(cloud).all(axis=1)]
@@ -69,7 +69,7 @@ def bounds(bottom: Scene | Plane, *points: Floats) -> tuple[Floats, Floats]:
 
 
 def height_image(
-    bottom: Scene | Plane,
+    surface: Scene | Plane,
     low: Floats,
     high: Floats,
     *,
@@ -91,7 +91,7 @@ def height_image(
         centre[k] + (np.arange(shape[k] * samples) - (shape[k] * samples - 1) / 2) * fine
         for k in range(2)
     )
-    height = _heights(bottom, x, y).reshape(shape[1], samples, shape[0], samples)
+    height = _heights(surface, x, y).reshape(shape[1], samples, shape[0], samples)
     seen = np.isfinite(height)
     total = np.where(seen, height, 0.0).sum(axis=(1, 3))
     count = seen.sum(axis=(1, 3))
@@ -100,39 +100,56 @@ def height_image(
     return Relief(mean, x, y)
 
 
-def _heights(bottom: Scene | Plane, x: Floats, y: Floats) -> Floats:
+def _heights(surface: Scene | Plane, x: Floats, y: Floats) -> Floats:
     """z of the highest sheet over the grid of `x` and `y`, row by row (N,)."""
     grid_x, grid_y = (g.ravel() for g in np.meshgrid(x, y))
-    if isinstance(bottom, Plane):
-        nx, ny, nz = bottom.normal
-        return (bottom.offset - nx * grid_x - ny * grid_y) / nz
-    low, high = bounds(bottom)
+    if isinstance(surface, Plane):
+        nx, ny, nz = surface.normal
+        return np.asarray((surface.offset - nx * grid_x - ny * grid_y) / nz)
+    low, high = bounds(surface)
     above = high[2] + 1.0 + 0.1 * (high[2] - low[2])
     origins = np.column_stack([grid_x, grid_y, np.full(grid_x.size, above)])
-    return above - bottom.cast(origins, np.broadcast_to([0.0, 0.0, -1.0], origins.shape)).range
+    down = np.broadcast_to([0.0, 0.0, -1.0], origins.shape)
+    return above - np.asarray(surface.cast(origins, down).range, np.float64)
 
 
 def exaggeration(relief: Relief) -> float:
-    """How much heights must be stretched for the shading to show them: 1 for rough ground, up to
-    50 for flat, rounded to 1, 2 or 5 times a power of ten."""
-    slope = np.hypot(*_gradient(relief))
+    """How much heights must be stretched about their mean plane for the shading to show them: 1 for
+    rough ground and for none at all, up to 50 for flat, rounded to 1, 2 or 5 times a power of
+    ten."""
+    gradient = _gradient(relief)
+    slope = np.hypot(*(part - mean for part, mean in zip(gradient, _tilt(gradient), strict=True)))
     slope = slope[np.isfinite(slope)]
     steep = float(np.quantile(slope, 0.9)) if slope.size else 0.0
-    return _round_125(float(np.clip(0.35 / max(steep, 1e-9), 1.0, 50.0)))
+    if steep < 1e-6:
+        return 1.0
+    return _round_125(float(np.clip(0.35 / steep, 1.0, 50.0)))
 
 
 def shade(relief: Relief, stretch: float) -> Floats:
     """Brightness from 0 (turned away from the light) to 1 (facing it) of each pixel; flat ground
     gives about 0.7 and pixels without bottom NaN."""
-    slope_x, slope_y = _gradient(relief)
-    normal = np.stack([-slope_x * stretch, -slope_y * stretch, np.ones_like(slope_x)])
+    gradient = _gradient(relief)
+    slope_x, slope_y = (
+        mean + stretch * (part - mean) for part, mean in zip(gradient, _tilt(gradient), strict=True)
+    )
+    normal = np.stack([-slope_x, -slope_y, np.ones_like(slope_x)])
     facing = np.tensordot(_LIGHT, normal / np.linalg.norm(normal, axis=0), axes=1)
-    return np.where(np.isfinite(relief.height), np.clip(np.nan_to_num(facing, nan=0.7), 0, 1), np.nan)
+    return np.where(
+        np.isfinite(relief.height), np.clip(np.nan_to_num(facing, nan=0.7), 0, 1), np.nan
+    )
 
 
 def _gradient(relief: Relief) -> tuple[Floats, Floats]:
     """dz/dx and dz/dy: central, one-sided beside a hole, NaN where neither side has a bottom."""
     return (_slope(relief.height, relief.pixel), _slope(relief.height.T, relief.pixel).T)
+
+
+def _tilt(gradient: tuple[Floats, Floats]) -> tuple[float, float]:
+    """Median slopes: those of the mean plane, which are not stretched."""
+    finite = (part[np.isfinite(part)] for part in gradient)
+    x, y = (float(np.median(part)) if part.size else 0.0 for part in finite)
+    return x, y
 
 
 def _slope(height: Floats, pixel: float) -> Floats:

@@ -29,8 +29,9 @@ class Stations:
     start, along : (S, 3) arrays
         Where each segment begins [m] and its horizontal unit direction (zero for a segment that
         leads straight up or down).
-    begin : (S + 1,) array
-        Distance at which each segment begins [m], and the end of the last.
+    begin, end : (S,) arrays
+        Distances at which each segment begins and ends [m]. Where a gap leads to the next segment
+        that one begins further on.
     segments : (S,) array of int
         Their numbers in `path.segment`.
     """
@@ -41,7 +42,13 @@ class Stations:
     start: Floats
     along: Floats
     begin: Floats
+    end: Floats
     segments: NDArray[np.int32]
+
+    def at_target(self, row: int) -> float:
+        """The distance at which target `row` stands [m]: its segment's begin, or the end."""
+        segment = int(np.searchsorted(self.segments, row))
+        return float(self.begin[segment] if segment < len(self.begin) else self.end[-1])
 
 
 def unroll(path: ToolPath) -> Stations:
@@ -50,11 +57,11 @@ def unroll(path: ToolPath) -> Stations:
     segments, first, counts = np.unique(segment, return_index=True, return_counts=True)
     last = first + counts - 1
     start = surface[first]
-    span = surface[last] - start
-    span[:, 2] = 0.0
+    span = (surface[last] - start) * [1.0, 1.0, 0.0]
     length = np.linalg.norm(span, axis=1)
     along = np.divide(span, length[:, None], out=np.zeros_like(span), where=length[:, None] > 0)
-    begin = np.concatenate([[0.0], np.cumsum(length)])
+    between = np.linalg.norm((start[1:] - surface[last[:-1]])[:, :2], axis=1)
+    begin = np.concatenate([[0.0], np.cumsum(length[:-1] + between)])
 
     of_point = np.searchsorted(segments, segment)
     direction, origin, offset = along[of_point], start[of_point], begin[of_point]
@@ -71,6 +78,7 @@ def unroll(path: ToolPath) -> Stations:
         start=start,
         along=along,
         begin=begin,
+        end=begin + length,
         segments=segments.astype(np.int32),
     )
 
@@ -90,8 +98,7 @@ def runs(path: ToolPath) -> list[tuple[int, int]]:
     ends = np.concatenate([new - 1, [count - 1]])
     joined = np.append(~gap[ends[:-1]], False)
     return [
-        (int(begin), int(end + join))
-        for begin, end, join in zip(begins, ends, joined, strict=True)
+        (int(begin), int(end + join)) for begin, end, join in zip(begins, ends, joined, strict=True)
     ]
 
 
@@ -102,4 +109,5 @@ def spread(points: Floats, count: int) -> NDArray[np.int64]:
     step = np.linalg.norm(np.diff(points, axis=0), axis=1)
     travelled = np.concatenate([[0.0], np.cumsum(step)])
     wanted = np.linspace(0.0, travelled[-1], max(count, 1))
-    return np.unique(np.clip(np.searchsorted(travelled, wanted), 0, len(points) - 1))
+    rows: NDArray[np.int64] = np.searchsorted(travelled, wanted)
+    return np.unique(np.clip(rows, 0, len(points) - 1)).astype(np.int64)
