@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Supervised underwater manipulation: soundings to seabed to tool path."""
 
+from importlib.metadata import version as _version
+
 from bathyal._core import (
     CleanReport,
     CleanResult,
@@ -27,12 +29,16 @@ from bathyal._core import (
     intersect_moller_trumbore,
     mesh_report,
     plan_toolpath,
+    set_simd_level,
+    simd_level,
     survey_height,
 )
 from bathyal.aims import read_aims
 from bathyal.clouds import read_cloud, write_cloud
 from bathyal.meshes import read_mesh, write_mesh
 from bathyal.terrain import SheetWarning, triangulate
+
+__version__ = _version("bathyal")
 
 __all__ = [
     "CleanReport",
@@ -64,6 +70,8 @@ __all__ = [
     "read_aims",
     "read_cloud",
     "read_mesh",
+    "set_simd_level",
+    "simd_level",
     "survey_height",
     "triangulate",
     "write_cloud",
