@@ -7,11 +7,12 @@ import sys
 import warnings
 from pathlib import Path
 
-import bathyal
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+
+import bathyal
 
 SEABED = Path(__file__).resolve().parents[3] / "shared" / "data" / "seabed"
 UTM = np.array([620152.0, 7246504.0, -52.0])
@@ -136,8 +137,13 @@ def test_triangulate_refusals(method):
     for bad in (math.nan, math.inf):
         with pytest.raises(ValueError, match="clean_cloud"):
             bathyal.triangulate([[0, 0, 0], [1, 0, 0], [0, bad, 0]], method=method)
-    for points in (np.zeros((0, 3)), [[0, 0, 0]], [[0, 0, 0], [1, 0, 0]], [[i, i, 0] for i in range(9)]):
-        with pytest.raises(ValueError, match="`(points|cloud)`"):
+    for points in (
+        np.zeros((0, 3)),
+        [[0, 0, 0]],
+        [[0, 0, 0], [1, 0, 0]],
+        [[i, i, 0] for i in range(9)],
+    ):
+        with pytest.raises(ValueError, match=r"`(points|cloud)`"):
             bathyal.triangulate(points, method=method)
     with pytest.raises(ValueError, match="shape"):
         bathyal.triangulate(np.zeros((4, 4)), method=method)
@@ -146,7 +152,9 @@ def test_triangulate_refusals(method):
 
 
 def test_triangulate_names_the_methods_it_knows():
-    with pytest.raises(ValueError, match='`method`: expected "delaunay" or "greedy", got \'magic\''):
+    with pytest.raises(
+        ValueError, match='`method`: expected "delaunay" or "greedy", got \'magic\''
+    ):
         bathyal.triangulate(soundings(), method="magic")
 
 
@@ -269,7 +277,9 @@ def shadow_by_cells(vertices, triangles, size):
     for a, b, c in (vertices[triangles][:, :, :2] - low) / size:
         first = np.floor(np.minimum(np.minimum(a, b), c)).astype(int)
         last = np.ceil(np.maximum(np.maximum(a, b), c)).astype(int)
-        x, y = np.meshgrid(*(np.arange(f, k) for f, k in zip(first, last, strict=True)), indexing="ij")
+        x, y = np.meshgrid(
+            *(np.arange(f, k) for f, k in zip(first, last, strict=True)), indexing="ij"
+        )
         sides = [
             (q[0] - p[0]) * (y + 0.5 - p[1]) - (q[1] - p[1]) * (x + 0.5 - p[0])
             for p, q in ((a, b), (b, c), (c, a))
@@ -305,7 +315,9 @@ def test_mesh_report_does_not_change_with_motion_about_z_or_order(seed, turn):
     after = bathyal.mesh_report(bathyal.TriangleMesh(moved, rng.permutation(mesh.triangles)))
     for name, value in before.as_dict().items():
         if name not in ("low", "high"):
-            assert getattr(after, name) == pytest.approx(value, rel=1e-6, abs=1e-9, nan_ok=True), name
+            assert getattr(after, name) == pytest.approx(value, rel=1e-6, abs=1e-9, nan_ok=True), (
+                name
+            )
 
 
 def test_mesh_report_reads_well():
