@@ -14,7 +14,6 @@ namespace bathyal {
 namespace {
 
 using scene::Cutter;
-
 using scene::Float4;
 
 /// Largest coordinate of the scene in the world [m].
