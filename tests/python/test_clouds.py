@@ -313,6 +313,10 @@ def test_las_headers_are_checked(tmp_path):
         name, grown = refusal_and_memory("read_cloud", path)
         assert name == "Error", place
         assert grown < 64e6
+    struct.pack_into("<I", content := bytearray(whole), 107, 30_000_000)
+    path.write_bytes(content)
+    with pytest.raises(bathyal.Error, match="header announces 30000000 points"):
+        bathyal.read_cloud(path)
 
 
 def test_laz_chunks_are_checked(tmp_path):
