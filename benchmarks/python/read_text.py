@@ -5,8 +5,9 @@
 
 The peers are installed when they are missing. Every reader must give the same numbers to the last
 bit before any time is taken. Rounds are interleaved, a ratio is taken within each round, and the
-medians stand in the table. The peers are timed to their own kind of table, bathyal to the (N, 3)
-array in C order that the rest of it works on.
+medians stand in the table, wall time first; the ratios of processor time on one thread behind them
+stay the same while others use the machine. The peers are timed to their own kind of table, bathyal
+to the (N, 3) array in C order that the rest of it works on.
 """
 
 from __future__ import annotations
@@ -25,6 +26,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
+
 from bathyal import PointCloud, _core, generate_survey
 
 PEERS = {"pandas": "pandas>=2", "pyarrow": "pyarrow>=16,<20"}  # later ones need numpy 2
@@ -79,24 +81,25 @@ def check_same(path: Path, separator: str, points: np.ndarray | None) -> None:
         np.testing.assert_array_equal(table.view(np.uint64), expected.view(np.uint64))
 
 
-def seconds(call: Callable[[], object]) -> float:
-    start = time.perf_counter()
-    result = call()
-    elapsed = time.perf_counter() - start
-    del result
-    return elapsed
+Times = dict[str, list[float]]
 
 
-def measure(path: Path, separator: str, rounds: int) -> dict[str, list[float]]:
+def measure(path: Path, separator: str, rounds: int) -> tuple[Times, Times]:
+    """Seconds of the wall clock and of the processor, round by round."""
     read = readers(path, separator)
-    times: dict[str, list[float]] = {name: [] for name in read}
+    wall: Times = {name: [] for name in read}
+    processor: Times = {name: [] for name in read}
     for _ in range(rounds):
         for name, call in read.items():
-            times[name].append(seconds(call))
-    return times
+            start, start_processor = time.perf_counter(), time.process_time()
+            result = call()
+            wall[name].append(time.perf_counter() - start)
+            processor[name].append(time.process_time() - start_processor)
+            del result
+    return wall, processor
 
 
-def ratio(times: dict[str, list[float]], peer: str, ours: str) -> float:
+def ratio(times: Times, peer: str, ours: str) -> float:
     return statistics.median(a / b for a, b in zip(times[peer], times[ours], strict=True))
 
 
@@ -124,15 +127,16 @@ def main() -> None:
     )
     print(
         "| file | MB | pandas / ours, 1 thread | pyarrow / ours, 1 | pandas / ours, 2 "
-        "| pyarrow / ours, 2 | ours 1, 2 [ms] | pandas [ms] | pyarrow 1, 2 [ms] |\n"
-        "|---|---|---|---|---|---|---|---|---|"
+        "| pyarrow / ours, 2 | processor: pandas, pyarrow / ours "
+        "| ours 1, 2 [ms] | pandas [ms] | pyarrow 1, 2 [ms] |\n"
+        "|---|---|---|---|---|---|---|---|---|---|"
     )
     with tempfile.TemporaryDirectory() as folder:
         for name, separator, decimals in cases:
             path = Path(folder) / "survey.csv"
             _core.write_xyz(path, PointCloud(points), separator=separator, decimals=decimals)
             check_same(path, separator, points if decimals < 0 else None)
-            times = measure(path, separator, arguments.rounds)
+            times, processor = measure(path, separator, arguments.rounds)
             ms = {key: 1e3 * statistics.median(values) for key, values in times.items()}
             print(
                 f"| {name} | {path.stat().st_size / 1e6:.0f} "
@@ -140,6 +144,8 @@ def main() -> None:
                 f"| **{ratio(times, 'pyarrow 1', 'bathyal 1'):.2f}** "
                 f"| **{ratio(times, 'pandas', 'bathyal 2'):.2f}** "
                 f"| **{ratio(times, 'pyarrow 2', 'bathyal 2'):.2f}** "
+                f"| {ratio(processor, 'pandas', 'bathyal 1'):.2f}, "
+                f"{ratio(processor, 'pyarrow 1', 'bathyal 1'):.2f} "
                 f"| {ms['bathyal 1']:.0f}, {ms['bathyal 2']:.0f} | {ms['pandas']:.0f} "
                 f"| {ms['pyarrow 1']:.0f}, {ms['pyarrow 2']:.0f} |"
             )
