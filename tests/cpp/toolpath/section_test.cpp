@@ -357,13 +357,20 @@ TEST(Section, TilesThatAbutAreOneSheet) {
   const auto waves = [](double x, double) { return std::sin(x); };
   const auto tile = [&](int k) { return grid(waves, 3.0 * k, 3.0 * (k + 1), 7, 0, 4, 5, far); };
   const Scene scene({tile(0), tile(1), tile(2)}, 1);
-  Aims aims = down({{0.4, 1.1}, {8.7, 2.9}});
-  aims.leftCols<3>().rowwise() += far.transpose();
-  const ToolPath path = plan_toolpath(scene, aims, piecewise_constant());
-  EXPECT_FALSE(any(path.gap));
-  EXPECT_EQ(path.mesh.front(), 0);
-  EXPECT_EQ(path.mesh.back(), 2);
-  EXPECT_TRUE(path.warnings.empty());
+  // From within a tile and from a border, in both directions.
+  for (const auto& [from, to] :
+       {std::pair<double, double>{0.4, 8.7}, {8.7, 0.4}, {3.0, 6.0}, {6.0, 3.0}, {3.0, 8.7}}) {
+    Aims aims = down({{from, 1.1}, {to, 2.9}});
+    aims.leftCols<3>().rowwise() += far.transpose();
+    const ToolPath path = plan_toolpath(scene, aims);
+    EXPECT_FALSE(any(path.gap)) << from << " to " << to;
+    EXPECT_TRUE(path.warnings.empty());
+    EXPECT_GT(path.size(), 10U);
+    for (std::size_t j = 0; j + 1 < path.size(); ++j) {
+      EXPECT_GT(path.arc_length[j + 1], path.arc_length[j]);
+      EXPECT_GT((to - from) * path.travel[j].x(), 0.0);
+    }
+  }
 }
 
 TEST(Section, WhereMeshesLieOnEachOtherThePathStaysOnThatOfItsTargets) {
