@@ -13,7 +13,8 @@ namespace bathyal {
 /// Footprint: heights z over the facet's own plane are fitted by least squares, z = c + g·x; the
 /// normal is that of the fit. The sheet is walked from the piece's facet over shared vertices, so
 /// that the ground across a narrow cleft or on the other side of a plate stays out; triangles that
-/// look away from the facet (by more than 90°) are left out too.
+/// look away from the facet (by more than 90°) are left out too. In a soup, whose triangles share
+/// no vertices, every facet stands alone.
 ///
 /// Standard deviation, the root mean square of the angle the true normal may lie off, to first
 /// order in the slope: atan √tr Cov(g).

@@ -175,6 +175,8 @@ std::vector<Run> sheets_between(const std::vector<Polyline>& lines, std::size_t 
   }
 }
 
+bool is_lone(const Run& run) { return run.pieces.size() == 1 && run.pieces[0].length() == 0.0; }
+
 /// One run of those that follow each other without a gap: meshes that abut are one sheet.
 std::vector<Run> abutted(std::vector<Run> runs) {
   std::vector<Run> joined;
@@ -182,11 +184,16 @@ std::vector<Run> abutted(std::vector<Run> runs) {
     const Vec3& begin = run.pieces.front().from;
     if (joined.empty() || (begin - joined.back().pieces.back().to).norm() > tolerance(begin)) {
       joined.push_back(std::move(run));
-      continue;
+    } else if (is_lone(joined.back())) {
+      run.pieces.front().from = joined.back().pieces.back().to;
+      joined.back() = std::move(run);
+    } else if (is_lone(run)) {
+      joined.back().pieces.back().to = run.pieces.back().to;
+    } else {
+      std::vector<Piece>& pieces = joined.back().pieces;
+      run.pieces.front().from = pieces.back().to;
+      pieces.insert(pieces.end(), run.pieces.begin(), run.pieces.end());
     }
-    std::vector<Piece>& pieces = joined.back().pieces;
-    run.pieces.front().from = pieces.back().to;
-    pieces.insert(pieces.end(), run.pieces.begin(), run.pieces.end());
   }
   return joined;
 }

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "bathyal/toolpath/toolpath.hpp"
@@ -76,6 +78,26 @@ inline ToolPathOptions piecewise_constant() {
   ToolPathOptions options;
   options.orientation = Orientation::kPiecewiseConstant;
   return options;
+}
+
+/// The samples' points on the bottom in order, each once.
+inline std::vector<Vec3> points_of(const ToolPath& path) {
+  std::vector<Vec3> points;
+  for (const Vec3& p : path.surface) {
+    if (points.empty() || (p - points.back()).norm() > 1e-9) points.push_back(p);
+  }
+  return points;
+}
+
+inline bool any(const std::vector<bool>& flags) {
+  return std::find(flags.begin(), flags.end(), true) != flags.end();
+}
+
+inline bool warned(const ToolPath& path, const std::string& what) {
+  for (const std::string& w : path.warnings) {
+    if (w.find(what) != std::string::npos) return true;
+  }
+  return false;
 }
 
 }  // namespace bathyal::test

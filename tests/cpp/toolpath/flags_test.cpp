@@ -11,13 +11,10 @@
 namespace bathyal {
 namespace {
 
+using test::any;
 using test::down;
 using test::grid;
 using test::scene_of;
-
-bool any(const std::vector<bool>& flags) {
-  return std::find(flags.begin(), flags.end(), true) != flags.end();
-}
 
 /// A round trough (sign = 1) or ridge (−1) of radius 1 along y, 100° of it.
 Scene trough(double sign) {

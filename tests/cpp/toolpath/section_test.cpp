@@ -2,6 +2,7 @@
 // The section between targets: what the paper leaves open, one test or more for each.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "bottoms.hpp"
@@ -9,40 +10,18 @@
 namespace bathyal {
 namespace {
 
+using test::any;
 using test::axis;
 using test::down;
 using test::grid;
 using test::mesh_of;
 using test::piecewise_constant;
+using test::points_of;
 using test::rows;
 using test::scene_of;
+using test::warned;
 
 const auto kFlat = [](double, double) { return -5.0; };
-
-/// The samples' points on the bottom in order, each once.
-std::vector<Vec3> points_of(const ToolPath& path) {
-  std::vector<Vec3> points;
-  for (const Vec3& p : path.surface) {
-    if (points.empty() || (p - points.back()).norm() > 1e-9) points.push_back(p);
-  }
-  return points;
-}
-
-bool any(const std::vector<bool>& flags) {
-  return std::find(flags.begin(), flags.end(), true) != flags.end();
-}
-
-std::size_t first_gap(const ToolPath& path) {
-  return static_cast<std::size_t>(std::find(path.gap.begin(), path.gap.end(), true) -
-                                  path.gap.begin());
-}
-
-bool warned(const ToolPath& path, const std::string& what) {
-  for (const std::string& w : path.warnings) {
-    if (w.find(what) != std::string::npos) return true;
-  }
-  return false;
-}
 
 // Erratum: the printed T takes |OA·r| and divides by a normalised edge.
 TEST(EdgeCut, PrintedFormulaIsWrongAndTheTWeUseIsRight) {
@@ -326,107 +305,6 @@ TEST(Section, CoincidentTargetsAddNoLengthAndAreToldOf) {
   }
 }
 
-TEST(Section, AHoleBetweenTargetsIsCrossedStraightAndFlagged) {
-  const auto keep = [](int c, int) { return c != 4 && c != 5 && c != 8; };
-  const auto slope = [](double x, double) { return 0.1 * x; };
-  const Scene scene = scene_of(grid(slope, 0, 12, 12, 0, 4, 4, Vec3::Zero(), keep));
-  for (const Orientation orientation : {Orientation::kBlended, Orientation::kPiecewiseConstant}) {
-    ToolPathOptions options;
-    options.orientation = orientation;
-    options.step = 0.25;
-    const ToolPath path = plan_toolpath(scene, down({{1, 1.3}, {11, 1.3}}), options);
-    std::vector<std::pair<double, double>> gaps;
-    for (std::size_t j = 0; j + 1 < path.size(); ++j) {
-      if (path.gap[j]) gaps.emplace_back(path.surface[j].x(), path.surface[j + 1].x());
-      if (path.gap[j]) continue;
-      EXPECT_LE(path.surface[j + 1].x() - path.surface[j].x(), 0.2500001);
-    }
-    ASSERT_EQ(gaps.size(), 2U);
-    EXPECT_NEAR(gaps[0].first, 4, 1e-9);
-    EXPECT_NEAR(gaps[0].second, 6, 1e-9);
-    EXPECT_NEAR(gaps[1].first, 8, 1e-9);
-    EXPECT_NEAR(gaps[1].second, 9, 1e-9);
-    EXPECT_FALSE(path.gap.back());
-    EXPECT_TRUE(warned(path, "cross a gap: 0"));
-    for (const Vec3& p : path.surface) EXPECT_NEAR(p.z(), 0.1 * p.x(), 1e-9);
-  }
-}
-
-TEST(Section, TilesThatAbutAreOneSheet) {
-  const Vec3 far(620153, 7246506, -52);
-  const auto waves = [](double x, double) { return std::sin(x); };
-  const auto tile = [&](int k) { return grid(waves, 3.0 * k, 3.0 * (k + 1), 7, 0, 4, 5, far); };
-  const Scene scene({tile(0), tile(1), tile(2)}, 1);
-  Aims aims = down({{0.4, 1.1}, {8.7, 2.9}});
-  aims.leftCols<3>().rowwise() += far.transpose();
-  const ToolPath path = plan_toolpath(scene, aims, piecewise_constant());
-  EXPECT_FALSE(any(path.gap));
-  EXPECT_EQ(path.mesh.front(), 0);
-  EXPECT_EQ(path.mesh.back(), 2);
-  EXPECT_TRUE(path.warnings.empty());
-}
-
-TEST(Section, WhereMeshesLieOnEachOtherThePathStaysOnThatOfItsTargets) {
-  const Vec3 far(620153, 7246506, -52);
-  const auto slope = [](double x, double y) { return 0.3 * x + 0.1 * y; };
-  const Scene scene({grid(slope, 0, 6, 3, 0, 6, 3, far), grid(slope, 0, 6, 5, 0, 6, 4, far)}, 1);
-  for (double y = 0.7; y < 5.5; y += 0.37) {
-    Aims aims = down({{0.9, y}, {5.2, 6.0 - y}});
-    aims.leftCols<3>().rowwise() += far.transpose();
-    const ToolPath path = plan_toolpath(scene, aims, piecewise_constant());
-    if (path.targets.mesh[0] != path.targets.mesh[1]) continue;
-    EXPECT_FALSE(any(path.gap)) << y;
-    for (const std::int32_t mesh : path.mesh) {
-      EXPECT_EQ(mesh, path.targets.mesh[0]) << y;
-    }
-  }
-}
-
-TEST(Section, AMissedAimMakesAGapAndIsToldOf) {
-  const Scene scene = scene_of(grid(kFlat, 0, 10, 10, 0, 4, 4));
-  const Aims aims = down({{-3, 1}, {1, 1}, {3, 1}, {20, 1}, {6, 1}, {8, 1}, {30, 1}});
-  const ToolPath path = plan_toolpath(scene, aims, piecewise_constant());
-  const std::size_t j = first_gap(path);
-  EXPECT_NEAR(path.surface[j].x(), 3, 1e-12);
-  EXPECT_NEAR(path.surface[j + 1].x(), 6, 1e-12);
-  EXPECT_EQ(path.segment.front(), 1);
-  EXPECT_EQ(path.segment[j], 2) << "the gap begins at aim 2";
-  EXPECT_EQ(path.segment[j + 1], 4);
-  EXPECT_EQ(std::count(path.gap.begin(), path.gap.end(), true), 1);
-  EXPECT_NEAR(path.surface.back().x(), 8, 1e-12);
-  EXPECT_TRUE(warned(path, "left out: 0, 3, 6"));
-  EXPECT_EQ(path.targets.size(), 7U);
-
-  ToolPathOptions strict;
-  strict.missed = MissedAims::kRefuse;
-  EXPECT_THROW(plan_toolpath(scene, aims, strict), std::invalid_argument);
-}
-
-TEST(Section, AimsThatGrazeOrComeFromBeneathAreUsedAndToldOf) {
-  const Scene scene = scene_of(grid(kFlat, 0, 10, 10, 0, 4, 4));
-  ToolPathOptions options;
-  options.targets.grazing_angle = 1.0;
-  const Aims aims = rows(
-      {axis({1, 1, 9}, {0, 0, -1}), axis({0, 1, -4}, {3, 0, -1}), axis({5, 1, -9}, {0, 0, 1})});
-  const ToolPath path = plan_toolpath(scene, aims, options);
-  EXPECT_TRUE(warned(path, "graze the bottom (used): 1"));
-  EXPECT_TRUE(warned(path, "from beneath (used): camera below it or mesh inside out: 2"));
-  EXPECT_NEAR(path.arc_length.back(), 4.0, 1e-12);
-  options.targets.grazing_angle = std::numbers::pi;
-  EXPECT_TRUE(warned(plan_toolpath(scene, aims, options), "inside out: 2"));
-}
-
-TEST(Section, ALoneTargetBetweenMissedAimsKeepsItsSample) {
-  const Scene scene = scene_of(grid(kFlat, 0, 10, 10, 0, 4, 4));
-  const ToolPath path =
-      plan_toolpath(scene, down({{1.5, 1}, {50, 1}, {5.5, 1}, {50, 1}, {8.5, 1}}));
-  ASSERT_EQ(path.size(), 3U);
-  EXPECT_EQ(path.gap, (std::vector<bool>{true, true, false}));
-  EXPECT_EQ(path.segment, (std::vector<std::int32_t>{0, 2, 2}));
-  for (const Vec3& n : path.travel) EXPECT_NEAR((n - Vec3::UnitX()).norm(), 0.0, 1e-12);
-  EXPECT_GE(path.triangle[1], 0);
-}
-
 // Erratum: z is the vehicle's axis; with the vehicle pitched, vertical must be able to mean
 // gravity.
 TEST(Section, VerticalIsGravityOrTheVehiclesAxis) {
@@ -458,12 +336,6 @@ TEST(Section, APlaneIsCrossedStraight) {
   EXPECT_EQ(path.approach[0], plane.normal());
   EXPECT_NEAR(path.travel[0].cross(path.surface[1] - path.surface[0]).norm(), 0.0, 1e-12);
   EXPECT_EQ(path.triangle, (std::vector<std::int32_t>{-1, -1}));
-}
-
-TEST(Section, NoAimsAndNoTargetsAreRefused) {
-  const Plane plane(Vec3::UnitZ(), -5.0);
-  EXPECT_THROW(plan_toolpath(plane, Aims(0, 6)), std::invalid_argument);
-  EXPECT_THROW(plan_toolpath(plane, axis(Vec3::Zero(), Vec3::UnitZ())), std::invalid_argument);
 }
 
 }  // namespace
