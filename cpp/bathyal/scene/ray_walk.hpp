@@ -43,22 +43,22 @@ inline bool is_finite3(const double* p) {
 inline double larger(double a, double b) { return a > b ? a : b; }
 inline double smaller(double a, double b) { return a < b ? a : b; }
 
-/// Writes d / |d| and returns |d|, also where its square would leave double's range. Returns 0 for
-/// a d of zero.
+/// Writes d / |d| and returns |d|, also where its square would leave double's range: it is then
+/// scaled by a power of two first, which changes no digit. Returns 0 for a d
+/// of zero or one that is not finite.
 inline double normalise(const double* d, double* unit) {
   const double square = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
-  double scale = 1.0;
-  double length = __builtin_sqrt(square);
-  if (!(square > 1e-200 && square < 1e200)) {
-    scale = larger(absolute(d[0]), larger(absolute(d[1]), absolute(d[2])));
-    if (scale == 0.0) return 0.0;
-    const double x = d[0] / scale;
-    const double y = d[1] / scale;
-    const double z = d[2] / scale;
-    length = __builtin_sqrt(x * x + y * y + z * z);
+  if (square > 1e-200 && square < 1e200) {
+    const double length = __builtin_sqrt(square);
+    for (int axis = 0; axis < 3; ++axis) unit[axis] = d[axis] / length;
+    return length;
   }
-  for (int axis = 0; axis < 3; ++axis) unit[axis] = d[axis] / scale / length;
-  return scale * length;
+  const double most = larger(absolute(d[0]), larger(absolute(d[1]), absolute(d[2])));
+  if (most == 0.0 || !(most - most == 0.0)) return 0.0;
+  const int exponent = __builtin_ilogb(most);
+  double scaled[3];
+  for (int axis = 0; axis < 3; ++axis) scaled[axis] = __builtin_scalbn(d[axis], -exponent);
+  return __builtin_scalbn(normalise(scaled, unit), exponent);
 }
 
 /// Sets up the float ray from `origin` along the unit vector `d`. False when it passes the scene's

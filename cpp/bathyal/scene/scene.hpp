@@ -82,7 +82,8 @@ class Scene {
             int num_threads = 0) const;
 
   /// Whether anything lies on the segment from `from[i]` to `to[i]`, ends included; one `from`
-  /// serves all. Decided as by cast. A segment of no length meets nothing.
+  /// serves all. Decided as by cast. A segment of no length, or of one beyond double's
+  /// range, meets nothing.
   /// \throw std::invalid_argument that names the first row that is not finite, or when the rows do
   /// not match.
   std::vector<bool> occluded(PointView from, PointView to, int num_threads = 0) const;

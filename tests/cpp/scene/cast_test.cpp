@@ -189,6 +189,70 @@ TEST(Cast, IsTheDecisionOverEveryTriangleOnAllLevelsAndThreads) {
   }
 }
 
+/// Rays in order, as a sonar has them: pings along a line, each a fan across it.
+Rays fans(int pings, int beams, const Vec3& first, const Vec3& step, double tilt) {
+  Rays rays{PointMatrix(Index{pings} * beams, 3), PointMatrix(Index{pings} * beams, 3)};
+  for (int ping = 0; ping < pings; ++ping) {
+    for (int beam = 0; beam < beams; ++beam) {
+      const double angle = -1.2 + 2.4 * beam / (beams - 1);
+      rays.origins.row(Index{ping} * beams + beam) = first + ping * step;
+      rays.directions.row(Index{ping} * beams + beam) =
+          Vec3(std::sin(angle), tilt * std::cos(7.0 * ping), -std::cos(angle));
+    }
+  }
+  return rays;
+}
+
+TEST(Cast, FansAreTheDecisionOverEveryTriangle) {
+  for (const Vec3& offset : {Vec3(0, 0, 0), Vec3(6.2e5, 7.2e6, -52)}) {
+    const TriangleMesh mesh = test::seabed(60, 50, offset);
+    const Vec3 first = offset + Vec3(30, 1, 9);
+    expect_exact({mesh}, fans(40, 101, first, Vec3(0, 1.2, 0), 0.0));
+    expect_exact({mesh}, fans(25, 100, first, Vec3(0.3, 1.7, 0.1), 0.2));
+    expect_exact({mesh}, fans(3, 900, first, Vec3(0, 15, 20), 0.01));  // many beams a triangle
+    expect_exact({test::sphere(3, 2.0, offset), mesh}, fans(9, 150, first, Vec3(0, 5, 0), 0.1));
+  }
+}
+
+TEST(Cast, NeighbouringRaysThroughVerticesAndEdgesAreExactToo) {
+  // Straight down through every vertex, edge middle and cell middle of a grid, in order.
+  const TriangleMesh mesh = test::seabed(12, 12);
+  Rays rays{PointMatrix(23 * 23, 3), PointMatrix(23 * 23, 3)};
+  for (int j = 0; j < 23; ++j) {
+    for (int i = 0; i < 23; ++i) {
+      rays.origins.row(23 * j + i) = Vec3(0.5 * i, 0.5 * j, 20);
+      rays.directions.row(23 * j + i) = Vec3(0, 0, -1);
+    }
+  }
+  expect_exact({mesh}, rays);
+  for (const RayHit& hit : Scene({mesh}).cast(view(rays.origins), view(rays.directions))) {
+    EXPECT_GE(hit.triangle, 0);
+  }
+}
+
+TEST(Cast, AnyNumberOfRaysFillsItsPackets) {
+  const Rays all = fans(2, 40, Vec3(30, 20, 9), Vec3(0, 1, 0), 0.1);
+  const Scene scene({test::seabed(60, 50)});
+  EveryLevel().run([&](const std::string& level) {
+    const auto truth = scene.cast(view(all.origins), view(all.directions), 1);
+    for (Index count = 1; count <= 40; ++count) {
+      const auto some = scene.cast(PointView(all.origins.data(), count, 3),
+                                   PointView(all.directions.data(), count, 3), 1);
+      expect_same_bytes(some, {truth.begin(), truth.begin() + count}, level);
+    }
+  });
+}
+
+TEST(Cast, OddLengthsBesideOrdinaryOnesInAPacket) {
+  const Scene scene({test::seabed(60, 50)});
+  Rays rays = fans(2, 40, Vec3(30, 20, 9), Vec3(0, 1, 0), 0.1);
+  const auto plain = scene.cast(view(rays.origins), view(rays.directions), 1);
+  for (Index i = 0; i < 80; i += 3) rays.directions.row(i) *= i % 2 == 0 ? 0x1p+600 : 0x1p-600;
+  EveryLevel().run([&](const std::string& level) {
+    expect_same_bytes(scene.cast(view(rays.origins), view(rays.directions), 1), plain, level);
+  });
+}
+
 TEST(Cast, OriginsFarOutside) {
   const TriangleMesh mesh = test::seabed(60, 50, Vec3(6.2e5, 7.2e6, -52));
   for (const double distance : {1e3, 1e5, 1e7, 1e10}) {
@@ -389,7 +453,8 @@ TEST(Occluded, CountsBothEndsAndNothingBeyond) {
   EXPECT_TRUE(blocked(Vec3(0.2, 0.2, 0), Vec3(0.2, 0.2, 1)));
   EXPECT_TRUE(blocked(Vec3(0.3, 5.2, 0.7), Vec3(0, 0, 0)));  // ends on a corner
   EXPECT_FALSE(blocked(Vec3(0.2, 0.2, 1), Vec3(0.2, 0.2, 1e-12)));
-  EXPECT_FALSE(blocked(Vec3(0.2, 0.2, 1), Vec3(0.2, 0.2, 1)));  // no segment
+  EXPECT_FALSE(blocked(Vec3(0.2, 0.2, 1), Vec3(0.2, 0.2, 1)));       // no segment
+  EXPECT_FALSE(blocked(Vec3(0, 0, 1.7e308), Vec3(0, 0, -1.7e308)));  // longer than double holds
 }
 
 TEST(Occluded, AgreesWithCastOnAllLevels) {
