@@ -12,10 +12,11 @@ import platform
 import statistics
 import time
 
-import bathyal
 import numpy as np
 import vtk
 from vtk.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+
+import bathyal
 
 
 def seabed(side, seed=7):
@@ -106,9 +107,9 @@ def our_length(lines):
     return sum(float(np.linalg.norm(np.diff(line.points, axis=0), axis=1).sum()) for line in lines)
 
 
-def seconds(work):
+def seconds(work, *arguments):
     start = time.perf_counter()
-    work()
+    work(*arguments)
     return time.perf_counter() - start
 
 
@@ -117,50 +118,78 @@ def again(cutter):
     cutter.Update()
 
 
-def run(rounds):
-    print("| cut | triangles | ours / vtkCutter | ours / vtkPlaneCutter | ours [ms] | vtkCutter [ms]"
-          " | vtkPlaneCutter [ms] | segments |")
-    print("|---|---|---|---|---|---|---|---|")
-    notes = []
+def shifted(a, b, step):
+    """The cut moved to its side by `step` [m]."""
+    side = np.cross(b - a, (0.0, 0.0, 1.0))
+    return a + step * side / np.linalg.norm(side), b + step * side / np.linalg.norm(side)
+
+
+def compare(scene, data, a, b, rounds):
+    """One row: checks the lengths, then times the peers and, after each, five of our sections.
+
+    Each of the five lies elsewhere, as those of a path do, so none finds its triangles in a cache
+    that the one before has warmed.
+    """
+    plane = vtk_plane(a, b)
+    peers = [vtk_cutter(data, plane), vtk_plane_cutter(data, plane)]
+    lines = scene.section(a, b)
+    for peer in peers:
+        peer.Update()
+        expected = length_between(lines_of(peer), a, b)
+        if not np.isclose(our_length(lines), expected, rtol=1e-9, atol=0.0):
+            name = peer.GetClassName()
+            raise SystemExit(f"ours is {our_length(lines)} m long, that of {name} {expected} m")
+    cuts = [shifted(a, b, 3.7 * k) for k in range(1, 6)]
+    ours, theirs = ([], []), ([], [])
+    for _ in range(rounds):
+        for k, peer in enumerate(peers):
+            theirs[k].append(seconds(again, peer))
+            ours[k].append(seconds(lambda: [scene.section(*cut) for cut in cuts]) / len(cuts))
+    ratios = [
+        statistics.median(t / o for t, o in zip(theirs[k], ours[k], strict=True)) for k in (0, 1)
+    ]
+    times = [statistics.median(t) for t in (ours[0] + ours[1], *theirs)]
+    return ratios, times, sum(len(line.triangle) for line in lines)
+
+
+def run(rounds, threads):
+    vtk.vtkSMPTools.SetBackend("STDThread")
+    vtk.vtkSMPTools.Initialize(threads)
+    print("| section | triangles | vtkCutter / ours | vtkPlaneCutter / ours | ours [ms] |")
+    print("|---|---|---|---|---|")
+    builds, peers = [], []
     for side in (317, 1001):
         vertices, triangles = seabed(side)
         mesh = bathyal.TriangleMesh(vertices, triangles)
-        notes.append((len(triangles), statistics.median(seconds(lambda: bathyal.Scene(mesh)) for _ in range(3))))
+        build = statistics.median(seconds(bathyal.Scene, mesh) for _ in range(3))
+        builds.append(f"{len(triangles):,} triangles: {1e3 * build:.0f} ms")
         scene = bathyal.Scene(mesh)
         data = poly_data(vertices, triangles)
         width = 0.5 * (side - 1)
-        for name, a, b in (
-            ("full width", (0.0, 0.31 * width, 0.0), (width, 0.64 * width, 0.0)),
-            ("10 m", (0.4 * width, 0.5 * width, 0.0), (0.4 * width + 8.0, 0.5 * width + 6.0, 0.0)),
+        middle = np.array([0.4 * width, 0.5 * width, 0.0])
+        for a, b in (
+            (np.array([0.0, 0.31 * width, 0.0]), np.array([width, 0.64 * width, 0.0])),
+            (middle, middle + (0.2 * width, 0.1 * width, 0.0)),
+            (middle, middle + (8.0, 6.0, 0.0)),
         ):
-            a, b = np.array(a), np.array(b)
-            plane = vtk_plane(a, b)
-            peers = [vtk_cutter(data, plane), vtk_plane_cutter(data, plane)]
-            lines = scene.section(a, b)
-            for peer in peers:
-                peer.Update()
-                expected = length_between(lines_of(peer), a, b)
-                if not np.isclose(our_length(lines), expected, rtol=1e-9, atol=0.0):
-                    raise SystemExit(f"{name}: {our_length(lines)} m, {peer.GetClassName()} {expected} m")
-            ours, theirs = [], ([], [])
-            for _ in range(rounds):
-                for times, peer in zip(theirs, peers, strict=True):
-                    times.append(seconds(lambda peer=peer: again(peer)))
-                    ours.append(seconds(lambda: scene.section(a, b)))
-            ratio = [statistics.median(t / o for t, o in zip(times, ours[i::2], strict=True))
-                     for i, times in enumerate(theirs)]
-            count = sum(len(line.triangle) for line in lines)
-            print(f"| {name} | {len(triangles):,} | {ratio[0]:.0f} × | {ratio[1]:.0f} × "
-                  f"| {1e3 * statistics.median(ours):.3f} | {1e3 * statistics.median(theirs[0]):.1f} "
-                  f"| {1e3 * statistics.median(theirs[1]):.1f} | {count} |")
-    for count, build in notes:
-        print(f"\nBuilding the hierarchy of {count:,} triangles, once: {1e3 * build:.0f} ms.")
-    print(f"\nRatio: the peer's time over ours, median of {rounds} pairs. VTK {vtk.VTK_VERSION}, "
-          f"{vtk.vtkSMPTools.GetEstimatedNumberOfThreads()} threads ({vtk.vtkSMPTools.GetBackend()}); "
-          f"numpy {np.__version__}; Python {platform.python_version()}; {platform.machine()}.")
+            ratios, times, count = compare(scene, data, a, b, rounds)
+            name = f"{np.linalg.norm(b - a):.0f} m, {count} segments"
+            print(
+                f"| {name} | {len(triangles):,} | {ratios[0]:.0f} × | {ratios[1]:.0f} × "
+                f"| {1e3 * times[0]:.3f} |"
+            )
+            peers.append(f"{1e3 * times[1]:.1f} and {1e3 * times[2]:.1f}")
+    print(f"\nThe peers' times, row by row [ms]: {'; '.join(peers)}.")
+    print(f"Our hierarchy, built once: {'; '.join(builds)}.")
+    print(
+        f"Medians of {rounds} rounds. VTK {vtk.VTK_VERSION} on {threads} threads, ours on one; "
+        f"numpy {np.__version__}, Python {platform.python_version()}, {platform.machine()}."
+    )
 
 
 if __name__ == "__main__":
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--rounds", type=int, default=21)
-    run(parser.parse_args().rounds)
+    parser.add_argument("--threads", type=int, default=1, help="of the peers; ours takes one")
+    arguments = parser.parse_args()
+    run(arguments.rounds, arguments.threads)

@@ -92,25 +92,12 @@ void bind_polyline(py::module_& module) {
       });
 }
 
-std::vector<Polyline> find_section(const Scene& scene, const py::object& plane, const py::object& b,
-                                   const py::object& up) {
-  if (b.is_none()) {
-    if (!py::isinstance<Plane>(plane)) {
-      throw_argument("plane", "a bathyal.Plane, or two points a and b",
-                     "one " + std::string(py::str(py::type::handle_of(plane).attr("__name__"))));
-    }
-    if (!up.is_none()) throw_argument("up", "nothing beside a plane", "a direction");
-    const auto& cut = plane.cast<const Plane&>();
-    const py::gil_scoped_release release;
-    return scene.section(cut);
-  }
-  const Vec3 from = vector_argument("a", plane);
+std::vector<Polyline> section_between(const Scene& scene, const py::object& a, const py::object& b,
+                                      const py::object& up) {
+  const Vec3 from = vector_argument("a", a);
+  if (b.is_none()) throw_argument("b", "a second point, or a bathyal.Plane alone", "nothing");
   const Vec3 to = vector_argument("b", b);
-  if (up.is_none()) {
-    const py::gil_scoped_release release;
-    return scene.section(from, to);
-  }
-  const Vec3 direction = vector_argument("up", up);
+  const Vec3 direction = up.is_none() ? Vec3(Vec3::UnitZ()) : vector_argument("up", up);
   const py::gil_scoped_release release;
   return scene.section(from, to, direction);
 }
@@ -239,7 +226,14 @@ Examples
 >>> bathyal.Scene(tetrahedron).contains([[0.5, 0.5, 0.5], [5, 5, 5]]).tolist()
 [True, False]
 )")
-      .def("section", &find_section, py::arg("plane"), py::arg("b") = py::none(), py::kw_only(),
+      .def(
+          "section",
+          [](const Scene& self, const Plane& plane) {
+            const py::gil_scoped_release release;
+            return self.section(plane);
+          },
+          py::arg("plane"), "The lines in which a whole plane cuts the scene; see below.")
+      .def("section", &section_between, py::arg("a"), py::arg("b") = py::none(),
            py::arg("up") = py::none(), R"(The lines in which a plane cuts the scene.
 
 ``section(plane)`` cuts by a whole plane. ``section(a, b)`` cuts by the plane through two points and
@@ -254,12 +248,12 @@ to. A line that starts or ends at a or b to rounding starts or ends at exactly t
 
 Parameters
 ----------
-plane : Plane, or (3,) array
-    The plane, or the first point a [m].
-b : (3,) array, optional
-    The second point [m].
+plane : Plane
+    Alone; or
+a, b : (3,) array
+    Two points [m], not above each other along `up`.
 up : (3,) array, optional
-    Any length but zero; (0, 0, 1) unless given. Beside two points only.
+    Beside two points: any length but zero; (0, 0, 1) unless given.
 
 Returns
 -------

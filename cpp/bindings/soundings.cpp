@@ -134,11 +134,12 @@ Fields beside x, y, z become attributes; `rgb` and `rgba` are taken apart into r
   module.def(
       "write_xyz",
       [](const std::filesystem::path& path, const PointCloud& cloud, int decimals,
-         const std::string& separator, bool header, std::vector<std::string> attributes,
-         int num_threads) {
+         const std::string& separator, std::string preamble, bool header,
+         std::vector<std::string> attributes, int num_threads) {
         WriteXyzOptions options;
         options.decimals = decimals;
         options.separator = character("separator", separator);
+        options.preamble = std::move(preamble);
         options.header = header;
         options.attributes = std::move(attributes);
         options.num_threads = num_threads;
@@ -147,12 +148,12 @@ Fields beside x, y, z become attributes; `rgb` and `rgba` are taken apart into r
       },
       py::arg("path"), py::arg("cloud"), py::kw_only(), py::arg("decimals") = defaults.decimals,
       py::arg("separator") = std::string(1, defaults.separator),
-      py::arg("header") = defaults.header, py::arg("attributes") = defaults.attributes,
-      py::arg("num_threads") = defaults.num_threads,
+      py::arg("preamble") = defaults.preamble, py::arg("header") = defaults.header,
+      py::arg("attributes") = defaults.attributes, py::arg("num_threads") = defaults.num_threads,
       R"(Write x y z and the named attributes as text, one point a line.
 
-`decimals` of -1 writes the shortest text that reads back as the same number. Writes in place: write
-aside and rename.
+`decimals` of -1 writes the shortest text that reads back as the same number; `preamble` stands above
+all else as it is. Writes in place: write aside and rename.
 )");
 }
 

@@ -129,7 +129,7 @@ Examples
 >>> import bathyal
 >>> cloud = bathyal.generate_survey(seed=1, length=6.0, beams=64)
 >>> cloud
-PointCloud(4416 points)
+PointCloud(5504 points)
 >>> sorted(cloud.attributes)
 ['intensity', 'uncertainty']
 )");

@@ -231,8 +231,8 @@ void bind_path(py::module_& module) {
           "An interactive figure (bathyal.views.show_path).")
       .def("__len__", &ToolPath::size)
       .def("__repr__", [](const ToolPath& path) {
-        return "ToolPath(" + std::to_string(path.size()) + " samples, " +
-               to_text(path.arc_length.back()) + " m, " + to_text(path.time.back()) + " s)";
+        return py::str("ToolPath({} samples, {:.3f} m, {:.1f} s)")
+            .format(path.size(), path.arc_length.back(), path.time.back());
       });
 }
 

@@ -95,7 +95,10 @@ def reading(path: PathLike, format_name: str) -> Iterator[None]:
         if str(error).startswith(os.fspath(path)):
             raise
         raise Error(f"{os.fspath(path)}: {error}") from error.__cause__
-    except Exception as error:
+    except BaseException as error:
+        # A library in Rust that gives up raises what is no Exception.
+        if not isinstance(error, Exception) and type(error).__name__ != "PanicException":
+            raise
         reason = str(error).strip() or type(error).__name__
         if isinstance(error, KeyError):
             reason = f"{reason} is missing"
@@ -111,10 +114,13 @@ def opened(path: PathLike) -> Iterator[tuple[BinaryIO, int]]:
     OSError
         Where there is no such file, or it may not be read: the operating system's own words.
     Error
-        Where the file is empty.
+        Where the file is empty, or is a pipe or a device.
     """
     with open(path, "rb") as stream:
-        size = os.fstat(stream.fileno()).st_size
+        status = os.fstat(stream.fileno())
+        size = status.st_size
+        if not stat.S_ISREG(status.st_mode):
+            raise Error(f"{os.fspath(path)}: expected a file, got a pipe or a device")
         if size == 0:
             raise Error(f"{os.fspath(path)}: the file is empty")
         yield stream, size

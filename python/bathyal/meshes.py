@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from bathyal._core import TriangleMesh
+from bathyal._core import Error, TriangleMesh
 from bathyal.files import PathLike, known_suffix, reading
 from bathyal.formats.attributes import canonical_attributes, columns_of
 from bathyal.formats.collada import read_collada
@@ -87,6 +87,8 @@ def read_mesh(path: PathLike, *, scale: float | None = None, up: str | None = No
     unit = surface.unit if scale is None else scale
     turn = _Z_UP_FROM[surface.up if up is None else up]
     with reading(path, "mesh"):
+        if len(surface.triangles) == 0:
+            raise Error("it holds no faces; read_cloud reads points")
         vertices, attributes = surface.vertices, surface.attributes
         if unit != 1.0:
             vertices = vertices * unit

@@ -15,7 +15,8 @@ from numpy.typing import ArrayLike, NDArray
 from bathyal.files import PathLike, replacing
 from bathyal.formats.cells import Cells, cells_of
 from bathyal.formats.polydata import PolyData
-from bathyal.formats.vtp_reader import TYPES, read_vtp
+from bathyal.formats.vtp_arrays import TYPES
+from bathyal.formats.vtp_reader import read_vtp
 
 __all__ = ["PolyData", "read_vtp", "write_vtp"]
 

@@ -110,6 +110,8 @@ def test_empty_and_missing_files(tmp_path):
         pass
     with pytest.raises(FileNotFoundError), opened(tmp_path / "none"):
         pass
+    with pytest.raises(bathyal.Error, match="a pipe or a device"), opened("/dev/null"):
+        pass
 
 
 def test_a_missing_library_names_its_remedy():

@@ -254,6 +254,13 @@ def test_pieces_are_joined(tmp_path):
     assert data.cell_data["id"].tolist() == [40, 70, 41, 71]
 
 
+def test_keys_between_the_numbers_are_stepped_over(tmp_path):
+    key = '<InformationKey name="L2_NORM_RANGE"><Value index="0">7</Value></InformationKey>'
+    path = tmp_path / "keys.vtp"
+    path.write_text(TWO_PIECES.format(PIECE.format(4).replace("4 1 0", f"4 1 {key} 0"), ""))
+    assert read_vtp(path).points[1].tolist() == [4, 1, 0]
+
+
 def broken_examples():
     good = PIECE.format(1)
     yield "other type", TWO_PIECES.replace("PolyData", "UnstructuredGrid").format(good, good)

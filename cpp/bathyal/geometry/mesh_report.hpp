@@ -38,7 +38,7 @@ struct MeshReport {
 };
 
 /// Measures a mesh. The planar area is exact where no two triangles lie over one another, and
-/// otherwise integrated over some 2000 lines (a few parts in 10⁴). Published rugosities divide by
+/// otherwise integrated over some 1000 lines (a few parts in 10⁴). Published rugosities divide by
 /// other planar areas (a concave hull, a coarsened mesh): compare with care. An empty mesh gives
 /// zeros, and NaN where there is nothing to divide. The same bytes for any number of threads.
 MeshReport mesh_report(const TriangleMesh& mesh, int num_threads = 0);

@@ -10,6 +10,8 @@
 namespace bathyal {
 namespace {
 
+constexpr double kClosed = 0.1;  // sum of area vectors over sum of areas; 0 for a closed surface
+
 struct Side {
   std::int32_t low, high;
   std::int32_t triangle;
@@ -76,14 +78,13 @@ void orient(PointView points, TriangleMatrix& triangles) {
     if (state[start] != State::kUnseen) continue;
     state[start] = State::kKept;
     piece.assign(1, static_cast<std::int32_t>(start));
-    bool closed = true;
-    double volume = 0.0, up = 0.0;
+    Vec3 balance = Vec3::Zero(), centre = Vec3::Zero();
+    double volume = 0.0, area = 0.0;
     for (std::size_t i = 0; i < piece.size(); ++i) {
       const auto t = static_cast<std::size_t>(piece[i]);
       const bool turned = state[t] == State::kTurned;
       if (turned) turn(piece[i]);
       for (const Neighbour& n : neighbours[t]) {
-        if (n.triangle < 0) closed = false;
         if (n.triangle < 0 || state[static_cast<std::size_t>(n.triangle)] != State::kUnseen)
           continue;
         state[static_cast<std::size_t>(n.triangle)] =
@@ -93,9 +94,13 @@ void orient(PointView points, TriangleMatrix& triangles) {
       const Vec3 a = corner(piece[i], 0);
       const Vec3 twice_area = (corner(piece[i], 1) - a).cross(corner(piece[i], 2) - a);
       volume += a.dot(twice_area);
-      up += twice_area.z();
+      area += twice_area.norm();
+      balance += twice_area;
+      centre += a;
     }
-    if ((closed ? volume : up) < 0.0) {
+    centre /= static_cast<double>(piece.size());
+    const bool closed = balance.norm() < kClosed * area;
+    if ((closed ? volume - centre.dot(balance) : balance.z()) < 0.0) {
       for (const std::int32_t t : piece) turn(t);
     }
   }

@@ -52,14 +52,15 @@ inline int orient2d(const Point2& a, const Point2& b, const Point2& c) {
   const double det = left - right;
   const double bound =
       exact::kOrientError * (std::fabs(left) + std::fabs(right)) + exact::kOrientUnderflow;
-  if (det > bound) return 1;
-  if (-det > bound) return -1;
-  return exact::orient2d(a, b, c);
+  if (!(std::fabs(det) > bound)) [[unlikely]]
+    return exact::orient2d(a, b, c);
+  return det > 0.0 ? 1 : -1;
 }
 
 namespace exact {
 
-/// The determinant of the in-circle test and the error it may have.
+/// The determinant of the in-circle test and the error it may have. The error's sum of magnitudes
+/// is bounded by products of squared lengths: |x₁ y₂| + |x₂ y₁| ≤ (|p₁|² + |p₂|²) / 2.
 struct Incircle {
   double det;
   double bound;
@@ -75,10 +76,7 @@ struct Incircle {
     const double b_lift = bdx * bdx + bdy * bdy;
     const double c_lift = cdx * cdx + cdy * cdy;
     det = a_lift * (bc - cb) + b_lift * (ca - ac) + c_lift * (ab - ba);
-    bound = kIncircleError * (a_lift * (std::fabs(bc) + std::fabs(cb)) +
-                              b_lift * (std::fabs(ca) + std::fabs(ac)) +
-                              c_lift * (std::fabs(ab) + std::fabs(ba))) +
-            kIncircleUnderflow;
+    bound = kIncircleError * (a_lift * b_lift + c_lift * (a_lift + b_lift)) + kIncircleUnderflow;
   }
 };
 
@@ -88,9 +86,9 @@ struct Incircle {
 /// outside, 0 on it. Clockwise a, b, c reverse the sign.
 inline int incircle(const Point2& a, const Point2& b, const Point2& c, const Point2& d) {
   const exact::Incircle test(a, b, c, d);
-  if (test.det > test.bound) return 1;
-  if (-test.det > test.bound) return -1;
-  return exact::incircle(a, b, c, d);
+  if (!(std::fabs(test.det) > test.bound)) [[unlikely]]
+    return exact::incircle(a, b, c, d);
+  return test.det > 0.0 ? 1 : -1;
 }
 
 /// Whether d lies inside the circle through a, b, c (counter-clockwise), co-circular points decided
@@ -100,9 +98,10 @@ inline int incircle(const Point2& a, const Point2& b, const Point2& c, const Poi
 inline bool in_perturbed_circle(const Point2& a, const Point2& b, const Point2& c,
                                 const Point2& d) {
   const exact::Incircle test(a, b, c, d);
-  if (test.det > test.bound) return true;
-  if (-test.det > test.bound) return false;
-  return exact::perturbed_incircle(a, b, c, d) > 0;
+  if (!(std::fabs(test.det) > test.bound)) [[unlikely]] {
+    return exact::perturbed_incircle(a, b, c, d) > 0;
+  }
+  return test.det > 0.0;
 }
 
 }  // namespace bathyal

@@ -12,7 +12,7 @@
 namespace bathyal {
 namespace {
 
-constexpr std::size_t kLines = 2048;
+constexpr std::size_t kLines = 1024;
 constexpr double kMostCrossings = 2e7;
 constexpr double kOverlap = 1e-9;  // of the length; less is rounding at shared edges
 
@@ -103,7 +103,7 @@ double shadow_area(const TriangleMesh& mesh, int num_threads) {
     low = std::min(low, bottom);
     high = std::max(high, top);
   }
-  if (!(total > 0.0)) return 0.0;
+  if (total == 0.0 || !std::isfinite(total)) return total;
 
   const double extent = high - low;
   const double most = (kMostCrossings - static_cast<double>(count)) * extent / heights;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "bathyal/scene/ray_walk.hpp"
+#include "bathyal/scene/packet_walk.hpp"
 
 namespace bathyal::scene {
 namespace {
@@ -12,6 +12,11 @@ struct Baseline {
   struct F {
     Half a, b;
   };
+  using P = F;  ///< rays of a packet
+  using D = double __attribute__((vector_size(16)));
+  using I = std::int64_t __attribute__((vector_size(16)));
+  static constexpr int kRays = 8;
+  static constexpr int kDoubles = 2;
 
   static F load(const float* p) {
     F f;
@@ -39,7 +44,27 @@ struct Baseline {
             reinterpret_cast<Half>(reinterpret_cast<Bits>(x.b) ^ reinterpret_cast<Bits>(y.b))};
   }
   /// A bit for every lane with x ≥ y; NaN gives none.
-  static int at_least(F x, F y) { return mask_of(x.a >= y.a) | mask_of(x.b >= y.b) << 4; }
+  static unsigned at_least(F x, F y) { return mask_of(x.a >= y.a) | mask_of(x.b >= y.b) << 4U; }
+
+  static F divide(F x, F y) { return {x.a / y.a, x.b / y.b}; }
+  static P all_rays(float x) { return all(x); }
+  static P load_rays(const float* p) { return load(p); }
+
+  static D root(D x) { return D{__builtin_sqrt(x[0]), __builtin_sqrt(x[1])}; }
+  static D product_error(D a, D b, D product) {
+    return D{scene::product_error(a[0], b[0], product[0]),
+             scene::product_error(a[1], b[1], product[1])};
+  }
+  static void store_narrow(float* p, D x) {
+    p[0] = static_cast<float>(x[0]);
+    p[1] = static_cast<float>(x[1]);
+  }
+  static unsigned bits(I truth) {
+    return static_cast<unsigned>(truth[0] & 1) | static_cast<unsigned>(truth[1] & 2);
+  }
+  static I lanes(unsigned bits) {
+    return I{-static_cast<std::int64_t>(bits & 1U), -static_cast<std::int64_t>(bits >> 1U & 1U)};
+  }
 
  private:
   static constexpr std::int32_t kSign = INT32_MIN;
@@ -47,11 +72,12 @@ struct Baseline {
   static Half with_bits(Half x, std::int32_t bits) {
     return reinterpret_cast<Half>(reinterpret_cast<Bits>(x) & Bits{bits, bits, bits, bits});
   }
-  static int mask_of(Bits truth) {
+  static unsigned mask_of(Bits truth) {
 #if defined(__SSE2__)
-    return __builtin_ia32_movmskps(reinterpret_cast<Half>(truth));
+    return static_cast<unsigned>(__builtin_ia32_movmskps(reinterpret_cast<Half>(truth)));
 #else
-    return (truth[0] & 1) | (truth[1] & 2) | (truth[2] & 4) | (truth[3] & 8);
+    const Bits bits = truth & Bits{1, 2, 4, 8};
+    return static_cast<unsigned>(bits[0] | bits[1] | bits[2] | bits[3]);
 #endif
   }
 };

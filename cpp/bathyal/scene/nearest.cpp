@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "bathyal/base/parallel.hpp"
+#include "bathyal/scene/cutter.hpp"
 #include "bathyal/scene/hierarchy.hpp"
 
 namespace bathyal {
@@ -19,10 +20,6 @@ struct OnEdge {
   Vec3 point;
   double t;
 };
-
-bool precedes(const Vec3& a, const Vec3& b) {
-  return std::make_tuple(a.x(), a.y(), a.z()) < std::make_tuple(b.x(), b.y(), b.z());
-}
 
 OnEdge closest_on_edge(const Vec3& from, const Vec3& to, const Vec3& query) {
   if (precedes(to, from)) {

@@ -116,58 +116,81 @@ inline float cull_bound(const CullRay& cull, double t) {
   return static_cast<float>(smaller(bound + room, 3e38));
 }
 
-/// Puts the double decision on one primitive.
-inline void confirm(const CastScene& scene, const ExactRay& ray, std::uint32_t primitive,
-                    Nearest& best) {
+/// Where a mesh keeps the indices of a primitive's corners.
+struct Indices {
+  const std::int32_t* index;
+  const double* vertices;
+};
+
+inline Indices indices_of(const CastScene& scene, std::uint32_t primitive) {
   const std::int32_t mesh =
       scene.mesh_count == 1 ? 0 : name_of(scene.meshes, scene.mesh_count, primitive).mesh;
   const MeshArrays& arrays = scene.meshes[mesh];
-  const std::int32_t* index =
-      arrays.triangles + 3 * static_cast<std::int64_t>(primitive - arrays.first_primitive);
-  Meeting meeting;
-  if (!meets(ray, arrays.vertices + 3 * static_cast<std::int64_t>(index[0]),
-             arrays.vertices + 3 * static_cast<std::int64_t>(index[1]),
-             arrays.vertices + 3 * static_cast<std::int64_t>(index[2]), meeting)) {
-    return;
+  return {arrays.triangles + 3 * static_cast<std::int64_t>(primitive - arrays.first_primitive),
+          arrays.vertices};
+}
+
+/// Where it keeps the corners.
+inline void corners_of(const CastScene& scene, std::uint32_t primitive, const double** corner) {
+  const Indices from = indices_of(scene, primitive);
+  for (int c = 0; c < 3; ++c) {
+    corner[c] = from.vertices + 3 * static_cast<std::int64_t>(from.index[c]);
   }
-  if (!(meeting.t >= 0.0)) return;
+}
+
+/// Puts the double decision on one primitive.
+inline void confirm(const CastScene& scene, const ExactRay& ray, std::uint32_t primitive,
+                    Nearest& best) {
+  const double* corner[3];
+  corners_of(scene, primitive, corner);
+  Meeting meeting;
+  if (!meets(ray, corner[0], corner[1], corner[2], meeting) || !(meeting.t >= 0.0)) return;
   if (meeting.t < best.t || (meeting.t == best.t && primitive < best.primitive)) {
     best = {meeting.t, meeting.u, meeting.v, primitive};
   }
 }
 
-/// Lanes of the block that the ray's line may meet.
+/// Three numbers of each lane.
+template <class V>
+struct Triple {
+  V x, y, z;
+};
+
+/// The least of u, v and |det| − u − v in Möller and Trumbore's form, the sign of det taken out: no
+/// less than −pad where the line may meet the triangle. Lanes are rays or triangles.
+template <class Simd, class V>
+inline V least_weight(Triple<V> o, Triple<V> d, Triple<V> v0, Triple<V> e1, Triple<V> e2) {
+  const V px = Simd::subtract_product(Simd::multiply(d.y, e2.z), d.z, e2.y);
+  const V py = Simd::subtract_product(Simd::multiply(d.z, e2.x), d.x, e2.z);
+  const V pz = Simd::subtract_product(Simd::multiply(d.x, e2.y), d.y, e2.x);
+  const V det = Simd::add_product(Simd::add_product(Simd::multiply(e1.x, px), e1.y, py), e1.z, pz);
+  const V sx = Simd::subtract(o.x, v0.x);
+  const V sy = Simd::subtract(o.y, v0.y);
+  const V sz = Simd::subtract(o.z, v0.z);
+  const V u = Simd::add_product(Simd::add_product(Simd::multiply(sx, px), sy, py), sz, pz);
+  const V qx = Simd::subtract_product(Simd::multiply(sy, e1.z), sz, e1.y);
+  const V qy = Simd::subtract_product(Simd::multiply(sz, e1.x), sx, e1.z);
+  const V qz = Simd::subtract_product(Simd::multiply(sx, e1.y), sy, e1.x);
+  const V v = Simd::add_product(Simd::add_product(Simd::multiply(d.x, qx), d.y, qy), d.z, qz);
+  const V sign = Simd::sign_of(det);
+  const V us = Simd::exclusive_or(u, sign);
+  const V vs = Simd::exclusive_or(v, sign);
+  const V slack = Simd::subtract(Simd::absolute(det), Simd::add(us, vs));
+  return Simd::minimum(Simd::minimum(us, vs), slack);
+}
+
+/// Triangles of the block that the ray's line may meet, a bit each.
 template <class Simd>
-inline int candidates(const CullRay& ray, const TriangleBlock& block, float edge) {
+inline unsigned candidates(const CullRay& ray, const TriangleBlock& block, float edge) {
   using F = typename Simd::F;
-  const F dx = Simd::all(ray.d[0]);
-  const F dy = Simd::all(ray.d[1]);
-  const F dz = Simd::all(ray.d[2]);
-  const F e1x = Simd::load(block.e1[0]);
-  const F e1y = Simd::load(block.e1[1]);
-  const F e1z = Simd::load(block.e1[2]);
-  const F e2x = Simd::load(block.e2[0]);
-  const F e2y = Simd::load(block.e2[1]);
-  const F e2z = Simd::load(block.e2[2]);
-  // Möller and Trumbore's form: p = d × e2, det = e1 · p, u = s · p, q = s × e1, v = d · q.
-  const F px = Simd::subtract_product(Simd::multiply(dy, e2z), dz, e2y);
-  const F py = Simd::subtract_product(Simd::multiply(dz, e2x), dx, e2z);
-  const F pz = Simd::subtract_product(Simd::multiply(dx, e2y), dy, e2x);
-  const F det = Simd::add_product(Simd::add_product(Simd::multiply(e1x, px), e1y, py), e1z, pz);
-  const F sx = Simd::subtract(Simd::all(ray.o[0]), Simd::load(block.v0[0]));
-  const F sy = Simd::subtract(Simd::all(ray.o[1]), Simd::load(block.v0[1]));
-  const F sz = Simd::subtract(Simd::all(ray.o[2]), Simd::load(block.v0[2]));
-  const F u = Simd::add_product(Simd::add_product(Simd::multiply(sx, px), sy, py), sz, pz);
-  const F qx = Simd::subtract_product(Simd::multiply(sy, e1z), sz, e1y);
-  const F qy = Simd::subtract_product(Simd::multiply(sz, e1x), sx, e1z);
-  const F qz = Simd::subtract_product(Simd::multiply(sx, e1y), sy, e1x);
-  const F v = Simd::add_product(Simd::add_product(Simd::multiply(dx, qx), dy, qy), dz, qz);
-  // With the sign of det taken out: u ≥ 0, v ≥ 0, u + v ≤ |det|, all with room for the rounding.
-  const F sign = Simd::sign_of(det);
-  const F us = Simd::exclusive_or(u, sign);
-  const F vs = Simd::exclusive_or(v, sign);
-  const F slack = Simd::subtract(Simd::absolute(det), Simd::add(us, vs));
-  const F least = Simd::minimum(Simd::minimum(us, vs), slack);
+  const auto all = [](const float* p) {
+    return Triple<F>{Simd::all(p[0]), Simd::all(p[1]), Simd::all(p[2])};
+  };
+  const auto load = [](const float(*p)[kWidth]) {
+    return Triple<F>{Simd::load(p[0]), Simd::load(p[1]), Simd::load(p[2])};
+  };
+  const F least =
+      least_weight<Simd>(all(ray.o), all(ray.d), load(block.v0), load(block.e1), load(block.e2));
   return Simd::at_least(least, Simd::all(-ray.triangle_pad * edge));
 }
 
@@ -203,17 +226,17 @@ inline void push_children(const CullRay& ray, const WideNode& node, std::uint32_
     const F inverse = Simd::all(ray.inverse[axis]);
     const F low = Simd::load(backward ? node.high[axis] : node.low[axis]);
     const F high = Simd::load(backward ? node.low[axis] : node.high[axis]);
-    near = Simd::maximum(near, Simd::product_minus(low, inverse, Simd::all(ray.near_shift[axis])));
-    far = Simd::minimum(far, Simd::product_minus(high, inverse, Simd::all(ray.far_shift[axis])));
+    near = Simd::maximum(Simd::product_minus(low, inverse, Simd::all(ray.near_shift[axis])), near);
+    far = Simd::minimum(Simd::product_minus(high, inverse, Simd::all(ray.far_shift[axis])), far);
   }
-  int met = Simd::at_least(far, near);
+  unsigned met = Simd::at_least(far, near);
   if (met == 0) return;
   alignas(32) float t[kWidth];
   Simd::store(t, near);
   const int bottom = stack.size;
   for (; met != 0; met &= met - 1) {
-    const int lane = __builtin_ctz(static_cast<unsigned>(met));
-    const std::uint64_t entry = entry_of(t[lane], number * kWidth + static_cast<unsigned>(lane));
+    const auto lane = static_cast<unsigned>(__builtin_ctz(met));
+    const std::uint64_t entry = entry_of(t[lane], number * kWidth + lane);
     int place = stack.size++;
     for (; place > bottom && stack.entry[place - 1] < entry; --place) {
       stack.entry[place] = stack.entry[place - 1];
@@ -222,13 +245,11 @@ inline void push_children(const CullRay& ray, const WideNode& node, std::uint32_
   }
 }
 
-/// Nearest hit within best.t; with `kAny`, the first one found.
+/// Nearest hit within best.t under what waits on the stack; with `kAny`, the first one found.
 template <class Simd, bool kAny>
-inline void walk(const CastScene& scene, const ExactRay& exact, const CullRay& cull,
+inline void walk(const CastScene& scene, const ExactRay& exact, const CullRay& cull, Stack& stack,
                  Nearest& best) {
-  Stack stack;
   float bound = cull_bound(cull, best.t);
-  push_children<Simd>(cull, scene.nodes[0], 0, bound, stack);
   while (stack.size > 0) {
     const std::uint64_t entry = stack.entry[--stack.size];
     if (t_of(entry) > bound) continue;
@@ -241,14 +262,23 @@ inline void walk(const CastScene& scene, const ExactRay& exact, const CullRay& c
       continue;
     }
     const TriangleBlock& block = scene.blocks[~child];
-    int lanes = candidates<Simd>(cull, block, node.edge[place % kWidth]);
-    if (lanes == 0) continue;
-    for (; lanes != 0; lanes &= lanes - 1) {
-      confirm(scene, exact, block.primitive[__builtin_ctz(static_cast<unsigned>(lanes))], best);
+    unsigned met = candidates<Simd>(cull, block, node.edge[place % kWidth]);
+    if (met == 0) continue;
+    for (; met != 0; met &= met - 1) {
+      confirm(scene, exact, block.primitive[__builtin_ctz(met)], best);
     }
     if (kAny && best.primitive != kNoPrimitive) return;
     bound = cull_bound(cull, best.t);
   }
+}
+
+/// The same under the root.
+template <class Simd, bool kAny>
+inline void walk_all(const CastScene& scene, const ExactRay& exact, const CullRay& cull,
+                     Nearest& best) {
+  Stack stack;
+  push_children<Simd>(cull, scene.nodes[0], 0, cull_bound(cull, best.t), stack);
+  walk<Simd, kAny>(scene, exact, cull, stack, best);
 }
 
 inline void write_hit(const CastScene& scene, const Nearest& best, RayHit& hit) {
@@ -266,22 +296,20 @@ inline void write_hit(const CastScene& scene, const Nearest& best, RayHit& hit) 
   hit.v = best.v;
 }
 
+/// One ray on its own. False when it is not fine.
 template <class Simd>
-std::size_t cast(const CastScene& scene, const RayBatch& batch, RayHit* hits) {
-  for (std::size_t row = batch.begin; row < batch.end; ++row) {
-    const double* origin = batch.origins + static_cast<std::ptrdiff_t>(row) * batch.origin_step;
-    const double* direction = batch.directions + 3 * row;
-    double unit[3];
-    if (!is_finite3(origin) || !is_finite3(direction)) return row;
-    if (normalise(direction, unit) == 0.0) return row;
-    Nearest best = {__builtin_inf(), 0.0, 0.0, kNoPrimitive};
-    CullRay cull;
-    if (scene.nodes != nullptr && enter(scene, origin, unit, 1.0, cull)) {
-      walk<Simd, false>(scene, exact_ray(origin, direction, unit), cull, best);
-    }
-    write_hit(scene, best, hits[row]);
+inline bool cast_one(const CastScene& scene, const double* origin, const double* direction,
+                     RayHit& hit) {
+  double unit[3];
+  if (!is_finite3(origin) || !is_finite3(direction)) return false;
+  if (normalise(direction, unit) == 0.0) return false;
+  Nearest best = {__builtin_inf(), 0.0, 0.0, kNoPrimitive};
+  CullRay cull;
+  if (scene.nodes != nullptr && enter(scene, origin, unit, 1.0, cull)) {
+    walk_all<Simd, false>(scene, exact_ray(origin, direction, unit), cull, best);
   }
-  return kNoRow;
+  write_hit(scene, best, hit);
+  return true;
 }
 
 template <class Simd>
@@ -296,7 +324,7 @@ std::size_t occluded(const CastScene& scene, const RayBatch& batch, std::uint8_t
     Nearest best = {1.0, 0.0, 0.0, kNoPrimitive};
     CullRay cull;
     if (scene.nodes != nullptr && length > 0.0 && enter(scene, from, unit, length, cull)) {
-      walk<Simd, true>(scene, exact_ray(from, way, way), cull, best);
+      walk_all<Simd, true>(scene, exact_ray(from, way, way), cull, best);
     }
     blocked[row] = best.primitive != kNoPrimitive ? 1 : 0;
   }

@@ -103,7 +103,16 @@ void for_each_lane(unsigned lanes, const Work& work) {
   for (; lanes != 0; lanes &= lanes - 1) work(std::countr_zero(lanes));
 }
 
-/// The blocks whose boxes the section may cut.
+/// Asks the memory for every cache line of `value`.
+template <class Value>
+void prefetch(const Value& value) {
+  constexpr std::size_t kLine = 64;
+  const auto* bytes = reinterpret_cast<const char*>(&value);
+  for (std::size_t b = 0; b < sizeof(Value); b += kLine) __builtin_prefetch(bytes + b);
+}
+
+/// The blocks whose boxes the section may cut. Breadth first: by the time a node is looked at it
+/// has long been asked for.
 std::vector<std::int32_t> find_blocks(const Cutter& cutter, const Scene::Hierarchy& hierarchy,
                                       const Gauge& height) {
   const bool has_strip = cutter.has_strip();
@@ -111,10 +120,9 @@ std::vector<std::int32_t> find_blocks(const Cutter& cutter, const Scene::Hierarc
   const Gauge along(hierarchy, has_strip ? cutter.along() : cutter.normal(), cutter.anchor(),
                     cutter.along_slack(reach_of(hierarchy)));
   std::vector<std::int32_t> blocks;
-  std::vector<std::int32_t> waiting = {0};
-  while (!waiting.empty()) {
-    const scene::WideNode& node = hierarchy.nodes[static_cast<std::size_t>(waiting.back())];
-    waiting.pop_back();
+  std::vector<std::int32_t> nodes = {0};
+  for (std::size_t next = 0; next < nodes.size(); ++next) {
+    const scene::WideNode& node = hierarchy.nodes[static_cast<std::size_t>(nodes[next])];
     unsigned kept = height.sift(node, 0.0);
     if (has_strip) kept &= along.sift(node, length);
     for_each_lane(kept, [&](int lane) {
@@ -122,8 +130,8 @@ std::vector<std::int32_t> find_blocks(const Cutter& cutter, const Scene::Hierarc
       if (child < 0) {
         blocks.push_back(~child);
       } else {
-        waiting.push_back(child);
-        __builtin_prefetch(&hierarchy.nodes[static_cast<std::size_t>(child)]);
+        nodes.push_back(child);
+        prefetch(hierarchy.nodes[static_cast<std::size_t>(child)]);
       }
     });
   }
@@ -155,14 +163,7 @@ std::vector<std::uint32_t> find_candidates(const Cutter& cutter,
   std::vector<std::uint32_t> candidates;
   candidates.reserve(scene::kWidth * blocks.size());
   fetching_ahead(
-      blocks.size(),
-      [&](std::size_t i) {
-        constexpr std::size_t kLine = 64;
-        const auto* bytes = reinterpret_cast<const char*>(&block(i));
-        for (std::size_t b = 0; b < sizeof(scene::TriangleBlock); b += kLine) {
-          __builtin_prefetch(bytes + b);
-        }
-      },
+      blocks.size(), [&](std::size_t i) { prefetch(block(i)); },
       [&](std::size_t i) {
         for_each_lane(height.sift(block(i)),
                       [&](int lane) { candidates.push_back(block(i).primitive[lane]); });
@@ -171,17 +172,34 @@ std::vector<std::uint32_t> find_candidates(const Cutter& cutter,
 }
 
 std::vector<Polyline> cut_scene(const Cutter& cutter, const Scene::Hierarchy& hierarchy) {
-  const std::vector<std::uint32_t> candidates = find_candidates(cutter, hierarchy);
-  scene::CutCollector collector(cutter, candidates.size());
-  const auto corners_of = [&](std::size_t i) {
-    const auto [mesh, triangle] = hierarchy.name(candidates[i]);
-    return hierarchy.arrays[static_cast<std::size_t>(mesh)].triangles + 3 * std::int64_t{triangle};
+  struct Candidate {
+    scene::PrimitiveName name;
+    const std::int32_t* corners;  // the triangle's row in its mesh
   };
+  std::vector<Candidate> candidates;
+  for (const std::uint32_t primitive : find_candidates(cutter, hierarchy)) {
+    const scene::PrimitiveName name = hierarchy.name(primitive);
+    const scene::MeshArrays& mesh = hierarchy.arrays[static_cast<std::size_t>(name.mesh)];
+    candidates.push_back({name, mesh.triangles + 3 * std::int64_t{name.triangle}});
+    __builtin_prefetch(candidates.back().corners);
+  }
+  const auto corner = [&](const Candidate& c, int i) {
+    return hierarchy.arrays[static_cast<std::size_t>(c.name.mesh)].vertices +
+           3 * std::int64_t{c.corners[i]};
+  };
+  scene::CutCollector collector(cutter, candidates.size());
   fetching_ahead(
-      candidates.size(), [&](std::size_t i) { __builtin_prefetch(corners_of(i)); },
+      candidates.size(),
       [&](std::size_t i) {
-        const auto [mesh, triangle] = hierarchy.name(candidates[i]);
-        collector.add(hierarchy.corners(candidates[i]), mesh, triangle);
+        for (int c = 0; c < 3; ++c) {  // a row may lie on two cache lines
+          __builtin_prefetch(corner(candidates[i], c));
+          __builtin_prefetch(corner(candidates[i], c) + 2);
+        }
+      },
+      [&](std::size_t i) {
+        const Candidate& c = candidates[i];
+        collector.add({Vec3(corner(c, 0)), Vec3(corner(c, 1)), Vec3(corner(c, 2))}, c.name.mesh,
+                      c.name.triangle);
       });
   return collector.chain();
 }

@@ -33,7 +33,9 @@ class FileSource final : public ByteSource {
       ::close(file_);
       throw_system(name_, failed != 0 ? failed : EISDIR);
     }
-    if (S_ISREG(status.st_mode)) left_ = static_cast<std::size_t>(status.st_size);
+    // Files that the kernel makes up as they are read claim to be empty.
+    if (S_ISREG(status.st_mode) && status.st_size > 0)
+      left_ = static_cast<std::size_t>(status.st_size);
   }
   FileSource(const FileSource&) = delete;
   FileSource& operator=(const FileSource&) = delete;

@@ -21,13 +21,7 @@ bool may_cut(const char* bytes, std::size_t i, TextCut cut) {
 
 }  // namespace
 
-TextBlocks::TextBlocks(ByteSource& source) : source_(source) {
-  for (Buffer& buffer : buffers_) {
-    buffer.bytes =
-        std::make_unique_for_overwrite<char[]>(kBlock + kLongestPiece + 1 + kTextPadding);
-  }
-  fill(buffers_[turn_]);
-}
+TextBlocks::TextBlocks(ByteSource& source) : source_(source) { fill(buffers_[turn_], {}); }
 
 void TextBlocks::start(TextCut cut) {
   cut_ = cut;
@@ -36,7 +30,7 @@ void TextBlocks::start(TextCut cut) {
 }
 
 std::string_view TextBlocks::block() const {
-  return {current().bytes.get() + current().begin, current().cut - current().begin};
+  return {current().bytes.data() + current().begin, current().cut - current().begin};
 }
 
 void TextBlocks::skip(std::size_t bytes) {
@@ -58,17 +52,19 @@ void TextBlocks::parse_parts(int num_threads,
   split();
 }
 
-/// Appends fresh bytes to what the buffer holds.
-void TextBlocks::fill(Buffer& buffer) {
-  if (at_end_) return;
-  const std::size_t got = source_.read(buffer.bytes.get() + buffer.filled, kBlock);
-  at_end_ = got < kBlock;
-  buffer.filled += got;
+/// Puts fresh bytes behind what the last block left over.
+void TextBlocks::fill(Buffer& buffer, std::string_view left_over) {
+  const std::size_t want = at_end_ ? 0 : std::min(kBlock - 1, source_.bytes_left()) + 1;
+  char* const bytes = buffer.bytes.room_for(left_over.size() + want + 1 + kTextPadding);
+  if (!left_over.empty()) std::memcpy(bytes, left_over.data(), left_over.size());
+  const std::size_t got = want == 0 ? 0 : source_.read(bytes + left_over.size(), want);
+  at_end_ = got < want || want == 0;
+  buffer.filled = left_over.size() + got;
 }
 
 /// The last place where a cut may be made; at the end of the text that is its end.
-void TextBlocks::find_cut(Buffer& buffer) const {
-  char* const bytes = buffer.bytes.get();
+void TextBlocks::find_cut(Buffer& buffer) {
+  char* const bytes = buffer.bytes.room_for(0);
   if (at_end_) {
     if (buffer.filled > 0 && bytes[buffer.filled - 1] != '\n') bytes[buffer.filled++] = '\n';
     buffer.cut = buffer.filled;
@@ -84,15 +80,14 @@ void TextBlocks::find_cut(Buffer& buffer) const {
 void TextBlocks::read_ahead() {
   const Buffer& now = current();
   Buffer& next = buffers_[1 - turn_];
-  const std::size_t left_over = now.filled - now.cut;
-  if (left_over > 0) std::memcpy(next.bytes.get(), now.bytes.get() + now.cut, left_over);
+  const std::string_view left_over(now.bytes.data() + now.cut, now.filled - now.cut);
   next.offset = now.offset + now.cut;
   next.begin = 0;
   next.cut = 0;
-  next.filled = left_over;
-  next.too_long = left_over > kLongestPiece;
+  next.filled = 0;
+  next.too_long = left_over.size() > kLongestPiece;
   if (next.too_long) return;
-  fill(next);
+  fill(next, left_over);
   find_cut(next);
 }
 

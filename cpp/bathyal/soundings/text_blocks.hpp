@@ -3,11 +3,11 @@
 
 #include <array>
 #include <functional>
-#include <memory>
 #include <string_view>
 #include <vector>
 
 #include "bathyal/soundings/byte_source.hpp"
+#include "bathyal/soundings/growing_array.hpp"
 
 namespace bathyal {
 
@@ -24,7 +24,7 @@ class TextBlocks {
   explicit TextBlocks(ByteSource& source);
 
   /// The first bytes of the text, up to kBlock, cut or not: to see what it is before `start`.
-  std::string_view head() const { return {current().bytes.get(), current().filled}; }
+  std::string_view head() const { return {current().bytes.data(), current().filled}; }
 
   /// Takes the first block in hand.
   void start(TextCut cut);
@@ -57,17 +57,17 @@ class TextBlocks {
 
  private:
   struct Buffer {
-    std::unique_ptr<char[]> bytes;  ///< not cleared: what a short file never touches costs nothing
-    std::size_t offset = 0;         ///< of bytes[0] in the source
-    std::size_t begin = 0;          ///< of the block
-    std::size_t cut = 0;            ///< end of the block
-    std::size_t filled = 0;         ///< end of what has been read
+    GrowingArray<char> bytes;  ///< only its memory is used: no larger than the source needs
+    std::size_t offset = 0;    ///< of bytes[0] in the source
+    std::size_t begin = 0;     ///< of the block
+    std::size_t cut = 0;       ///< end of the block
+    std::size_t filled = 0;    ///< end of what has been read
     bool too_long = false;
   };
 
   const Buffer& current() const { return buffers_[turn_]; }
-  void fill(Buffer& buffer);
-  void find_cut(Buffer& buffer) const;
+  void fill(Buffer& buffer, std::string_view left_over);
+  void find_cut(Buffer& buffer);
   void read_ahead();
   void split();
 

@@ -26,11 +26,6 @@ bool equals_ignoring_case(std::string_view text, std::string_view lower) {
   });
 }
 
-bool is_missing(std::string_view field) {
-  return field.empty() || equals_ignoring_case(field, "na") || equals_ignoring_case(field, "n/a") ||
-         equals_ignoring_case(field, "null");
-}
-
 bool word_value(std::string_view field, double& value) {
   const bool negative = field.front() == '-';
   if (negative || field.front() == '+') field.remove_prefix(1);
@@ -99,6 +94,11 @@ bool is_blank_or_comment(std::string_view line, const TextFormat& format) {
     line.remove_prefix(1);
   }
   return line.empty() || starts_comment(line, format);
+}
+
+bool is_missing(std::string_view field) {
+  return field.empty() || equals_ignoring_case(field, "na") || equals_ignoring_case(field, "n/a") ||
+         equals_ignoring_case(field, "null");
 }
 
 bool field_value(std::string_view field, const TextFormat& format, double& value) {

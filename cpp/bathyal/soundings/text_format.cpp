@@ -58,7 +58,7 @@ std::string unquoted(std::string_view line) {
       result += c;
     }
   }
-  return result;
+  return quote == '\0' ? result : std::string(line);
 }
 
 /// Whether a blank stands between two other things within one tab-separated field: then tabs and
@@ -156,14 +156,17 @@ bool is_row(const Fields& fields, const TextFormat& format, const TextOptions& o
   lenient.empty_is_nan = true;
   double value = 0.0;
   bool by_index = !options.columns.empty();
-  for (const auto& column : options.columns) by_index = by_index && column.index() == 0;
+  for (const auto& column : options.columns) {
+    const auto* index = std::get_if<Index>(&column);
+    by_index = by_index && index != nullptr && *index < static_cast<Index>(fields.size());
+  }
   if (!by_index) {
     return std::any_of(fields.begin(), fields.end(),
                        [&](std::string_view field) { return field_value(field, lenient, value); });
   }
   return std::any_of(options.columns.begin(), options.columns.end(), [&](const auto& column) {
     const auto index = static_cast<std::size_t>(std::get<Index>(column));
-    return index < fields.size() && field_value(fields[index], lenient, value);
+    return field_value(fields[index], lenient, value);
   });
 }
 

@@ -39,6 +39,9 @@ bool split_fields(std::string_view line, const TextFormat& format, std::size_t w
 /// Whether the line holds nothing but blanks or a comment.
 bool is_blank_or_comment(std::string_view line, const TextFormat& format);
 
+/// Whether the field is empty or says NA, N/A or null, in capitals or not.
+bool is_missing(std::string_view field);
+
 /// The number a field holds, words and the policy for empty fields included.
 bool field_value(std::string_view field, const TextFormat& format, double& value);
 

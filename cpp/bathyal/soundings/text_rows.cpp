@@ -85,8 +85,8 @@ std::string column_text(const TextFormat& format, std::size_t column) {
 std::string no_number(const TextFormat& format, std::size_t column, std::string_view field) {
   std::string text("expected a number in ");
   text.append(column_text(format, column)).append(", got ");
-  if (field.empty()) return text + "nothing (`empty_is_nan` would allow that)";
   text.append("\"").append(printable(field)).append("\"");
+  if (is_missing(field)) text += " (`empty_is_nan` would allow that)";
   if (format.decimal == '.' && field.find(',') != std::string_view::npos) {
     text += " (`separator` and `decimal` say what a comma means)";
   }

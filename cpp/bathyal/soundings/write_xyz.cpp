@@ -156,6 +156,7 @@ void write_xyz(const std::filesystem::path& path, const PointCloud& cloud,
   options.check();
   const std::vector<const double*> columns = wanted_attributes(cloud, options.attributes);
   FileSink file(path);
+  file.write(options.preamble);
   if (options.header) {
     std::string line = std::string("x") + options.separator + "y" + options.separator + "z";
     for (const std::string& name : options.attributes) line += options.separator + name;

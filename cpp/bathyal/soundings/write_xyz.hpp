@@ -14,6 +14,7 @@ struct WriteXyzOptions {
   int decimals =
       -1;  ///< digits behind the point, 0 to 17; −1: the shortest that read back the same
   char separator = ' ';                 ///< ' ', ',', ';' or '\t'
+  std::string preamble;                 ///< text to stand above all else, as it is
   bool header = false;                  ///< a first line with the names of the columns
   std::vector<std::string> attributes;  ///< which, in this order, behind x y z
   int num_threads = 0;                  ///< 0: all

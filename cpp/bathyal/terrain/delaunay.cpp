@@ -5,7 +5,6 @@
 #include <bit>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <string>
 #include <vector>
 
@@ -46,16 +45,15 @@ void check_points(PointView points, int num_threads) {
   });
 }
 
-std::vector<Point2> gather(PointView points, const std::vector<std::int32_t>& rows,
-                           int num_threads) {
-  std::vector<Point2> plane(rows.size());
+PageVector<Point2> gather(PointView points, const PageVector<std::int32_t>& rows, int num_threads) {
+  PageVector<Point2> plane(rows.size());
   parallel_for(rows.size(), kGrain, num_threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) plane[i] = {points(rows[i], 0), points(rows[i], 1)};
   });
   return plane;
 }
 
-TriangleMatrix triangulate(const std::vector<Point2>& points, int num_threads) {
+TriangleMatrix triangulate(const PageVector<Point2>& points, int num_threads) {
   const auto worthwhile = static_cast<int>(points.size() / kPointsPerCell);
   const int cells = std::clamp(std::min(num_threads, worthwhile), 1, kMostCells);
   TriangleMatrix triangles = triangulate_in_cells(points, cells, num_threads);
@@ -67,13 +65,13 @@ TriangleMatrix triangulate(const std::vector<Point2>& points, int num_threads) {
   return triangles;
 }
 
-std::vector<double> longest_edges(const std::vector<Point2>& points, TriangleView triangles,
-                                  int num_threads) {
+PageVector<double> longest_edges(const PageVector<Point2>& points, const TriangleMatrix& triangles,
+                                 int num_threads) {
   const auto squared = [](const Point2& a, const Point2& b) {
     const double dx = a.x - b.x, dy = a.y - b.y;
     return dx * dx + dy * dy;
   };
-  std::vector<double> longest(static_cast<std::size_t>(triangles.rows()));
+  PageVector<double> longest(static_cast<std::size_t>(triangles.rows()));
   parallel_for(longest.size(), kGrain, num_threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const auto row = static_cast<Index>(i);
@@ -87,7 +85,7 @@ std::vector<double> longest_edges(const std::vector<Point2>& points, TriangleVie
 }
 
 /// The middle value, the upper one of two: found among those that share its leading bits.
-double median(const std::vector<double>& values) {
+double median(const PageVector<double>& values) {
   const auto bin = [](double value) { return std::bit_cast<std::uint64_t>(value) >> 47U; };
   std::vector<std::size_t> count(std::size_t{1} << 16U, 0);
   for (const double value : values) ++count[bin(value)];
@@ -103,27 +101,27 @@ double median(const std::vector<double>& values) {
   return *middle;
 }
 
-/// The triangles without an edge above `max_edge`, in the same order, as rows of the input.
-TriangleMatrix kept_triangles(TriangleView triangles, const std::vector<double>& longest,
-                              double max_edge, const std::vector<std::int32_t>& rows,
-                              int num_threads) {
-  std::vector<Index> place((longest.size() + kGrain - 1) / kGrain + 1, 0);
+/// Leaves out the triangles with an edge above `max_edge`, in place, and turns places on the curve
+/// into rows of the input.
+void keep_triangles(TriangleMatrix& triangles, const PageVector<double>& longest, double max_edge,
+                    const PageVector<std::int32_t>& rows, int num_threads) {
+  std::vector<Index> kept((longest.size() + kGrain - 1) / kGrain);
   parallel_for(longest.size(), kGrain, num_threads, [&](std::size_t begin, std::size_t end) {
-    place[begin / kGrain + 1] = std::count_if(longest.begin() + static_cast<std::ptrdiff_t>(begin),
-                                              longest.begin() + static_cast<std::ptrdiff_t>(end),
-                                              [&](double edge) { return edge <= max_edge; });
-  });
-  std::partial_sum(place.begin(), place.end(), place.begin());
-  TriangleMatrix kept(place.back(), 3);
-  parallel_for(longest.size(), kGrain, num_threads, [&](std::size_t begin, std::size_t end) {
-    Index next = place[begin / kGrain];
+    auto next = static_cast<Index>(begin);
     for (std::size_t i = begin; i < end; ++i) {
       if (!(longest[i] <= max_edge)) continue;
-      for (int c = 0; c < 3; ++c) kept(next, c) = rows[triangles(static_cast<Index>(i), c)];
+      for (int c = 0; c < 3; ++c) triangles(next, c) = rows[triangles(static_cast<Index>(i), c)];
       ++next;
     }
+    kept[begin / kGrain] = next - static_cast<Index>(begin);
   });
-  return kept;
+  Index total = 0;
+  for (std::size_t chunk = 0; chunk < kept.size(); ++chunk) {
+    const auto from = triangles.data() + 3 * static_cast<Index>(chunk * kGrain);
+    std::copy_n(from, 3 * kept[chunk], triangles.data() + 3 * total);
+    total += kept[chunk];
+  }
+  triangles.conservativeResize(total, 3);
 }
 
 }  // namespace
@@ -139,18 +137,21 @@ Delaunay delaunay(PointView points, const DelaunayOptions& options) {
   options.check();
   const int num_threads = resolve_threads(options.num_threads);
   check_points(points, num_threads);
-  const std::vector<std::int32_t> rows = hilbert_order(points, num_threads);
-  const std::vector<Point2> plane = gather(points, rows, num_threads);
-  const TriangleMatrix all = triangulate(plane, num_threads);
-  const TriangleView view(all.data(), all.rows(), 3);
-  const std::vector<double> longest = longest_edges(plane, view, num_threads);
-  const double automatic =
-      rows.size() < kFewestForMedian ? kInfinity : kMedianFactor * median(longest);
+  const PageVector<std::int32_t> rows = hilbert_order(points, num_threads);
+  const PageVector<Point2> plane = gather(points, rows, num_threads);
+  TriangleMatrix triangles = triangulate(plane, num_threads);
+  const Index complete = triangles.rows();
+  const PageVector<double> longest = longest_edges(plane, triangles, num_threads);
   Delaunay result;
-  result.max_edge = options.max_edge.value_or(automatic);
-  result.triangles = kept_triangles(view, longest, result.max_edge, rows, num_threads);
-  result.cut_triangles = all.rows() - result.triangles.rows();
+  if (options.max_edge) {
+    result.max_edge = *options.max_edge;
+  } else {
+    result.max_edge = rows.size() < kFewestForMedian ? kInfinity : kMedianFactor * median(longest);
+  }
+  keep_triangles(triangles, longest, result.max_edge, rows, num_threads);
+  result.cut_triangles = complete - triangles.rows();
   result.merged_points = points.rows() - static_cast<Index>(rows.size());
+  result.triangles = std::move(triangles);
   return result;
 }
 

@@ -3,11 +3,10 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <string>
+#include <unordered_map>
 
 #include "bathyal/base/check.hpp"
 #include "bathyal/base/parallel.hpp"
@@ -19,7 +18,9 @@ namespace {
 using Matrix3 = Eigen::Matrix3d;
 
 constexpr std::size_t kGrain = 1 << 15;
-constexpr Index kMaxRanked = 2000;             // points that rank a trial; the median needs no more
+constexpr Index kMaxRanked = 2000;  // points that rank a trial; the median needs no more
+constexpr double kFarthest = 1e75;  // so that fourth powers of coordinates stay finite
+constexpr int kLineTrials = 50;
 constexpr double kMadToSigma = 1.482602218;    // of normal residuals
 constexpr double kCut = 3.0;                   // sigmas within which a point is an inlier
 constexpr double kCutToSigma = 1.0 / 0.98658;  // rms of normal residuals cut at 3 sigma
@@ -183,12 +184,6 @@ Refined refine(const Local& cloud, LocalPlane plane, const FitPlaneOptions& opti
     if (settled) break;
     result.mask = std::move(mask);
     result.inliers = scatter(cloud, result.mask, options.num_threads);
-    if (on_a_line(result.inliers, cloud.rounding)) {
-      throw_argument("points", "a plane that three points or more off one line agree on",
-                     std::to_string(static_cast<Index>(result.inliers.n)) + " of " +
-                         std::to_string(cloud.points.rows()) +
-                         " points on one line and the others scattered");
-    }
     plane = {result.inliers.axes.col(0), result.inliers.mean};
     sigma = kCutToSigma * result.inliers.spread[0];
     result.plane = plane;
@@ -196,11 +191,60 @@ Refined refine(const Local& cloud, LocalPlane plane, const FitPlaneOptions& opti
   return result;
 }
 
+/// Refuses inliers that lie on one line but for fewer than one in ten: any plane through that line
+/// would do. (Of three points, two are always on a line.)
+void check_not_on_a_line(const Local& cloud, const Refined& fit, std::uint64_t seed) {
+  std::vector<Vec3> points;
+  RandomStream draw(seed, 1);
+  const auto size = static_cast<double>(cloud.points.rows());
+  const double keep = static_cast<double>(kMaxRanked) / fit.inliers.n;
+  for (std::size_t i = 0; i < fit.mask.size(); ++i) {
+    if (fit.mask[i] != 0 && draw.uniform() < keep)
+      points.push_back(cloud.at(static_cast<Index>(i)));
+  }
+  const auto any = [&] {
+    return points[static_cast<std::size_t>(draw.uniform() * static_cast<double>(points.size()))];
+  };
+  const double near = std::max(1e-7 * fit.inliers.spread[2], cloud.rounding);
+  for (int trial = 0; trial < kLineTrials; ++trial) {
+    const Vec3 a = any();
+    const Vec3 along = any() - a;
+    if (along.norm() <= near) continue;
+    const auto on_line = std::count_if(points.begin(), points.end(), [&](const Vec3& p) {
+      return along.cross(p - a).norm() <= near * along.norm();
+    });
+    if (static_cast<double>(on_line) > 0.9 * static_cast<double>(points.size())) {
+      throw_argument("points", "a plane that points off one line agree on",
+                     "over 90 % of the " + to_text(fit.inliers.n) + " inliers of " + to_text(size) +
+                         " points on one line");
+    }
+  }
+}
+
+/// From the residuals: the least eigenvalue of the scatter knows only half of their digits.
+double rms_of_inliers(const Refined& fit) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < fit.mask.size(); ++i) {
+    if (fit.mask[i] != 0) sum += fit.residuals[i] * fit.residuals[i];
+  }
+  return std::sqrt(sum / fit.inliers.n);
+}
+
 Vec3 turned_up(const Vec3& normal) {
   for (const int axis : {2, 0, 1}) {
     if (std::abs(normal[axis]) > 1e-12) return normal[axis] > 0.0 ? normal : Vec3(-normal);
   }
   return normal;
+}
+
+/// One number for the square (floor u, floor v). Squares 2³⁰ sides away share the outermost: only
+/// single gross errors lie there.
+std::uint64_t patch_key(double u, double v) {
+  const auto index = [](double w) {
+    return static_cast<std::uint32_t>(
+        static_cast<std::int32_t>(std::clamp(std::floor(w), -0x1p30, 0x1p30)));
+  };
+  return std::uint64_t{index(u)} << 32U | index(v);
 }
 
 /// Distances of the patches' medians from the plane [m].
@@ -215,12 +259,11 @@ std::vector<double> patch_distances(const Local& cloud, const Refined& fit, int 
   // (width = √12 standard deviations), give the density.
   const Vec3& spread = fit.inliers.spread;
   const double side = std::sqrt(12.0 * spread[1] * spread[2] * patch_points / fit.inliers.n);
-  std::map<std::array<double, 2>, std::vector<double>> patches;
+  std::unordered_map<std::uint64_t, std::vector<double>> patches;
   for (Index i = 0; i < cloud.points.rows(); ++i) {
     const Vec3 d = cloud.at(i) - fit.plane.mean;
-    const double u = std::floor(d.dot(fit.inliers.axes.col(1)) / side);
-    const double v = std::floor(d.dot(fit.inliers.axes.col(2)) / side);
-    patches[{u, v}].push_back(fit.residuals[static_cast<std::size_t>(i)]);
+    patches[patch_key(d.dot(fit.inliers.axes.col(1)) / side, d.dot(fit.inliers.axes.col(2)) / side)]
+        .push_back(fit.residuals[static_cast<std::size_t>(i)]);
   }
   for (auto& [at, residuals] : patches) {
     // A patch cut by the rim of the cloud has too few points for a median to speak of.
@@ -259,6 +302,9 @@ PlaneFit fit_plane(PointView points, const FitPlaneOptions& options) {
     throw_argument("points", "three points or more", std::to_string(points.rows()));
   }
   const double largest = points.cwiseAbs().maxCoeff();
+  if (largest > kFarthest) {
+    throw_argument("points", "coordinates of 1e75 at most", to_text(largest));
+  }
   const Local cloud{points, local_origin(points),
                     8.0 * std::numeric_limits<double>::epsilon() * largest};
   const Scatter all = scatter(cloud, {}, options.num_threads);
@@ -268,14 +314,14 @@ PlaneFit fit_plane(PointView points, const FitPlaneOptions& options) {
   }
 
   const Refined refined = refine(cloud, least_median_plane(cloud, options), options);
+  check_not_on_a_line(cloud, refined, options.seed);
   PlaneFit fit;
   const Vec3 normal = turned_up(refined.plane.normal);
   fit.plane = Plane::through(refined.plane.mean + cloud.origin, normal);
-  fit.rms = refined.inliers.spread[0];
+  fit.rms = rms_of_inliers(refined);
   fit.inliers = refined.mask;
   fit.inlier_count = static_cast<Index>(refined.inliers.n);
-  fit.tilt_std =
-      refined.inliers.spread[0] / (std::sqrt(refined.inliers.n) * refined.inliers.spread[1]);
+  fit.tilt_std = fit.rms / (std::sqrt(refined.inliers.n) * refined.inliers.spread[1]);
   judge_flatness(cloud, refined, options, fit);
   return fit;
 }

@@ -51,8 +51,8 @@ struct PlaneFit {
 /// two patches each point is its own patch.
 ///
 /// A vertical plane has no up: its normal's first component that is not zero is positive.
-/// \throw std::invalid_argument for points that are not finite; fewer than three distinct points;
-/// points all on one line, or whose plane would rest on a line of them.
+/// \throw std::invalid_argument for points that are not finite or above 1e75; fewer than three
+/// distinct points; points all on one line, or whose plane would rest on a line of them.
 PlaneFit fit_plane(PointView points, const FitPlaneOptions& options = {});
 
 }  // namespace bathyal

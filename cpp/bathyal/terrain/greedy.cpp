@@ -15,7 +15,10 @@
 #include <vector>
 
 #include "bathyal/base/check.hpp"
+#include "bathyal/base/random.hpp"
 #include "bathyal/geometry/orient.hpp"
+#include "bathyal/terrain/sheets.hpp"
+#include "bathyal/terrain/triangulate.hpp"
 
 namespace bathyal {
 namespace {
@@ -24,6 +27,7 @@ using Cloud = pcl::PointCloud<pcl::PointNormal>;
 using Tree = pcl::search::KdTree<pcl::PointNormal>;
 
 constexpr double kRadiusOfSpacing = 6.0;
+constexpr double kShake = 1e-3;  // of the spacing
 constexpr double kFlat = 1e-12;  // height over longest edge below which a triangle has no area
 
 /// The cloud as PCL takes it, and the row that each of its points came from.
@@ -88,6 +92,18 @@ double median_nearest_distance(const Cloud& cloud, Tree& tree) {
   const auto middle = nearest.begin() + static_cast<std::ptrdiff_t>(nearest.size() / 2);
   std::nth_element(nearest.begin(), middle, nearest.end());
   return std::sqrt(static_cast<double>(*middle));
+}
+
+/// Moves PCL's copy of the points by a thousandth of their spacing. On a grid PCL's choices among
+/// equally good neighbours contradict each other and leave holes; off it they do not.
+void shake(Input& input, double spacing) {
+  for (std::size_t i = 0; i < input.cloud->size(); ++i) {
+    RandomStream draw(0, static_cast<std::uint64_t>(input.row[i]));
+    for (float& coordinate : (*input.cloud)[i].data) {
+      coordinate += static_cast<float>(kShake * spacing * draw.uniform(-1.0, 1.0));
+    }
+    (*input.cloud)[i].data[3] = 1.0F;
+  }
 }
 
 /// The direction of least scatter of each point's neighbours, z up. In double about the point:
@@ -180,6 +196,16 @@ TriangleMatrix keep_sound(const std::vector<pcl::Vertices>& polygons,
   return triangles;
 }
 
+/// Turns every triangle up: the triangles of a height field.
+void turn_up(PointView points, TriangleMatrix& triangles) {
+  for (Index t = 0; t < triangles.rows(); ++t) {
+    const Vec3 a = points.row(triangles(t, 0));
+    const Vec3 u = points.row(triangles(t, 1)).transpose() - a;
+    const Vec3 v = points.row(triangles(t, 2)).transpose() - a;
+    if (u.x() * v.y() - u.y() * v.x() < 0.0) std::swap(triangles(t, 1), triangles(t, 2));
+  }
+}
+
 }  // namespace
 
 void GreedyOptions::check() const {
@@ -199,19 +225,25 @@ void GreedyOptions::check() const {
 
 Greedy greedy(PointView points, const GreedyOptions& options) {
   options.check();
-  check_points_finite("points", points);
-  const Input input = to_pcl(points);
+  check_clean("points", points);
+  Input input = to_pcl(points);
   check_spans_a_surface(*input.cloud);
 
   const Tree::Ptr tree(new Tree);
   tree->setInputCloud(input.cloud);
+  const double spacing = median_nearest_distance(*input.cloud, *tree);
   const double search_radius =
-      options.search_radius > 0.0 ? options.search_radius
-                                  : kRadiusOfSpacing * median_nearest_distance(*input.cloud, *tree);
+      options.search_radius > 0.0 ? options.search_radius : kRadiusOfSpacing * spacing;
+  shake(input, spacing);
+  tree->setInputCloud(input.cloud);
   estimate_normals(*input.cloud, *tree, options.normal_neighbours);
   TriangleMatrix triangles =
       keep_sound(run_pcl(input, tree, options, search_radius), input.row, points);
-  orient(points, triangles);
+  if (find_sheets(points, {.num_threads = 1}).single_valued()) {
+    turn_up(points, triangles);
+  } else {
+    orient(points, triangles);
+  }
   return {std::move(triangles), search_radius,
           points.rows() - static_cast<Index>(input.row.size())};
 }

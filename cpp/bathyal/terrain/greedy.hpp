@@ -41,9 +41,11 @@ struct Greedy {
 ///
 /// PCL crashes on an empty cloud, aborts on a NaN and works in float32, where survey coordinates
 /// lose their centimetres: points are checked first and a local origin is subtracted in double. Of
-/// points at one place the first row is used. Triangles without area and repeated ones are dropped.
-/// The rest are turned consistently across every edge that two of them share, where that is
-/// possible at all, and each connected piece so that it faces up (outward, when it is closed).
+/// points at one place the first row is used. PCL sees the points moved by up to a thousandth of
+/// their spacing, without which it leaves holes in grids. Triangles without area and repeated ones
+/// are dropped. The rest are turned up where the cloud is a height field (find_sheets); elsewhere
+/// consistently across every edge that two of them share, where that is possible at all, and each
+/// connected piece so that it faces up on balance (outward, when it is closed or nearly so).
 ///
 /// One thread; the same triangles every time.
 /// \throw std::invalid_argument for points that are not finite, and when there are not three that

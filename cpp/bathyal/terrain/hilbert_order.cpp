@@ -8,6 +8,8 @@
 #include <limits>
 #include <span>
 #include <tuple>
+#include <utility>
+#include <vector>
 
 #include "bathyal/base/parallel.hpp"
 
@@ -125,10 +127,10 @@ void radix_pass(std::span<const Item> from, std::span<Item> to, unsigned shift, 
   });
 }
 
-void sort_by_key(std::vector<Item>& items, unsigned key_bits, int num_threads) {
+void sort_by_key(PageVector<Item>& items, unsigned key_bits, int num_threads) {
   const unsigned passes = (key_bits + 11) / 12;
   const unsigned bits = key_bits / passes;
-  std::vector<Item> other(items.size());
+  PageVector<Item> other(items.size());
   for (unsigned pass = 0; pass < passes; ++pass) {
     radix_pass(items, other, pass * bits, bits, num_threads);
     items.swap(other);
@@ -197,12 +199,12 @@ Box bounding_box(PointView points, int num_threads) {
   return box;
 }
 
-std::vector<Item> sorted_items(PointView points, int num_threads) {
+PageVector<Item> sorted_items(PointView points, int num_threads) {
   const auto count = static_cast<std::size_t>(points.rows());
   const Box box = bounding_box(points, num_threads);
   const Curve curve(box, count);
   const bool one_place = !(box.extent() > 0.0);
-  std::vector<Item> items(count);
+  PageVector<Item> items(count);
   parallel_for(count, kGrain, num_threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const auto row = static_cast<Index>(i);
@@ -224,16 +226,19 @@ std::vector<Item> sorted_items(PointView points, int num_threads) {
 
 }  // namespace
 
-std::vector<std::int32_t> hilbert_order(PointView points, int num_threads) {
-  const std::vector<Item> items = sorted_items(points, num_threads);
-  std::vector<std::int32_t> rows;
-  rows.reserve(items.size());
-  for (const Item item : items) {
-    const std::int32_t row = row_of(item);
-    const bool repeated = !rows.empty() && points(row, 0) == points(rows.back(), 0) &&
-                          points(row, 1) == points(rows.back(), 1);
-    if (!repeated) rows.push_back(row);
+PageVector<std::int32_t> hilbert_order(PointView points, int num_threads) {
+  const PageVector<Item> items = sorted_items(points, num_threads);
+  PageVector<std::int32_t> rows(items.size());
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    const std::int32_t row = row_of(items[i]);
+    const bool repeated = i > 0 && key_of(items[i]) == key_of(items[i - 1]) &&
+                          points(row, 0) == points(rows[count - 1], 0) &&
+                          points(row, 1) == points(rows[count - 1], 1);
+    rows[count] = row;
+    if (!repeated) ++count;
   }
+  rows.resize(count);
   return rows;
 }
 

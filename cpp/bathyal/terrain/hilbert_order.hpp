@@ -2,8 +2,8 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
+#include "bathyal/base/page_allocator.hpp"
 #include "bathyal/geometry/shared_array.hpp"
 
 namespace bathyal {
@@ -12,7 +12,7 @@ namespace bathyal {
 /// neighbours in the list are neighbours on the bottom. Points in one cell of the curve follow a
 /// finer curve of their own, or x, then y when they are few: the order is a matter of the points
 /// and not of their rows. Rows of equal (x, y) are merged into the one of lowest z, then lowest
-/// row. For finite points; the same for any number of threads.
-std::vector<std::int32_t> hilbert_order(PointView points, int num_threads);
+/// row. For finite points, |x| and |y| at most 1e75; the same for any number of threads.
+PageVector<std::int32_t> hilbert_order(PointView points, int num_threads);
 
 }  // namespace bathyal

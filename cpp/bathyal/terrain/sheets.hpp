@@ -12,8 +12,8 @@ struct FindSheetsOptions {
   /// Vertical distance from which two sheets count [m]; 0 takes the larger of 6 × noise and
   /// 1 × spacing, both measured from the cloud.
   double min_separation = 0.0;
-  /// Soundings that a place needs on each of its two sheets, 12 or more. Fewer are spikes.
-  int min_points = 16;
+  /// Soundings that a place needs on each of its two sheets, 5 or more. Fewer are spikes.
+  int min_points = 12;
   int num_threads = 0;  ///< 0 = all
 
   void check() const;
@@ -60,12 +60,13 @@ struct SheetReport {
 /// Relief finer than the spacing cannot be told from several sheets and counts as such where it
 /// meets both conditions. A vertical wall with soundings all the way up is not two sheets. Two
 /// passes over the same ground count when the step between them passes condition 1. Sheets are
-/// missed where soundings stand four times closer along scan lines than across, and within a
-/// spacing or two of the rim where they join.
+/// missed where soundings stand four times closer along scan lines than across, among spikes in one
+/// sounding of five (clean the cloud first), and within a spacing or two of the rim where they
+/// join.
 ///
 /// Fewer than 2 × min_points points, or all in one place: no sheets. The same report for any
 /// number of threads.
-/// \throw std::invalid_argument for points that are not finite.
+/// \throw std::invalid_argument for points that are not finite or above 1e75.
 SheetReport find_sheets(PointView points, const FindSheetsOptions& options = {});
 
 /// One sentence for people: where and how much, or that there is one sheet.

@@ -18,8 +18,6 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t kSample = 4096;  // points looked at to place the cuts
 constexpr std::size_t kGrain = 1 << 15;
 
-using Corners = std::array<std::int32_t, 3>;
-
 /// The same triangle, beginning with its lowest vertex.
 Corners lowest_first(const Corners& t) {
   if (t[0] < t[1] && t[0] < t[2]) return t;
@@ -35,6 +33,9 @@ struct Box {
   bool holds(const Point2& p) const {
     return p.x >= x_low && p.x < x_high && p.y >= y_low && p.y < y_high;
   }
+  bool is_plane() const {
+    return x_low == -kInfinity && x_high == kInfinity && y_low == -kInfinity && y_high == kInfinity;
+  }
   double distance_to_cut(const Point2& p) const {
     return std::min(std::min(p.x - x_low, x_high - p.x), std::min(p.y - y_low, y_high - p.y));
   }
@@ -43,8 +44,8 @@ struct Box {
 /// One box, what was made of its points, and which of it is not yet known to be final.
 struct Cell {
   Box box;
-  std::vector<LinkedTriangle> triangles;  ///< those to leave out carry a ghost
-  std::vector<Corners> open;              ///< not final, lowest vertex first, sorted
+  PageVector<Corners> triangles;  ///< those to leave out carry a ghost
+  std::vector<Corners> open;      ///< not final, lowest vertex first, sorted
 };
 
 /// Median cuts through a sample, across the longer side, until there are `count` boxes.
@@ -82,8 +83,9 @@ std::vector<Cell> make_cells(std::span<const Point2> points, int count) {
   return cells;
 }
 
-std::vector<std::int32_t> vertices_within(std::span<const Point2> points, const Box& box) {
-  std::vector<std::int32_t> vertices;
+PageVector<std::int32_t> vertices_within(std::span<const Point2> points, const Box& box) {
+  PageVector<std::int32_t> vertices;
+  vertices.reserve(points.size());  // what stays empty is never touched
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (box.holds(points[i])) vertices.push_back(static_cast<std::int32_t>(i));
   }
@@ -112,24 +114,25 @@ bool is_final(const Point2& a, const Point2& b, const Point2& c, const Box& box)
 
 /// Which vertices take part in the common triangulation, by the number of their cell plus 1; 0 for
 /// those whose triangles are all final.
-using Seam = std::vector<std::uint16_t>;
+using Seam = PageVector<std::uint16_t>;
 
 /// Triangulates a cell; triangles that are not final go to `open` and their vertices to the seam.
 void triangulate_cell(std::span<const Point2> points, Cell& cell, std::uint16_t mark, Seam& seam) {
-  const std::vector<std::int32_t> vertices = vertices_within(points, cell.box);
+  const PageVector<std::int32_t> vertices = vertices_within(points, cell.box);
   cell.triangles = triangulate_points(points, vertices);
   if (cell.triangles.empty()) {
     for (const std::int32_t v : vertices) seam[v] = mark;
   }
-  for (LinkedTriangle& t : cell.triangles) {
+  if (cell.box.is_plane()) return;
+  for (Corners& t : cell.triangles) {
     if (is_ghost(t)) {
-      for (const std::int32_t v : t.vertex) {
+      for (const std::int32_t v : t) {
         if (v != kGhost) seam[v] = mark;
       }
-    } else if (!is_final(points[t.vertex[0]], points[t.vertex[1]], points[t.vertex[2]], cell.box)) {
-      for (const std::int32_t v : t.vertex) seam[v] = mark;
-      cell.open.push_back(lowest_first(t.vertex));
-      t.vertex[0] = kGhost;
+    } else if (!is_final(points[t[0]], points[t[1]], points[t[2]], cell.box)) {
+      for (const std::int32_t v : t) seam[v] = mark;
+      cell.open.push_back(lowest_first(t));
+      t[0] = kGhost;
     }
   }
   std::sort(cell.open.begin(), cell.open.end());
@@ -137,23 +140,33 @@ void triangulate_cell(std::span<const Point2> points, Cell& cell, std::uint16_t 
 
 /// The triangles that no cell could settle. In the triangulation of the seam's vertices these are
 /// the ones that join cells, and those that their own cell had found too.
-std::vector<LinkedTriangle> triangulate_seam(std::span<const Point2> points,
-                                             const std::vector<Cell>& cells, const Seam& seam) {
+PageVector<Corners> triangulate_seam(std::span<const Point2> points, const std::vector<Cell>& cells,
+                                     const Seam& seam) {
   std::vector<std::int32_t> vertices;
   for (std::size_t i = 0; i < seam.size(); ++i) {
     if (seam[i] != 0) vertices.push_back(static_cast<std::int32_t>(i));
   }
-  std::vector<LinkedTriangle> triangles = triangulate_points(points, vertices);
-  for (LinkedTriangle& t : triangles) {
+  PageVector<Corners> triangles = triangulate_points(points, vertices);
+  for (Corners& t : triangles) {
     if (is_ghost(t)) continue;
-    const std::uint16_t mark = seam[t.vertex[0]];
-    if (seam[t.vertex[1]] != mark || seam[t.vertex[2]] != mark) continue;
+    const std::uint16_t mark = seam[t[0]];
+    if (seam[t[1]] != mark || seam[t[2]] != mark) continue;
     const std::vector<Corners>& open = cells[mark - 1].open;
-    if (!std::binary_search(open.begin(), open.end(), lowest_first(t.vertex))) {
-      t.vertex[0] = kGhost;
+    if (!std::binary_search(open.begin(), open.end(), lowest_first(t))) {
+      t[0] = kGhost;
     }
   }
   return triangles;
+}
+
+/// The triangles that begin with one vertex, in order: two of them on average, which is no work for
+/// a general sort, and all of them around the hub of a fan, which is.
+void sort_bucket(Corners* first, Corners* last) {
+  constexpr std::ptrdiff_t kFew = 8;
+  if (last - first > kFew) return std::sort(first, last);
+  for (Corners* next = first; next < last; ++next) {
+    for (Corners* t = next; t > first && t[0] < t[-1]; --t) std::swap(t[0], t[-1]);
+  }
 }
 
 /// Counting sort by lowest vertex. The cells' triangles have theirs in different places and go side
@@ -161,26 +174,31 @@ std::vector<LinkedTriangle> triangulate_seam(std::span<const Point2> points,
 class Ordering {
  public:
   Ordering(std::size_t vertex_count, const std::vector<Cell>& cells,
-           const std::vector<LinkedTriangle>& seam, int num_threads)
-      : cells_(cells), seam_(seam), num_threads_(num_threads), start_(vertex_count + 1, 0) {}
+           const PageVector<Corners>& seam, int num_threads)
+      : cells_(cells), seam_(seam), num_threads_(num_threads), place_(vertex_count + 1, 0) {}
 
   TriangleMatrix run() {
-    for_all([&](const Corners& t) { ++start_[static_cast<std::size_t>(t[0]) + 1]; });
-    for (std::size_t v = 1; v < start_.size(); ++v) start_[v] += start_[v - 1];
-    TriangleMatrix sorted(static_cast<Index>(start_.back()), 3);
-    for_all([&](const Corners& t) {
-      const Index row = start_[static_cast<std::size_t>(t[0])]++;
-      for (int c = 0; c < 3; ++c) sorted(row, c) = t[c];
+    for_all([&](const Corners& t) { ++place_[static_cast<std::size_t>(t[0]) + 1]; });
+    for (std::size_t v = 1; v < place_.size(); ++v) place_[v] += place_[v - 1];
+    TriangleMatrix matrix(static_cast<Index>(place_.back()), 3);
+    static_assert(sizeof(Corners) == 3 * sizeof(std::int32_t));
+    auto* sorted = reinterpret_cast<Corners*>(matrix.data());
+    for_all([&](const Corners& t) { sorted[place_[static_cast<std::size_t>(t[0])]++] = t; });
+    // place_[v] has come to where the triangles of v end.
+    parallel_for(place_.size() - 1, kGrain, num_threads_, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t v = begin; v < end; ++v) {
+        sort_bucket(sorted + (v == 0 ? 0 : place_[v - 1]), sorted + place_[v]);
+      }
     });
-    return sorted;
+    return matrix;
   }
 
  private:
   template <class Visit>
   void for_all(const Visit& visit) const {
-    const auto visit_part = [&](const std::vector<LinkedTriangle>& part) {
-      for (const LinkedTriangle& t : part) {
-        if (!is_ghost(t)) visit(lowest_first(t.vertex));
+    const auto visit_part = [&](const PageVector<Corners>& part) {
+      for (const Corners& t : part) {
+        if (!is_ghost(t)) visit(lowest_first(t));
       }
     };
     parallel_for(cells_.size(), 1, num_threads_,
@@ -189,49 +207,22 @@ class Ordering {
   }
 
   const std::vector<Cell>& cells_;
-  const std::vector<LinkedTriangle>& seam_;
+  const PageVector<Corners>& seam_;
   int num_threads_;
-  std::vector<std::uint32_t> start_;
+  PageVector<std::uint32_t> place_;  ///< where the next triangle of a vertex goes
 };
-
-/// Puts the triangles that begin with the same vertex in order.
-void sort_within_vertex(TriangleMatrix& triangles, int num_threads) {
-  static_assert(sizeof(Corners) == 3 * sizeof(std::int32_t));
-  parallel_for(static_cast<std::size_t>(triangles.rows()), kGrain, num_threads,
-               [&](std::size_t begin, std::size_t end) {
-                 const auto lowest = [&](std::size_t row) {
-                   return triangles(static_cast<Index>(row), 0);
-                 };
-                 const auto rows = static_cast<std::size_t>(triangles.rows());
-                 while (begin > 0 && begin < rows && lowest(begin) == lowest(begin - 1)) ++begin;
-                 while (begin < end) {
-                   std::size_t stop = begin + 1;
-                   while (stop < rows && lowest(stop) == lowest(begin)) ++stop;
-                   for (std::size_t i = begin + 1; i < stop; ++i) {
-                     for (std::size_t j = i; j > begin; --j) {
-                       const auto low = static_cast<Index>(j - 1), high = static_cast<Index>(j);
-                       if (triangles(low, 1) < triangles(high, 1)) break;
-                       triangles.row(low).swap(triangles.row(high));
-                     }
-                   }
-                   begin = stop;
-                 }
-               });
-}
 
 }  // namespace
 
 TriangleMatrix triangulate_in_cells(std::span<const Point2> points, int cells, int num_threads) {
   std::vector<Cell> parts = make_cells(points, cells);
-  std::vector<LinkedTriangle> seam_triangles;
+  PageVector<Corners> seam_triangles;
   Seam seam(points.size(), 0);
   parallel_for(parts.size(), 1, num_threads, [&](std::size_t i, std::size_t) {
     triangulate_cell(points, parts[i], static_cast<std::uint16_t>(i + 1), seam);
   });
   if (parts.size() > 1) seam_triangles = triangulate_seam(points, parts, seam);
-  TriangleMatrix triangles = Ordering(points.size(), parts, seam_triangles, num_threads).run();
-  sort_within_vertex(triangles, num_threads);
-  return triangles;
+  return Ordering(points.size(), parts, seam_triangles, num_threads).run();
 }
 
 }  // namespace bathyal

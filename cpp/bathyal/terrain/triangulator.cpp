@@ -2,6 +2,8 @@
 #include "bathyal/terrain/triangulator.hpp"
 
 #include <cstddef>
+#include <utility>
+#include <vector>
 
 namespace bathyal {
 namespace {
@@ -9,15 +11,17 @@ namespace {
 constexpr std::array<std::int32_t, 3> kNext{1, 2, 0};
 constexpr std::array<std::int32_t, 3> kPrevious{2, 0, 1};
 
+/// Corner i of triangle t, and the edge opposite to it, is called 4 t + i; `across_[t][i]` is the
+/// same edge seen from the other side.
 class Triangulator {
  public:
   Triangulator(std::span<const Point2> points, std::span<const std::int32_t> vertices)
       : points_(points.data()), vertices_(vertices) {}
 
-  std::vector<LinkedTriangle> run() {
+  PageVector<Corners> run() {
     if (!start()) return {};
     for (int round = kRounds; round >= 0; --round) insert_round(round);
-    return std::move(triangles_);
+    return std::move(corners_);
   }
 
  private:
@@ -56,11 +60,13 @@ class Triangulator {
     const std::int32_t c = vertices_[third];
     if (orient2d(point(a), point(b), point(c)) < 0) std::swap(a, b);
     first_ = {0, 1, third};
-    triangles_.reserve(2 * count - 2);
-    triangles_.push_back({{a, b, c}, {4 * 1 + 2, 4 * 2 + 2, 4 * 3 + 2}});
-    triangles_.push_back({{c, b, kGhost}, {4 * 3 + 1, 4 * 2 + 0, 4 * 0 + 0}});
-    triangles_.push_back({{a, c, kGhost}, {4 * 1 + 1, 4 * 3 + 0, 4 * 0 + 1}});
-    triangles_.push_back({{b, a, kGhost}, {4 * 2 + 1, 4 * 1 + 0, 4 * 0 + 2}});
+    corners_.reserve(2 * count - 2);
+    across_.reserve(2 * count - 2);
+    corners_ = {{a, b, c}, {c, b, kGhost}, {a, c, kGhost}, {b, a, kGhost}};
+    across_ = {{4 * 1 + 2, 4 * 2 + 2, 4 * 3 + 2},
+               {4 * 3 + 1, 4 * 2 + 0, 4 * 0 + 0},
+               {4 * 1 + 1, 4 * 3 + 0, 4 * 0 + 1},
+               {4 * 2 + 1, 4 * 1 + 0, 4 * 0 + 2}};
     hint_ = 0;
     return true;
   }
@@ -81,63 +87,58 @@ class Triangulator {
 
   /// A triangle that holds p, its edges included, or the ghost beyond the hull edge that p sees.
   std::int32_t locate(const Point2& p) const {
-    const LinkedTriangle& first = triangles_[hint_];
     std::int32_t edge = -1;
-    for (int i = 0; i < 3; ++i) {
-      if (orient2d(point(first.vertex[kNext[i]]), point(first.vertex[kPrevious[i]]), p) < 0) {
-        edge = first.across[i];
-        break;
-      }
+    for (int i = 0; i < 3 && edge < 0; ++i) {
+      const Corners& t = corners_[hint_];
+      if (orient2d(point(t[kNext[i]]), point(t[kPrevious[i]]), p) < 0) edge = across_[hint_][i];
     }
     if (edge < 0) return hint_;
     while (true) {
-      const LinkedTriangle& t = triangles_[edge >> 2];
-      if (is_ghost(t)) return edge >> 2;
-      const int apex = edge & 3;
-      const Point2& a = point(t.vertex[apex]);
-      if (orient2d(a, point(t.vertex[kNext[apex]]), p) < 0) {
-        edge = t.across[kPrevious[apex]];
-      } else if (orient2d(point(t.vertex[kPrevious[apex]]), a, p) < 0) {
-        edge = t.across[kNext[apex]];
+      const std::int32_t triangle = edge >> 2, apex = edge & 3;
+      const Corners& t = corners_[triangle];
+      if (is_ghost(t)) return triangle;
+      const Point2& a = point(t[apex]);
+      if (orient2d(a, point(t[kNext[apex]]), p) < 0) {
+        edge = across_[triangle][kPrevious[apex]];
+      } else if (orient2d(point(t[kPrevious[apex]]), a, p) < 0) {
+        edge = across_[triangle][kNext[apex]];
       } else {
-        return edge >> 2;
+        return triangle;
       }
     }
   }
 
-  bool in_conflict(const LinkedTriangle& t, const Point2& p) const {
-    if (is_ghost(t)) return ghost_in_conflict(t, p);
-    return in_perturbed_circle(point(t.vertex[0]), point(t.vertex[1]), point(t.vertex[2]), p);
+  bool in_conflict(const Corners& t, const Point2& p) const {
+    if (is_ghost(t)) [[unlikely]]
+      return ghost_in_conflict(t, p);
+    return in_perturbed_circle(point(t[0]), point(t[1]), point(t[2]), p);
   }
 
   /// The circle of a ghost is the open half plane beyond its hull edge, and the edge itself.
-  bool ghost_in_conflict(const LinkedTriangle& t, const Point2& p) const {
-    const int ghost = t.vertex[0] < 0 ? 0 : t.vertex[1] < 0 ? 1 : 2;
-    const Point2& a = point(t.vertex[kNext[ghost]]);
-    const Point2& b = point(t.vertex[kPrevious[ghost]]);
+  bool ghost_in_conflict(const Corners& t, const Point2& p) const {
+    const int ghost = t[0] < 0 ? 0 : t[1] < 0 ? 1 : 2;
+    const Point2& a = point(t[kNext[ghost]]);
+    const Point2& b = point(t[kPrevious[ghost]]);
     const int side = orient2d(a, b, p);
     return side > 0 || (side == 0 && before(a, p) == before(p, b));
   }
 
   /// Collects the triangles whose circle holds p, which hang together, and the rim around them.
   void open_hole(std::int32_t seed, const Point2& p) {
-    hole_.clear();
+    hole_.assign(1, seed);
     rim_.clear();
-    todo_.clear();
-    hole_.push_back(seed);
-    const LinkedTriangle& first = triangles_[seed];
-    for (int i = 2; i >= 0; --i) todo_.push_back(first.across[i]);
+    todo_.assign(across_[seed].rbegin(), across_[seed].rend());
     while (!todo_.empty()) {
       const std::int32_t edge = todo_.back();
       todo_.pop_back();
-      const LinkedTriangle& t = triangles_[edge >> 2];
-      const int apex = edge & 3;
+      const std::int32_t triangle = edge >> 2, apex = edge & 3;
+      const Corners& t = corners_[triangle];
       if (in_conflict(t, p)) {
-        hole_.push_back(edge >> 2);
-        todo_.push_back(t.across[kPrevious[apex]]);
-        todo_.push_back(t.across[kNext[apex]]);
+        hole_.push_back(triangle);
+        todo_.push_back(across_[triangle][kPrevious[apex]]);
+        todo_.push_back(across_[triangle][kNext[apex]]);
       } else {
-        rim_.push_back({edge, t.vertex[kPrevious[apex]], t.vertex[kNext[apex]]});
+        rim_.push_back({edge, t[kPrevious[apex]], t[kNext[apex]]});
       }
     }
   }
@@ -147,16 +148,18 @@ class Triangulator {
   void close_hole(std::int32_t vertex) {
     const std::size_t count = rim_.size();
     while (hole_.size() < count) {
-      hole_.push_back(static_cast<std::int32_t>(triangles_.size()));
-      triangles_.emplace_back();
+      hole_.push_back(static_cast<std::int32_t>(corners_.size()));
+      corners_.emplace_back();  // its values are set below
+      across_.emplace_back();
     }
     std::int32_t previous = hole_[count - 1];
     for (std::size_t i = 0; i < count; ++i) {
       const Rim& rim = rim_[i];
       const std::int32_t self = hole_[i];
       const std::int32_t next = hole_[i + 1 == count ? 0 : i + 1];
-      triangles_[self] = {{rim.from, rim.to, vertex}, {4 * next + 1, 4 * previous, rim.outside}};
-      triangles_[rim.outside >> 2].across[rim.outside & 3] = 4 * self + 2;
+      corners_[self] = {rim.from, rim.to, vertex};
+      across_[self] = {4 * next + 1, 4 * previous, rim.outside};
+      across_[rim.outside >> 2][rim.outside & 3] = 4 * self + 2;
       if ((rim.from | rim.to) >= 0) hint_ = self;
       previous = self;
     }
@@ -164,9 +167,10 @@ class Triangulator {
 
   const Point2* points_;
   std::span<const std::int32_t> vertices_;
-  std::vector<LinkedTriangle> triangles_;
+  PageVector<Corners> corners_;
+  PageVector<Corners> across_;
   std::array<std::size_t, 3> first_{};
-  std::int32_t hint_ = 0;
+  std::int32_t hint_ = 0;  ///< a triangle near the last point
   std::vector<std::int32_t> hole_;
   std::vector<std::int32_t> todo_;
   std::vector<Rim> rim_;
@@ -174,8 +178,8 @@ class Triangulator {
 
 }  // namespace
 
-std::vector<LinkedTriangle> triangulate_points(std::span<const Point2> points,
-                                               std::span<const std::int32_t> vertices) {
+PageVector<Corners> triangulate_points(std::span<const Point2> points,
+                                       std::span<const std::int32_t> vertices) {
   return Triangulator(points, vertices).run();
 }
 

@@ -2,7 +2,9 @@
 #include "bathyal/toolpath/coverage.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "bathyal/base/check.hpp"
@@ -19,8 +21,8 @@ struct Stretch {
 };
 using Cell = std::vector<Stretch>;
 
-/// Chains stretches of neighbouring lines while one meets just one other: at a fork or a join of
-/// the polygon new cells begin (boustrophedon cells, Choset 2000).
+/// Chains stretches of neighbouring lines: at a fork of the polygon new cells begin, at a join one
+/// of them goes on (after the boustrophedon cells of Choset 2000).
 std::vector<Cell> cells_of(const std::vector<std::pair<double, std::vector<Interval>>>& lines) {
   std::vector<Cell> cells;
   std::vector<std::size_t> open;  // cell of each stretch of the line before
@@ -31,16 +33,14 @@ std::vector<Cell> cells_of(const std::vector<std::pair<double, std::vector<Inter
     };
     std::vector<std::size_t> now;
     for (const Interval& interval : intervals) {
-      std::size_t below = 0, cell = cells.size();
+      std::size_t cell = cells.size();
       for (std::size_t k = 0; k < open.size(); ++k) {
         const Interval& before = lines[l - 1].second[k];
         if (!touches(before, interval)) continue;
-        ++below;
         const auto above = std::count_if(intervals.begin(), intervals.end(),
                                          [&](const Interval& i) { return touches(before, i); });
         if (above == 1) cell = open[k];
       }
-      if (below != 1) cell = cells.size();
       if (cell == cells.size()) cells.emplace_back();
       cells[cell].push_back({y, interval.low, interval.high});
       now.push_back(cell);
@@ -50,18 +50,30 @@ std::vector<Cell> cells_of(const std::vector<std::pair<double, std::vector<Inter
   return cells;
 }
 
-/// To and fro through each cell, entered at that of its four corners that is nearest.
+/// The four ends of a cell's first and last line: where mowing it may begin.
+std::array<Point2, 4> entries_of(const Cell& cell) {
+  return {Point2(cell.front().low, cell.front().y), Point2(cell.front().high, cell.front().y),
+          Point2(cell.back().low, cell.back().y), Point2(cell.back().high, cell.back().y)};
+}
+
+/// To and fro through each cell, each time on to the nearest entry of those not yet mown.
 std::vector<Point2> mow(std::vector<Cell> cells) {
   std::vector<Point2> ends;
-  for (Cell& cell : cells) {
-    const std::vector<Point2> entries{{cell.front().low, cell.front().y},
-                                      {cell.front().high, cell.front().y},
-                                      {cell.back().low, cell.back().y},
-                                      {cell.back().high, cell.back().y}};
-    std::size_t entry = 0;
-    for (std::size_t k = 1; !ends.empty() && k < entries.size(); ++k) {
-      if ((entries[k] - ends.back()).norm() < (entries[entry] - ends.back()).norm()) entry = k;
+  while (!cells.empty()) {
+    std::size_t next = 0, entry = 0;
+    double nearest = std::numeric_limits<double>::infinity();
+    for (std::size_t c = 0; c < cells.size() && (c == 0 || !ends.empty()); ++c) {
+      const auto entries = entries_of(cells[c]);
+      for (std::size_t k = 0; k < entries.size(); ++k) {
+        const double distance = (entries[k] - (ends.empty() ? entries[0] : ends.back())).norm();
+        if (distance >= nearest) continue;
+        nearest = distance;
+        next = c;
+        entry = k;
+      }
     }
+    Cell cell = std::move(cells[next]);
+    cells.erase(cells.begin() + static_cast<std::ptrdiff_t>(next));
     if (entry >= 2) std::reverse(cell.begin(), cell.end());
     bool to = entry % 2 == 0;
     for (const Stretch& s : cell) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace bathyal {
 namespace {
@@ -97,51 +98,45 @@ std::vector<Turn> turns_of(const std::vector<double>& starts,
   return turns;
 }
 
-/// Arc lengths of the samples of one run, rising.
+/// Appends the ends of equal parts of [knots.back(), end] no longer than `longest`.
+void divide(std::vector<double>& knots, double end, double longest) {
+  const double begin = knots.back();
+  if (end - begin <= kCoincident) return;
+  const std::size_t parts = parts_of(end - begin, longest);
+  for (std::size_t i = 1; i < parts; ++i) {
+    knots.push_back(begin + (end - begin) * static_cast<double>(i) / static_cast<double>(parts));
+  }
+  knots.push_back(end);
+}
+
+/// Arc lengths of the samples of one run, rising: the ends of pieces, and parts of each piece,
+/// finer where a turn reaches into it from its nearest neighbour on either side.
 std::vector<double> knots_of(const std::vector<double>& starts, const std::vector<Turn>& turns,
                              double blend_length, double step) {
-  struct Knot {
-    double at;
-    bool kept;
-  };
-  const double total = starts.back();
-  const double apart = blend_length / 8.0;
-  std::vector<Knot> wanted;
-  for (const double start : starts) wanted.push_back({start, true});
-  for (const Turn& turn : turns) {
-    if (turn.angle <= kNoTurn) continue;
-    for (int k = -4; k <= 4; ++k) {
-      const double at = turn.at + k * apart;
-      if (k != 0 && at > 0.0 && at < total) wanted.push_back({at, false});
-    }
+  constexpr double kFar = std::numeric_limits<double>::infinity();
+  const double fine = step > 0.0 ? std::min(step, blend_length / 8.0) : blend_length / 8.0;
+  const std::size_t pieces = starts.size() - 1;
+  std::vector<double> next_turn(pieces, kFar);  // arc length of the first real turn after a piece
+  for (std::size_t k = pieces - 1; k-- > 0;) {
+    next_turn[k] = turns[k].angle > kNoTurn ? turns[k].at : next_turn[k + 1];
   }
-  std::sort(wanted.begin(), wanted.end(), [](const Knot& a, const Knot& b) {
-    return a.at != b.at ? a.at < b.at : a.kept > b.kept;
-  });
-  std::vector<double> knots;
-  const auto add = [&](double at) {
-    if (!knots.empty() && at == knots.back()) return;  // a lone point begins where it ends
-    const double from = knots.empty() ? at : knots.back();
-    const std::size_t parts = parts_of(at - from, step);
-    for (std::size_t i = 1; i < parts; ++i) {
-      knots.push_back(from + (at - from) * static_cast<double>(i) / static_cast<double>(parts));
+  std::vector<double> knots{0.0};
+  double last_turn = -kFar;
+  for (std::size_t k = 0; k < pieces; ++k) {
+    if (k > 0 && turns[k - 1].angle > kNoTurn) last_turn = turns[k - 1].at;
+    const double turned = last_turn + 0.5 * blend_length;      // the turn behind is done here
+    const double turning = next_turn[k] - 0.5 * blend_length;  // the turn ahead begins here
+    const double end = starts[k + 1];
+    if (turned >= turning) {
+      divide(knots, end, fine);
+    } else {
+      divide(knots, std::min(turned, end), fine);
+      divide(knots, std::clamp(turning, knots.back(), end), step);
+      divide(knots, end, turning < end ? fine : step);
     }
-    knots.push_back(at);
-  };
-  // A knot of a turn yields to the next end of a piece within half a spacing, and to the last knot.
-  std::vector<double> next_kept(wanted.size());
-  double next = total;
-  for (std::size_t i = wanted.size(); i-- > 0;) {
-    if (wanted[i].kept) next = wanted[i].at;
-    next_kept[i] = next;
-  }
-  for (std::size_t i = 0; i < wanted.size(); ++i) {
-    if (wanted[i].kept) {
-      add(wanted[i].at);
-    } else if (wanted[i].at - knots.back() >= 0.5 * apart &&
-               next_kept[i] - wanted[i].at >= 0.5 * apart) {
-      add(wanted[i].at);
-    }
+    if (knots.back() == end) continue;
+    if (knots.back() > starts[k]) knots.pop_back();  // what is left is too short for its own part
+    knots.push_back(end);
   }
   return knots;
 }
@@ -149,6 +144,28 @@ std::vector<double> knots_of(const std::vector<double>& starts, const std::vecto
 double smooth_step(double x) {
   const double c = std::clamp(x, 0.0, 1.0);
   return c * c * (3.0 - 2.0 * c);
+}
+
+/// R(s). All turns before `first` are done. Built up from behind and built back from ahead, which
+/// differ where turns overlap since rotations do not commute; halfway between is the same for a
+/// path and the reversed path.
+Eigen::Matrix3d blended_frame(const std::vector<Eigen::Matrix3d>& frames,
+                              const std::vector<Turn>& turns, std::size_t first, double s,
+                              double blend_length) {
+  const auto done = [&](const Turn& turn) {
+    return smooth_step((s - turn.at) / blend_length + 0.5);
+  };
+  std::size_t last = first;
+  while (last < turns.size() && turns[last].at - 0.5 * blend_length < s) ++last;
+  if (first == last) return frames[first];
+  Quaternion behind(frames[first]), ahead(frames[last]);
+  for (std::size_t k = first; k < last; ++k) {
+    behind = Eigen::AngleAxisd(done(turns[k]) * turns[k].angle, turns[k].axis) * behind;
+  }
+  for (std::size_t k = last; k-- > first;) {
+    ahead = Eigen::AngleAxisd((done(turns[k]) - 1.0) * turns[k].angle, turns[k].axis) * ahead;
+  }
+  return behind.slerp(0.5, ahead).normalized().toRotationMatrix();
 }
 
 void append_blended(ToolPath& path, const Run& run, const std::vector<Eigen::Matrix3d>& frames,
@@ -160,18 +177,10 @@ void append_blended(ToolPath& path, const Run& run, const std::vector<Eigen::Mat
   for (const double s : knots_of(starts, turns, blend_length, step)) {
     while (piece + 1 < run.pieces.size() && s >= starts[piece + 1]) ++piece;
     while (first < turns.size() && turns[first].at + 0.5 * blend_length <= s) ++first;
-    Eigen::Matrix3d frame = frames[first];  // all turns before `first` are done
-    bool turned = false;
-    for (std::size_t k = first; k < turns.size() && turns[k].at - 0.5 * blend_length < s; ++k) {
-      const double done = smooth_step((s - turns[k].at) / blend_length + 0.5);
-      if (turns[k].angle <= kNoTurn) continue;
-      frame = Eigen::AngleAxisd(done * turns[k].angle, turns[k].axis) * frame;
-      turned = true;
-    }
-    if (turned) frame = Quaternion(frame).normalized().toRotationMatrix();
+    const Eigen::Matrix3d frame = blended_frame(frames, turns, first, s, blend_length);
     const Piece& on = run.pieces[piece];
     const double along = on.length() > 0.0 ? (s - starts[piece]) / on.length() : 0.0;
-    const Vec3 point = along >= 1.0 ? on.to : Vec3(on.from + along * (on.to - on.from));
+    const Vec3 point = s >= starts[piece + 1] ? on.to : Vec3(on.from + along * (on.to - on.from));
     append(path, on, point, frame);
   }
 }

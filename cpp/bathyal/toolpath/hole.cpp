@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bathyal/toolpath/hole.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace bathyal {
 namespace {
@@ -32,10 +34,38 @@ bool passes_between_ends(const Scene& scene, const Vec3& origin, const Vec3& dir
   return (left.along * right.across + right.along * left.across) / width >= 0.0;
 }
 
+/// Whether the axis meets the box at t ≥ 0, with a little to spare for rounding.
+bool meets(const Eigen::AlignedBox3d& box, const Vec3& origin, const Vec3& direction) {
+  const double spare = 1e-9 * (1.0 + box.sizes().maxCoeff() + box.min().cwiseAbs().maxCoeff());
+  double first = 0.0, last = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < 3; ++k) {
+    const double low = box.min()[k] - spare - origin[k], high = box.max()[k] + spare - origin[k];
+    if (direction[k] == 0.0) {
+      if (low > 0.0 || high < 0.0) return false;
+      continue;
+    }
+    const double a = low / direction[k], b = high / direction[k];
+    first = std::max(first, std::min(a, b));
+    last = std::min(last, std::max(a, b));
+  }
+  return first <= last;
+}
+
 }  // namespace
 
-bool passes_through_gap(const Scene& scene, const Vec3& origin, const Vec3& direction,
-                        const Vec3& up) {
+Eigen::AlignedBox3d bounds_of(const Scene& scene) {
+  Eigen::AlignedBox3d box;
+  for (const TriangleMesh& mesh : scene.meshes()) {
+    for (Index i = 0; i < mesh.vertex_count(); ++i) {
+      box.extend(mesh.vertices().row(i).transpose());
+    }
+  }
+  return box;
+}
+
+bool passes_through_gap(const Scene& scene, const Eigen::AlignedBox3d& bounds, const Vec3& origin,
+                        const Vec3& direction, const Vec3& up) {
+  if (bounds.isEmpty() || !meets(bounds, origin, direction)) return false;
   // An axis along `up` lies in every upright plane: any horizontal direction serves.
   Vec3 level = direction.cross(up);
   if (level.norm() < 1e-9) level = direction.unitOrthogonal();

@@ -97,21 +97,24 @@ void warn(Route& route, const std::string& what, const std::vector<std::size_t>&
 }
 
 void warn_of_targets(Route& route, const Targets& targets) {
-  for (const auto status : {TargetStatus::kMiss, TargetStatus::kParallel, TargetStatus::kBehind,
-                            TargetStatus::kHole, TargetStatus::kGrazing}) {
-    std::vector<std::size_t> rows, beneath;
+  const auto rows_where = [&](const auto& condition) {
+    std::vector<std::size_t> rows;
     for (std::size_t i = 0; i < targets.size(); ++i) {
-      if (targets.status[i] != status) continue;
-      (targets.incidence[i] > std::numbers::pi / 2 ? beneath : rows).push_back(i);
+      if (condition(i)) rows.push_back(i);
     }
-    const std::string word(to_text(status));
-    warn(route,
-         status == TargetStatus::kGrazing ? "aims that graze the bottom (used)"
-                                          : "aims without a target (" + word + "), left out",
-         rows);
-    warn(route, "aims that strike the bottom from beneath: camera below it or mesh inside out",
-         beneath);
+    return rows;
+  };
+  const auto beneath = [&](std::size_t i) { return targets.incidence[i] > std::numbers::pi / 2; };
+  for (const auto status :
+       {TargetStatus::kMiss, TargetStatus::kParallel, TargetStatus::kBehind, TargetStatus::kHole}) {
+    warn(route, "aims without a target (" + std::string(to_text(status)) + "), left out",
+         rows_where([&](std::size_t i) { return targets.status[i] == status; }));
   }
+  warn(route, "aims that graze the bottom (used)", rows_where([&](std::size_t i) {
+         return targets.status[i] == TargetStatus::kGrazing && !beneath(i);
+       }));
+  warn(route, "aims that strike the bottom from beneath (used): camera below it or mesh inside out",
+       rows_where(beneath));
 }
 
 }  // namespace

@@ -175,6 +175,22 @@ std::vector<Run> sheets_between(const std::vector<Polyline>& lines, std::size_t 
   }
 }
 
+/// One run of those that follow each other without a gap: meshes that abut are one sheet.
+std::vector<Run> abutted(std::vector<Run> runs) {
+  std::vector<Run> joined;
+  for (Run& run : runs) {
+    const Vec3& begin = run.pieces.front().from;
+    if (joined.empty() || (begin - joined.back().pieces.back().to).norm() > tolerance(begin)) {
+      joined.push_back(std::move(run));
+      continue;
+    }
+    std::vector<Piece>& pieces = joined.back().pieces;
+    run.pieces.front().from = pieces.back().to;
+    pieces.insert(pieces.end(), run.pieces.begin(), run.pieces.end());
+  }
+  return joined;
+}
+
 /// Follows a's sheet to its open end and crosses, gap by gap, to b's.
 std::vector<Run> cross_gaps(const std::vector<Polyline>& lines, const SheetPoint& a,
                             const SheetPoint& b, const Vec3& ahead) {
@@ -189,7 +205,7 @@ std::vector<Run> cross_gaps(const std::vector<Polyline>& lines, const SheetPoint
     runs.push_back(std::move(run));
   }
   runs.push_back(tidy(walk(lines, land, at_b), to, b.point));
-  return runs;
+  return abutted(std::move(runs));
 }
 
 /// One run where a single line of the section holds both targets, else none.

@@ -29,12 +29,16 @@ struct Leg {
 ///   section is looked at, and a sheet that joins them outside (round an overhang) is a detour. Of
 ///   the two ways round a closed section the shorter is taken.
 /// - No sheet joins them: the path follows a's sheet to its open end, crosses straight to the next
-///   open end ahead and so on to b's sheet; every crossing begins a new run.
+///   open end ahead and so on to b's sheet; every crossing begins a new run. Open ends that meet
+///   (to 1 µm, the tiles of one survey) are no gap.
 /// - a above b: no upright plane is told by the pair. The one that also holds the level part of the
 ///   normals at a and b is taken (straight down a wall), or where both normals are upright the one
 ///   across the world's axis that `up` leans least towards.
-/// - Edges and whole triangles that lie in the plane: what Scene::section makes of them; pieces
-///   shorter than kCoincident are dropped.
+/// - Edges that lie in the plane appear once, on the lowest of their triangles, and of whole
+///   triangles in it their outline (Scene::section). Pieces shorter than kCoincident are dropped.
+/// - A body that stands on the bottom as a mesh of its own is not merged with it: the bottom's
+/// sheet
+///   goes on beneath it, which flag_contacts tells.
 /// `a` and `b` are further apart than kCoincident.
 Leg follow_sheet(const Scene& scene, const SheetPoint& a, const SheetPoint& b, const Vec3& up);
 

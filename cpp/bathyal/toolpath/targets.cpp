@@ -60,9 +60,9 @@ Targets find_on(const Plane& plane, const Aims& aims, const TargetOptions& optio
 }
 
 /// Why an axis met nothing ahead.
-TargetStatus explain_miss(const Scene& scene, const Vec3& origin, const Vec3& direction,
-                          const Vec3& up) {
-  if (passes_through_gap(scene, origin, direction, up)) return TargetStatus::kHole;
+TargetStatus explain_miss(const Scene& scene, const Eigen::AlignedBox3d& bounds, const Vec3& origin,
+                          const Vec3& direction, const Vec3& up) {
+  if (passes_through_gap(scene, bounds, origin, direction, up)) return TargetStatus::kHole;
   const RayHit behind = scene.cast(origin, -direction);
   return behind.triangle >= 0 ? TargetStatus::kBehind : TargetStatus::kMiss;
 }
@@ -84,13 +84,14 @@ void set_hit(Targets& targets, std::size_t i, const Scene& scene, const RayHit& 
 Targets find_on(const Scene& scene, const Aims& aims, const TargetOptions& options) {
   Targets targets = no_targets(static_cast<std::size_t>(aims.rows()));
   const Vec3 up = options.vehicle.up();
+  const Eigen::AlignedBox3d bounds = bounds_of(scene);
   parallel_for(targets.size(), 64, options.num_threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const Vec3 origin = aims.row(static_cast<Index>(i)).head<3>();
       const Vec3 direction = aims.row(static_cast<Index>(i)).tail<3>();
       const RayHit hit = scene.cast(origin, direction);
       if (hit.triangle < 0) {
-        targets.status[i] = explain_miss(scene, origin, direction, up);
+        targets.status[i] = explain_miss(scene, bounds, origin, direction, up);
       } else if (hit.range <= options.max_range) {
         set_hit(targets, i, scene, hit, direction, options.grazing_angle);
       }

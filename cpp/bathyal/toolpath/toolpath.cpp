@@ -42,6 +42,21 @@ void check_found(const Targets& targets, MissedAims missed) {
   }
 }
 
+/// A length so short that the path would not fit in memory is a slip of the unit.
+void check_parts(std::string_view name, double length, const Route& route) {
+  constexpr double kMostParts = 1e8;
+  double total = 0.0;
+  for (const Run& run : route.runs) {
+    for (const Piece& piece : run.pieces) total += piece.length();
+  }
+  if (length > 0.0 && total / length > kMostParts) {
+    throw_argument(name,
+                   "0, or " + to_text(total / kMostParts) + " m or more for a path of " +
+                       to_text(total) + " m",
+                   to_text(length));
+  }
+}
+
 void stand_off(ToolPath& path, double standoff) {
   if (standoff == 0.0) return;
   for (std::size_t j = 0; j < path.size(); ++j) path.position[j] += standoff * path.approach[j];
@@ -96,6 +111,8 @@ ToolPath plan_toolpath(const Surface& surface, const Aims& aims, const ToolPathO
   Targets targets = find_targets(surface, aims, options.targets);
   check_found(targets, options.missed);
   Route route = join_targets(surface, targets, up, threads);
+  check_parts("step", options.step, route);
+  check_parts("normal_radius", options.normal_radius, route);
   estimate_normals(route, surface, options.normal_radius, threads);
   ToolPath path = options.orientation == Orientation::kBlended
                       ? sample_blended(route, options.blend_length, options.step)

@@ -89,7 +89,8 @@ struct ToolPath {
 /// and
 ///   ends at rest.
 ///
-/// \throw std::invalid_argument for no aims, aims that are not finite, or no target at all.
+/// \throw std::invalid_argument for no aims, aims that are not finite, no target at all, or a step
+/// or normal_radius that asks for more than 10⁸ parts.
 /// Filaretov, Konoplin, Konoplin (2018), section 2.
 ToolPath plan_toolpath(const Surface& surface, const Aims& aims,
                        const ToolPathOptions& options = {});

@@ -12,22 +12,22 @@ from numpy.typing import NDArray
 COLOURS = ("red", "green", "blue")
 BYTE_ATTRIBUTES = (*COLOURS, "alpha", "classification")
 
+_LETTERS = {"r": "red", "g": "green", "b": "blue", "a": "alpha"}  # where r, g and b are there
 _ALIASES = {
-    "r": "red", "g": "green", "b": "blue", "a": "alpha",
     "diffuse_red": "red", "diffuse_green": "green", "diffuse_blue": "blue",
     "diffuse_alpha": "alpha",
     "scalar_intensity": "intensity", "reflectance": "intensity", "backscatter": "intensity",
-    "class": "classification", "scalar_classification": "classification", "label": "classification",
-    "tpu": "uncertainty", "tvu": "uncertainty", "scalar_uncertainty": "uncertainty",
-    "sigma": "uncertainty", "sigma_z": "uncertainty", "std": "uncertainty",
+    "class": "classification", "scalar_classification": "classification",
+    "tpu": "uncertainty", "tvu": "uncertainty", "sigma_z": "uncertainty",
+    "scalar_uncertainty": "uncertainty",
 }  # fmt: skip
+_KNOWN = {"uncertainty", "intensity", "classification", *COLOURS, "alpha"}
 
 
-def canonical_name(name: str) -> str:
-    """Lower case for the names known here ("Intensity", "R", "TVU"); others stay as they are."""
+def _canonical_name(name: str, aliases: Mapping[str, str]) -> str:
+    """Lower case for the names known here ("Intensity", "TVU"); others stay as they are."""
     lower = name.strip().lower()
-    known = {"uncertainty", "intensity", "classification", *COLOURS, "alpha"}
-    return _ALIASES.get(lower, lower if lower in known else name.strip())
+    return aliases.get(lower, lower if lower in _KNOWN else name.strip())
 
 
 def canonical_attributes(columns: Mapping[str, NDArray[Any]]) -> dict[str, NDArray[np.float64]]:
@@ -36,9 +36,11 @@ def canonical_attributes(columns: Mapping[str, NDArray[Any]]) -> dict[str, NDArr
     A name that is taken already keeps the file's own spelling. Colours in 16 bits and in float32
     (0 to 1 by custom) are scaled; in other types they are taken to run from 0 to 255.
     """
+    lower = {name.strip().lower() for name in columns}
+    aliases = {**_ALIASES, **_LETTERS} if {"r", "g", "b"} <= lower else _ALIASES
     result: dict[str, NDArray[np.float64]] = {}
     for name, values in columns.items():
-        canonical = canonical_name(name)
+        canonical = _canonical_name(name, aliases)
         key = name if canonical in result else canonical
         double = np.ascontiguousarray(values, np.float64)
         if key in (*COLOURS, "alpha"):

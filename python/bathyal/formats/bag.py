@@ -54,7 +54,7 @@ def read_bag(path: PathLike) -> Soundings:
         if stream.read(8) != b"\x89HDF\r\n\x1a\n":
             raise Error("it is not an HDF5 file")
         with h5py.File(os.fspath(path), "r") as file:
-            root = file["BAG_root"]
+            root = _member(file, "BAG_root")
             if "varres_refinements" in root:
                 raise Error(
                     "its resolution varies from cell to cell, which is not read: "
@@ -70,8 +70,18 @@ def read_bag(path: PathLike) -> Soundings:
             return _nodes(elevation, uncertainty, frame)
 
 
+def _member(group: Any, name: str) -> Any:
+    """What stands under a name in this very file: HDF5 can also point into others."""
+    link = group.get(name, getlink=True)
+    member = group[name]
+    elsewhere = type(link).__name__ != "HardLink"
+    if elsewhere or getattr(member, "external", None) or getattr(member, "is_virtual", False):
+        raise Error(f"{name} is a link to another place, which is not followed")
+    return member
+
+
 def _layer(root: Any, name: str, size: int) -> Any:
-    layer = root[name]
+    layer = _member(root, name)
     if len(layer.shape) != 2 or layer.dtype.kind != "f":
         raise Error(f"{name} is no grid of real numbers")
     check_cells(layer.shape[0] * layer.shape[1], size, _MOST_CELLS_PER_BYTE)
@@ -102,7 +112,7 @@ def _nodes(elevation: Any, uncertainty: Any, frame: _Frame) -> Soundings:
 
 
 def _metadata(root: Any) -> Element:
-    stored = root["metadata"]
+    stored = _member(root, "metadata")
     if stored.dtype.kind != "S" or stored.size * stored.dtype.itemsize > _LARGEST_METADATA:
         raise Error("its metadata are no text of a size to be read")
     return parse_xml(np.asarray(stored[()]).tobytes().rstrip(b"\0 \r\n\t"))

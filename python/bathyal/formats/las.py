@@ -11,11 +11,14 @@ from numpy.typing import NDArray
 
 from bathyal._core import Error
 from bathyal.files import PathLike, need, opened, reading
+from bathyal.formats.laz import check_chunks
 from bathyal.formats.soundings import Soundings, check_projected, vertical_datum_of_wkt
 
 _BYTES_AT_A_TIME = 1 << 25
 _KEPT = ("intensity", "classification", "gps_time")
 _COLOURS = ("red", "green", "blue")
+_USER_DEFINED = 32767  # a reference system without a number
+_COMPRESSED = 0x80  # in the number of the point format
 _PROJECTED_KEY, _GEOGRAPHIC_KEY, _VERTICAL_KEY = 3072, 2048, 4096  # of the GeoTIFF directory
 
 
@@ -27,11 +30,13 @@ def read_las(path: PathLike) -> Soundings:
     """
     laspy = need("laspy", "laspy[lazrs]", "reading LAS and LAZ")
     with opened(path) as (stream, size), reading(path, "LAS"):
-        count, record, compressed = _check_header(stream.read(375), size)
-        if compressed:
-            need("lazrs", "laspy[lazrs]", "reading LAZ")
+        count, record, first_point = _check_header(head := stream.read(375), size)
+        if head[104] & _COMPRESSED:
+            check_chunks(stream, size, first_point, record, count)
         stream.seek(0)
-        with laspy.open(stream, closefd=False) as reader:
+        # The parallel decompressor takes memory for whatever the table of chunks says.
+        backend = laspy.LazBackend.Lazrs
+        with laspy.open(stream, closefd=False, laz_backend=backend) as reader:
             names = _names(reader.header.point_format)
             at_a_time = max(1, _BYTES_AT_A_TIME // record)
             chunks = [
@@ -50,8 +55,8 @@ def read_las(path: PathLike) -> Soundings:
         return Soundings(points, _with_byte_colours(attributes), crs, vertical)
 
 
-def _check_header(head: bytes, size: int) -> tuple[int, int, bool]:
-    """How many points are announced, the bytes of one, and whether they are compressed."""
+def _check_header(head: bytes, size: int) -> tuple[int, int, int]:
+    """How many points are announced, the bytes of one, and where the first one is."""
     if len(head) < 227 or head[:4] != b"LASF":
         raise Error("it does not start with a LAS header")
     first_point, variable_records, point_format, record, count = struct.unpack_from(
@@ -59,7 +64,7 @@ def _check_header(head: bytes, size: int) -> tuple[int, int, bool]:
     )
     if head[24:26] >= b"\x01\x04" and len(head) >= 255:
         count = struct.unpack_from("<Q", head, 247)[0]
-    compressed = bool(point_format & 0x80)
+    compressed = point_format & _COMPRESSED
     # LAZ makes at best some hundred points of a byte (equal points, an adaptive range coder)
     least = count // 1000 if compressed else count * record
     if first_point + least > size or first_point + 54 * variable_records > size + first_point:
@@ -69,7 +74,7 @@ def _check_header(head: bytes, size: int) -> tuple[int, int, bool]:
         )
     if record < 20:
         raise Error(f"its points have {record} bytes, at least 20 are needed")
-    return count, record, compressed
+    return count, record, first_point
 
 
 def _names(point_format: Any) -> list[str]:
@@ -102,7 +107,8 @@ def _reference(records: Any) -> tuple[str, str]:
     keys = {int(key): int(value) for key, where, _, value in shorts if where == 0}
     if keys.get(_GEOGRAPHIC_KEY) and not keys.get(_PROJECTED_KEY):
         check_projected("GEOGCS")
-    return tuple(
-        f"EPSG:{keys[key]}" if 1024 <= keys.get(key, 0) < 32767 else ""
-        for key in (_PROJECTED_KEY, _VERTICAL_KEY)
-    )  # type: ignore[return-value]
+    codes = [keys.get(key, 0) for key in (_PROJECTED_KEY, _VERTICAL_KEY)]
+    horizontal, vertical = (
+        f"EPSG:{code}" if 1024 <= code < _USER_DEFINED else "" for code in codes
+    )
+    return horizontal, vertical

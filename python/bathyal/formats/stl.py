@@ -16,7 +16,10 @@ from bathyal.formats.numbers import numbers_of_text
 _FACET = np.dtype([("normal", "<f4", (3,)), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
 _BINARY_LOSS = 1e-5  # m
 _HEADER = 84  # bytes: 80 of anything and the number of facets
-_KEYWORDS = {b"facet normal": 1, b"outer loop": 1, b"vertex": 3, b"endloop": 1, b"endfacet": 1}
+# What a facet is made of and how often; a word comes before those that are part of it.
+_KEYWORDS = {
+    b"endfacet": 1, b"endloop": 1, b"facet": 1, b"normal": 1, b"outer": 1, b"loop": 1, b"vertex": 3,
+}  # fmt: skip
 
 
 def read_stl(path: PathLike) -> NDArray[np.float64]:
@@ -37,15 +40,15 @@ def read_stl(path: PathLike) -> NDArray[np.float64]:
 
 
 def _ascii_corners(content: bytes) -> NDArray[np.float64]:
-    body, solids = re.subn(rb"(?m)^\s*solid\b[^\n]*$", b" ", content)
-    body, ends = re.subn(rb"(?m)^\s*endsolid\b[^\n]*$", b" ", body)
+    body, solids = re.subn(rb"(?m)^[ \t]*solid\b[^\n]*", b" ", content)
+    body, ends = re.subn(rb"(?m)^[ \t]*endsolid\b[^\n]*", b" ", body)
     if solids != ends:
         raise Error(f"{solids} solids begin and {ends} end: the file is cut short")
     counts = {}
-    for keyword in (b"endfacet", b"endloop", b"facet normal", b"outer loop", b"vertex"):
-        pattern = rb"(?<![^\s])" + keyword.replace(b" ", rb"\s+") + rb"(?![^\s])"
-        body, counts[keyword] = re.subn(pattern, b" ", body)
-    facets = counts[b"facet normal"]
+    for keyword in _KEYWORDS:
+        counts[keyword] = body.count(keyword)
+        body = body.replace(keyword, b" ")
+    facets = counts[b"facet"]
     numbers = numbers_of_text(body)
     if any(counts[k] != facets * n for k, n in _KEYWORDS.items()) or len(numbers) != 12 * facets:
         raise Error("a facet is not one normal and one loop of three vertices")

@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import os
 import re
-import shutil
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
@@ -92,23 +91,34 @@ def _head(path: PathLike, separator: str | None, skip_lines: int) -> _Head:
         text = stream.read(_HEAD).decode("utf-8-sig", "replace")
     head = _Head()
     comment: list[str] = []
-    for line in text.splitlines()[skip_lines:]:
+    title: list[str] = []
+    for line in text.splitlines()[skip_lines:] if "\0" not in text else []:
         if (found := _COMMENT.fullmatch(line)) is not None:
             words = found[1].split(None, 1)
             if len(words) == 2 and words[0].rstrip(":") in _NOTES:
                 head.notes[words[0].rstrip(":")] = words[1].strip()
             comment = _fields(found[1], separator)
             continue
-        if not line.strip():
-            continue
         fields = _fields(line, separator)
-        head.grid = fields[0].lower() == "ncols"
-        if not any(_is_number(text) for text in fields):
-            head.names = [unquote(name) for name in fields]
-        elif len(comment) == len(fields) and not any(map(_is_number, comment)):
-            head.names = [unquote(name) for name in comment]
-        break
+        if not any(fields):
+            continue
+        if fields[0].lower() == "ncols":
+            head.grid = True
+            break
+        if any(map(_is_number, fields)):
+            head.names = [unquote(name) for name in _names(title, comment, len(fields))]
+            break
+        title = fields
     return head
+
+
+def _names(title: list[str], comment: list[str], count: int) -> list[str]:
+    """The last line above the numbers, or a comment that speaks of x and y, if it fits them."""
+    if len(title) == count:
+        return title
+    if len(comment) == count and {"x", "y"} <= {_axis(unquote(name)) for name in comment}:
+        return comment
+    return []
 
 
 def _fields(line: str, separator: str | None) -> list[str]:
@@ -157,9 +167,12 @@ def _found(names: list[str], path: PathLike) -> dict[str, int | str]:
             f"{os.fspath(path)}: no column is called {' or '.join(missing)} among "
             f"{', '.join(names)}: say columns="
         )
-    leading = {axis: axes.index(axis) for axis in ("x", "y", third)}
-    rest = {name or f"column_{i}": i for i, name in enumerate(names) if i not in leading.values()}
-    return {**leading, **rest}
+    found: dict[str, int | str] = {axis: axes.index(axis) for axis in ("x", "y", third)}
+    taken = set(found.values())
+    for i, name in enumerate(names):
+        if i not in taken:
+            found[name if name and name not in found else f"column_{i}"] = i
+    return found
 
 
 def _chosen(columns: Columns, names: list[str]) -> dict[str, int | str]:
@@ -185,11 +198,14 @@ def write_text(
     Comments at the top hold the notes and, where `separator` is a blank, the names of the columns;
     else the names are a line of their own.
     """
+    if clash := {"x", "y", "z"} & set(cloud.attributes):
+        name = min(clash)
+        raise ValueError(f"attributes[{name!r}]: expected a name other than a coordinate's")
     names = ["x", "y", "z", *(quote(name, safe="/()[]+:") for name in cloud.attributes)]
     lines = ["# metres, z up", *(f"# {k} {' '.join(text.split())}" for k, text in notes.items())]
     lines.append(("# " if separator == " " else "") + separator.join(names))
-    with replacing(path) as aside, replacing(f"{aside}.rows") as rows:
-        _core.write_xyz(rows, cloud, separator=separator, attributes=list(cloud.attributes))
-        with open(rows, "rb") as source, open(aside, "wb") as stream:
-            stream.write(("\n".join(lines) + "\n").encode())
-            shutil.copyfileobj(source, stream, 1 << 20)
+    preamble = "\n".join([*lines, ""])
+    with replacing(path) as aside:
+        _core.write_xyz(
+            aside, cloud, separator=separator, preamble=preamble, attributes=list(cloud.attributes)
+        )

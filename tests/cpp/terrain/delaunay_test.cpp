@@ -4,17 +4,18 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
 #include <numbers>
-#include <numeric>
-#include <set>
 #include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "bathyal/base/random.hpp"
 #include "bathyal/geometry/predicates.hpp"
+#include "bathyal/terrain/hilbert_order.hpp"
 #include "bathyal/terrain/triangulate_cells.hpp"
 
 namespace bathyal {
@@ -101,6 +102,14 @@ Plane2 two_clusters(std::size_t count) {
   return points;
 }
 
+Plane2 along_curve(const Plane2& points) {
+  Plane2 sorted;
+  for (const std::int32_t row : hilbert_order(Points(with_depth(points)).view(), 1)) {
+    sorted.push_back(points[static_cast<std::size_t>(row)]);
+  }
+  return sorted;
+}
+
 // ---- What a Delaunay triangulation is
 
 Point2 at(const Plane2& points, std::int32_t i) { return points[static_cast<std::size_t>(i)]; }
@@ -183,10 +192,80 @@ TEST(Delaunay, SameBytesForAnyNumberOfThreads) {
 TEST(Delaunay, SameBytesForAnyNumberOfCells) {
   for (const auto& [name, points] : arrangements()) {
     SCOPED_TRACE(name);
-    const TriangleMatrix one = triangulate_in_cells(points, 1, 1);
+    const Plane2 sorted = along_curve(points);
+    const TriangleMatrix one = triangulate_in_cells(sorted, 1, 1);
     for (const int cells : {2, 3, 5, 8, 13}) {
-      ASSERT_EQ(one, triangulate_in_cells(points, cells, 2)) << cells;
+      ASSERT_EQ(one, triangulate_in_cells(sorted, cells, 2)) << cells;
     }
+  }
+}
+
+/// Whatever the order of the points, the same corners in the same order.
+TEST(Delaunay, OrderOfPointsDoesNotShow) {
+  for (const auto& [name, points] : arrangements()) {
+    SCOPED_TRACE(name);
+    Plane2 shuffled = points;
+    RandomStream random(11);
+    for (std::size_t i = shuffled.size(); i > 1; --i) {
+      std::swap(shuffled[i - 1], shuffled[random.next() % i]);
+    }
+    const Triangles a = full(points).triangles, b = full(shuffled).triangles;
+    ASSERT_EQ(a.rows(), b.rows());
+    for (Index i = 0; i < 3 * a.rows(); ++i) {
+      ASSERT_EQ(at(points, a.data()[i]), at(shuffled, b.data()[i]));
+    }
+  }
+}
+
+TEST(Delaunay, GapsAndHolesStay) {
+  Plane2 points;
+  for (const Point2& p : grid(60, 40, 1.0)) {
+    const bool in_hole = std::hypot(p.x - 15.0, p.y - 20.0) < 9.0;
+    const bool in_gap = p.x > 35.0 && p.x < 45.0;
+    if (!in_hole && !in_gap) points.push_back(p);
+  }
+  const PointMatrix matrix = with_depth(points);
+  const Delaunay trimmed = delaunay(PointView(matrix.data(), matrix.rows(), 3));
+  EXPECT_DOUBLE_EQ(trimmed.max_edge, 5.0 * std::sqrt(2.0));
+  EXPECT_EQ(trimmed.merged_points, 0);
+  EXPECT_EQ(trimmed.cut_triangles + trimmed.triangles.rows(), full(points).triangles.rows());
+  for (Index t = 0; t < trimmed.triangles.rows(); ++t) {
+    Point2 middle{0.0, 0.0};
+    for (int c = 0; c < 3; ++c) {
+      const Point2 p = at(points, trimmed.triangles.view()(t, c));
+      middle = {middle.x + p.x / 3.0, middle.y + p.y / 3.0};
+    }
+    ASSERT_TRUE(middle.x < 35.1 || middle.x > 44.9);
+    ASSERT_GT(std::hypot(middle.x - 15.0, middle.y - 20.0), 5.0);
+  }
+}
+
+TEST(Delaunay, ReportsWhatItMergedAndCutAlike) {
+  Plane2 points = scattered(70000, 8);
+  for (std::size_t i = 0; i < 5000; ++i) points.push_back(points[2 * i]);
+  const PointMatrix matrix = with_depth(points);
+  const PointView view(matrix.data(), matrix.rows(), 3);
+  const Delaunay one = delaunay(view, {.num_threads = 1}), two = delaunay(view, {.num_threads = 2});
+  EXPECT_EQ(one.merged_points, 5000);
+  EXPECT_GT(one.cut_triangles, 0);
+  EXPECT_EQ(one.cut_triangles, two.cut_triangles);
+  EXPECT_EQ(one.max_edge, two.max_edge);
+  EXPECT_EQ(one.triangles.view(), two.triangles.view());
+}
+
+TEST(Delaunay, RefusesWhatHasNoTriangulation) {
+  EXPECT_THROW(full({}), std::invalid_argument);
+  EXPECT_THROW(full({{0, 0}}), std::invalid_argument);
+  EXPECT_THROW(full(Plane2(100, Point2{3, 4})), std::invalid_argument);
+  EXPECT_THROW(full(grid(50, 1, 0.1, {1e7, 1e7})), std::invalid_argument);
+  EXPECT_THROW(full({{0, 0}, {1, 0}, {0, NAN}}), std::invalid_argument);
+  EXPECT_THROW(full({{0, 0}, {1, 0}, {0, kInfinity}}), std::invalid_argument);
+  EXPECT_THROW(full({{0, 0}, {1, 0}, {0, 2e75}}), std::invalid_argument);
+  EXPECT_THROW(full(grid(2, 2, 1.0), -1), std::invalid_argument);
+  const PointMatrix square = with_depth(grid(2, 2, 1.0));
+  for (const double bad : {0.0, -1.0, static_cast<double>(NAN)}) {
+    EXPECT_THROW(delaunay(PointView(square.data(), 4, 3), {.max_edge = bad}),
+                 std::invalid_argument);
   }
 }
 

@@ -101,6 +101,10 @@ TEST(CoverPolygon, MowsOneArmOfAUBeforeTheOther) {
     if (aims(i, 1) > 3 && aims(i - 1, 1) > 3 && (aims(i, 0) > 6) != (aims(i - 1, 0) > 6)) ++changes;
   }
   EXPECT_EQ(changes, 1) << "over from one arm to the other once";
+  // Up the base, then on into the arm that begins nearest to where it ended, from the nearer side.
+  EXPECT_NEAR((aims.row(5).head<2>() - Eigen::RowVector2d(12, 2.5)).norm(), 0.0, 1e-12);
+  EXPECT_NEAR((aims.row(6).head<2>() - Eigen::RowVector2d(12, 3.5)).norm(), 0.0, 1e-12);
+  EXPECT_NEAR((aims.row(18).head<2>() - Eigen::RowVector2d(3, 8.5)).norm(), 0.0, 1e-12);
 }
 
 TEST(CoverPolygon, KeepsTheMarginFromEveryEdge) {

@@ -259,5 +259,15 @@ TEST(Options, AreChecked) {
   });
 }
 
+TEST(Options, AStepThatWouldFillTheMemoryIsRefused) {
+  const Scene scene = rough();
+  ToolPathOptions options;
+  options.step = 1e-12;
+  EXPECT_THROW(plan_toolpath(scene, kTour, options), std::invalid_argument);
+  options.step = 0.0;
+  options.normal_radius = 1e-12;
+  EXPECT_THROW(plan_toolpath(scene, kTour, options), std::invalid_argument);
+}
+
 }  // namespace
 }  // namespace bathyal

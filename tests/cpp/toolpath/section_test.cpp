@@ -250,6 +250,68 @@ TEST(Section, ATargetAboveTheNextOnUprightNormalsIsJoinedRoundTheLipOrFlagged) {
   EXPECT_TRUE(flagged.gap[0]);
 }
 
+/// A closed box of 2 × 2 × 2 m about the origin, turned by 30° about z.
+Scene turned_box() {
+  std::vector<Vec3> corners;
+  for (int k = 0; k < 8; ++k) {
+    const Vec3 corner((k & 1) != 0 ? 1 : -1, (k & 2) != 0 ? 1 : -1, (k & 4) != 0 ? 1 : -1);
+    corners.push_back(Eigen::AngleAxisd(std::numbers::pi / 6, Vec3::UnitZ()) * corner);
+  }
+  return scene_of(mesh_of(corners, {{0, 2, 3},
+                                    {0, 3, 1},
+                                    {4, 5, 7},
+                                    {4, 7, 6},
+                                    {0, 1, 5},
+                                    {0, 5, 4},
+                                    {2, 6, 7},
+                                    {2, 7, 3},
+                                    {0, 4, 6},
+                                    {0, 6, 2},
+                                    {1, 3, 7},
+                                    {1, 7, 5}}));
+}
+
+TEST(Section, AVerticalPairGoesStraightDownItsWallTheShorterWayRoundAClosedSection) {
+  const Vec3 out(std::cos(std::numbers::pi / 6), std::sin(std::numbers::pi / 6), 0);
+  const Vec3 along = Vec3::UnitZ().cross(out);
+  const auto at = [&](double z) { return axis(4 * out + 0.3 * along + z * Vec3::UnitZ(), -out); };
+  for (const double sign : {1.0, -1.0}) {
+    const ToolPath path =
+        plan_toolpath(turned_box(), rows({at(0.7 * sign), at(-0.6 * sign)}), piecewise_constant());
+    EXPECT_FALSE(any(path.gap));
+    EXPECT_NEAR(path.arc_length.back(), 1.3, 1e-9);
+    EXPECT_EQ(path.surface.back(), path.targets.point.back());
+    for (const Vec3& a : path.approach) {
+      EXPECT_LT((a - out).norm(), 1e-12);
+    }
+  }
+}
+
+TEST(Section, AVerticalPairOnABulgingWallIsJoinedOverTheBulge) {
+  // A wall across y, 0.5 m proud at half height: the plane that holds its normals is y-z.
+  const Scene scene = scene_of(
+      mesh_of({{-2, 0, 1}, {2, 0, 1}, {-2, -0.5, 0}, {2, -0.5, 0}, {-2, 0, -1}, {2, 0, -1}},
+              {{0, 2, 3}, {0, 3, 1}, {2, 4, 5}, {2, 5, 3}}));
+  const ToolPath path = plan_toolpath(
+      scene, rows({axis({0.3, -5, 0.5}, {0, 1, 0}), axis({0.3, -5, -0.5}, {0, 1, 0})}),
+      piecewise_constant());
+  EXPECT_FALSE(any(path.gap));
+  EXPECT_NEAR(path.arc_length.back(), 2 * std::hypot(0.5, 0.25), 1e-9);
+  for (const Vec3& p : path.surface) {
+    EXPECT_NEAR(p.x(), 0.3, 1e-9);
+  }
+}
+
+TEST(Section, FromTheWallOfABoxToItsTopIsRoundTheEdge) {
+  const Vec3 out(std::cos(std::numbers::pi / 6), std::sin(std::numbers::pi / 6), 0);
+  const ToolPath path = plan_toolpath(turned_box(),
+                                      rows({axis(4 * out + 0.7 * Vec3::UnitZ(), -out),
+                                            axis(0.5 * out + 4 * Vec3::UnitZ(), -Vec3::UnitZ())}),
+                                      piecewise_constant());
+  EXPECT_FALSE(any(path.gap));
+  EXPECT_NEAR(path.arc_length.back(), 0.3 + 0.5, 1e-9);
+}
+
 TEST(Section, CoincidentTargetsAddNoLengthAndAreToldOf) {
   const Scene scene = scene_of(grid(kFlat, 0, 4, 4, 0, 4, 4));
   for (const Surface& surface : {Surface(scene), Surface(Plane(Vec3::UnitZ(), -5.0))}) {
@@ -290,6 +352,36 @@ TEST(Section, AHoleBetweenTargetsIsCrossedStraightAndFlagged) {
   }
 }
 
+TEST(Section, TilesThatAbutAreOneSheet) {
+  const Vec3 far(620153, 7246506, -52);
+  const auto waves = [](double x, double) { return std::sin(x); };
+  const auto tile = [&](int k) { return grid(waves, 3.0 * k, 3.0 * (k + 1), 7, 0, 4, 5, far); };
+  const Scene scene({tile(0), tile(1), tile(2)}, 1);
+  Aims aims = down({{0.4, 1.1}, {8.7, 2.9}});
+  aims.leftCols<3>().rowwise() += far.transpose();
+  const ToolPath path = plan_toolpath(scene, aims, piecewise_constant());
+  EXPECT_FALSE(any(path.gap));
+  EXPECT_EQ(path.mesh.front(), 0);
+  EXPECT_EQ(path.mesh.back(), 2);
+  EXPECT_TRUE(path.warnings.empty());
+}
+
+TEST(Section, WhereMeshesLieOnEachOtherThePathStaysOnThatOfItsTargets) {
+  const Vec3 far(620153, 7246506, -52);
+  const auto slope = [](double x, double y) { return 0.3 * x + 0.1 * y; };
+  const Scene scene({grid(slope, 0, 6, 3, 0, 6, 3, far), grid(slope, 0, 6, 5, 0, 6, 4, far)}, 1);
+  for (double y = 0.7; y < 5.5; y += 0.37) {
+    Aims aims = down({{0.9, y}, {5.2, 6.0 - y}});
+    aims.leftCols<3>().rowwise() += far.transpose();
+    const ToolPath path = plan_toolpath(scene, aims, piecewise_constant());
+    if (path.targets.mesh[0] != path.targets.mesh[1]) continue;
+    EXPECT_FALSE(any(path.gap)) << y;
+    for (const std::int32_t mesh : path.mesh) {
+      EXPECT_EQ(mesh, path.targets.mesh[0]) << y;
+    }
+  }
+}
+
 TEST(Section, AMissedAimMakesAGapAndIsToldOf) {
   const Scene scene = scene_of(grid(kFlat, 0, 10, 10, 0, 4, 4));
   const Aims aims = down({{-3, 1}, {1, 1}, {3, 1}, {20, 1}, {6, 1}, {8, 1}, {30, 1}});
@@ -308,6 +400,20 @@ TEST(Section, AMissedAimMakesAGapAndIsToldOf) {
   ToolPathOptions strict;
   strict.missed = MissedAims::kRefuse;
   EXPECT_THROW(plan_toolpath(scene, aims, strict), std::invalid_argument);
+}
+
+TEST(Section, AimsThatGrazeOrComeFromBeneathAreUsedAndToldOf) {
+  const Scene scene = scene_of(grid(kFlat, 0, 10, 10, 0, 4, 4));
+  ToolPathOptions options;
+  options.targets.grazing_angle = 1.0;
+  const Aims aims = rows(
+      {axis({1, 1, 9}, {0, 0, -1}), axis({0, 1, -4}, {3, 0, -1}), axis({5, 1, -9}, {0, 0, 1})});
+  const ToolPath path = plan_toolpath(scene, aims, options);
+  EXPECT_TRUE(warned(path, "graze the bottom (used): 1"));
+  EXPECT_TRUE(warned(path, "from beneath (used): camera below it or mesh inside out: 2"));
+  EXPECT_NEAR(path.arc_length.back(), 4.0, 1e-12);
+  options.targets.grazing_angle = std::numbers::pi;
+  EXPECT_TRUE(warned(plan_toolpath(scene, aims, options), "inside out: 2"));
 }
 
 TEST(Section, ALoneTargetBetweenMissedAimsKeepsItsSample) {
