@@ -192,7 +192,7 @@ def _figure(
         scene={
             "aspectmode": "manual",
             "aspectratio": _aspect(size, 1),
-            "camera": {"eye": {"x": -0.7, "y": -1.05, "z": 0.8}},
+            "camera": {"eye": {"x": -0.75, "y": -1.15, "z": 0.85}},
             **axes,
         },
         margin={"l": 0, "r": 0, "t": 36, "b": 0},
@@ -278,13 +278,9 @@ def _bottom_trace(
         x=x, y=y, z=z, i=i, j=j, k=k, intensity=z, colorscale=_depth_scale(), cmin=low, cmax=high,
         name="bottom", showlegend=True, hoverinfo="skip",
         colorbar={"title": {"text": "z [m]"}, "len": 0.6, "thickness": 14},
-        # The epsilons are areas below which plotly takes a triangle to have no normal: at the
-        # scale of a coral that would be all of them.
-        lighting={
-            "ambient": 0.5, "diffuse": 0.9, "specular": 0.1, "roughness": 0.8,
-            "facenormalsepsilon": 0.0, "vertexnormalsepsilon": 0.0,
-        },
-        lightposition={"x": -20000, "y": 20000, "z": 15000},
+        # Much ambient light: plotly lights faces that look at the viewer hardly at all.
+        lighting={"ambient": 0.85, "diffuse": 0.45, "specular": 0.05, "roughness": 0.9},
+        flatshading=True, lightposition={"x": 20000, "y": 20000, "z": 30000},
     )  # fmt: skip
 
 
