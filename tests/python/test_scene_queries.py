@@ -321,24 +321,9 @@ def test_contains_same_as_open3d():
 
 
 def read_hull(path):
-    """Every triangle of the scene, nodes' transforms applied; metres."""
     if not path.exists():
         pytest.skip(f"{path} is not there: the hulls' data set is missing")
-    collada = pytest.importorskip("collada")
-    document = collada.Collada(
-        str(path), ignore=[collada.common.DaeUnsupportedError, collada.common.DaeBrokenRefError]
-    )
-    vertices, triangles, count = [], [], 0
-    for geometry in document.scene.objects("geometry"):
-        for primitive in geometry.primitives():
-            whole = primitive.triangleset() if hasattr(primitive, "triangleset") else primitive
-            if whole.vertex_index is None or whole.vertex_index.shape[1] != 3:
-                continue  # lines
-            vertices.append(whole.vertex)
-            triangles.append(whole.vertex_index + count)
-            count += len(whole.vertex)
-    vertices = np.concatenate(vertices).astype(float) * (document.assetInfo.unitmeter or 1.0)
-    return bathyal.TriangleMesh(vertices, np.concatenate(triangles))
+    return bathyal.read_mesh(path)
 
 
 def volume_by_contains(mesh, count=20_000):
