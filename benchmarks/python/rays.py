@@ -56,7 +56,7 @@ def side_scan():
 
 
 def multibeam(seed=3):
-    """400 beams over ±65° a ping, from a vehicle that rolls, pitches and yaws on a slanted track."""
+    """400 beams over ±65° a ping, from a vehicle that rolls, pitches and yaws."""
     random = np.random.default_rng(seed)
     beams = np.radians(np.linspace(-65.0, 65.0, 400))
     pings = RAYS // beams.size
