@@ -225,7 +225,7 @@ def run(rounds):
     print("|---|---|---|---|---|---|")
     print("\n".join(builds))
     print(
-        f"\nRates and times are medians of {rounds} interleaved rounds of {RAYS:,} rays; ratios are "
+        f"\nRates and times are medians of {rounds} interleaved rounds of {RAYS:,} rays, ratios "
         "medians of each round's, above 1 where ours is faster. One thread: processor time; two: "
         "the wall clock. Open3D's build takes float32 arrays over and asks one ray. "
         f"SIMD level {simd_level()}; Open3D {open3d.__version__}, embreex {embreex.__version__}, "
