@@ -56,7 +56,7 @@ def side_scan():
 
 
 def multibeam(seed=3):
-    """400 beams over ±65° a ping, from a vehicle that rolls, pitches and yaws on a slanted track."""
+    """400 beams over ±65° a ping, from a vehicle that rolls, pitches and yaws."""
     random = np.random.default_rng(seed)
     beams = np.radians(np.linspace(-65.0, 65.0, 400))
     pings = RAYS // beams.size
@@ -225,7 +225,7 @@ def run(rounds):
     print("|---|---|---|---|---|---|")
     print("\n".join(builds))
     print(
-        f"\nRates and times are medians of {rounds} interleaved rounds of {RAYS:,} rays; ratios are "
+        f"\nRates and times are medians of {rounds} interleaved rounds of {RAYS:,} rays, ratios "
         "medians of each round's, above 1 where ours is faster. One thread: processor time; two: "
         "the wall clock. Open3D's build takes float32 arrays over and asks one ray. "
         f"SIMD level {simd_level()}; Open3D {open3d.__version__}, embreex {embreex.__version__}, "
