@@ -203,8 +203,8 @@ def plan(
 ) -> None:
     """Plan a tool path along the bottom through what the camera was pointed at.
 
-    Writes path.csv path.json path.vtp seabed.vtp plan.png plan.html to the folder,
-    all of them or none. Gaps in the path and aims that met nothing are warnings.
+    Writes path.csv path.json path.vtp seabed.vtp plan.png plan.html, all or none.
+    Gaps in the path and aims that met nothing are warnings.
 
     [bold]Examples:[/]
 
