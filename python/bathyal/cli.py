@@ -3,243 +3,31 @@
 
 from __future__ import annotations
 
-import sys
-from collections.abc import Iterator
-from contextlib import contextmanager
-from enum import Enum
 from importlib.metadata import version
 from pathlib import Path
 from typing import Annotated, Any
 
 import typer
-from rich.console import Console
-from rich.markup import escape
-from rich.progress import Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
-from rich.table import Table
-from typer.core import TyperGroup
 
 import bathyal
 from bathyal import options as opt
+from bathyal.talk import Commands, Talk
 
 _EXIT_CODES = (
     "Exit codes: 0 done (warnings are told, they do not fail a job), 1 the job failed or a file is "
     "broken, 2 wrong usage, 130 interrupted."
 )
 
-
-class _Commands(TyperGroup):
-    """Turns what went wrong into one line and an exit code; usage errors are typer's own."""
-
-    def invoke(self, ctx: Any) -> Any:
-        err = Console(stderr=True, highlight=False)
-        try:
-            return super().invoke(ctx)
-        except KeyboardInterrupt:
-            err.print("[red]interrupted[/], nothing was written")
-            raise typer.Exit(130) from None
-        except BrokenPipeError:
-            raise
-        except (bathyal.Error, OSError, ValueError) as error:
-            if ctx.params.get("debug"):
-                err.print_exception()
-            err.print(f"[red]error:[/] {escape(_one_line(error))}", soft_wrap=True)
-            raise typer.Exit(1) from None
-
-
-def _one_line(error: Exception) -> str:
-    if isinstance(error, OSError) and error.strerror:
-        name = f"{error.filename}: " if error.filename else ""
-        return f"{name}{error.strerror}"
-    return " ".join(str(error).split())
-
-
 app = typer.Typer(
     name="bathyal",
-    cls=_Commands,
+    cls=Commands,
     rich_markup_mode="rich",
     add_completion=False,
     pretty_exceptions_enable=False,
     epilog=_EXIT_CODES,
 )
 
-
-class Method(str, Enum):
-    """How soundings become a mesh."""
-
-    delaunay = "delaunay"
-    greedy = "greedy"
-
-
-class Down(str, Enum):
-    """Which way z grows in a file."""
-
-    up = "up"
-    down = "down"
-
-
-class Orientation(str, Enum):
-    """How the approach axis goes over edges."""
-
-    blended = "blended"
-    piecewise_constant = "piecewise_constant"
-
-
-class Vertical(str, Enum):
-    """What stands upright where the bottom is cut."""
-
-    gravity = "gravity"
-    vehicle = "vehicle"
-
-
-class Missed(str, Enum):
-    """What becomes of aims that meet no bottom."""
-
-    leave_out = "leave_out"
-    refuse = "refuse"
-
-
-class _Talk:
-    """What is said where: results on stdout, progress and warnings on stderr."""
-
-    def __init__(self, *, json: bool, quiet: bool) -> None:
-        self.json = json
-        self.quiet = quiet
-        self.out = Console(highlight=False)
-        self.err = Console(stderr=True, highlight=False)
-
-    @contextmanager
-    def progress(self) -> Iterator[Any]:
-        """A function `step(name)` for stages; it draws only on a terminal."""
-        if self.json or self.quiet or not self.err.is_terminal:
-            yield _silent
-            return
-        bar = Progress(
-            SpinnerColumn(), TextColumn("{task.description}"), TimeElapsedColumn(),
-            console=self.err, transient=True,
-        )  # fmt: skip
-
-        @contextmanager
-        def step(name: str) -> Iterator[None]:
-            task = bar.add_task(name, total=None)
-            try:
-                yield
-            finally:
-                bar.remove_task(task)
-
-        with bar:
-            yield step
-
-    def result(self, data: dict[str, Any], rows: dict[str, str], title: str = "") -> None:
-        """A table for people, or JSON."""
-        from bathyal.paths import json_text
-
-        if self.json:
-            sys.stdout.write(json_text(data))
-        elif not self.quiet:
-            table = Table(show_header=False, box=None, title=title or None, title_justify="left")
-            table.add_column(style="dim")
-            table.add_column(overflow="fold")
-            for name, value in rows.items():
-                table.add_row(name, escape(value))
-            self.out.print(table)
-
-    def warn(self, warnings: list[str]) -> None:
-        """Warnings are told on stderr also where the rest is quiet."""
-        if not self.json:
-            for warning in warnings:
-                self.err.print(f"[yellow]warning:[/] {escape(warning)}", soft_wrap=True)
-
-
-@contextmanager
-def _silent(_: str) -> Iterator[None]:
-    yield
-
-
-def _default(function: Any, name: str, *, degrees: bool = False) -> str:
-    return f"[dim]\\[default: {opt.engine_default(function, name, degrees=degrees)}][/]"
-
-
 _PLAN = bathyal.plan_toolpath
-_CLEAN = bathyal.clean_cloud
-
-Out = Annotated[Path, typer.Option("--out", "-o", help="Folder for the results; made if missing.")]
-Json = Annotated[bool, typer.Option("--json", help="A machine-readable summary on stdout.")]
-Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="Say warnings and errors only.")]
-Columns = Annotated[
-    str | None,
-    typer.Option(
-        help="Columns of x, y, z in a text file: [b]0,1,2[/b] or [b]easting,northing,depth[/b].",
-        rich_help_panel="Reading",
-    ),
-]
-Z = Annotated[
-    Down | None,
-    typer.Option("--z", help="Which way z grows in the file.", rich_help_panel="Reading"),
-]
-Scale = Annotated[
-    float | None,
-    typer.Option(help="Metres in one unit of the file.", rich_help_panel="Reading"),
-]
-Crs = Annotated[
-    str | None,
-    typer.Option(help="Coordinate reference system, [b]EPSG:32602[/b].", rich_help_panel="Reading"),
-]
-VerticalDatum = Annotated[
-    str | None, typer.Option(help="Vertical datum.", rich_help_panel="Reading")
-]
-Voxel = Annotated[
-    float | None,
-    typer.Option(help="Keep one sounding a cube of this edge \\[m].", rich_help_panel="Cleaning"),
-]
-SpikeSigma = Annotated[
-    float | None,
-    typer.Option(
-        help="Drop soundings so many robust standard deviations off their neighbours, 5 for one.",
-        rich_help_panel="Cleaning",
-    ),
-]
-OutlierSigma = Annotated[
-    float | None,
-    typer.Option(
-        help="Drop soundings whose neighbours are this many standard deviations too far off.",
-        rich_help_panel="Cleaning",
-    ),
-]
-MethodOption = Annotated[
-    Method | None,
-    typer.Option(
-        help="delaunay: a height field, exact and fast. greedy: PCL's, for overhangs.",
-        rich_help_panel="Bottom",
-    ),
-]
-MaxEdge = Annotated[
-    float | None,
-    typer.Option(
-        metavar="METRES",
-        parser=opt.length_or_none,
-        help="Longest horizontal edge, so that gaps stay gaps; [b]none[/b] for no limit. "
-        "[dim]\\[default: 5 × the median of the triangles' longest edges][/]",
-        rich_help_panel="Bottom",
-    ),
-]
-AsMesh = Annotated[
-    bool | None,
-    typer.Option(
-        "--mesh/--cloud",
-        help="Take the file's own faces, or only its points. By default faces are taken where "
-        "there are any.",
-        rich_help_panel="Bottom",
-    ),
-]
-Pose = Annotated[
-    tuple[float, float, float, float, float, float] | None,
-    typer.Option(
-        metavar="X Y Z ROLL PITCH YAW",
-        help="Pose of the vehicle whose frame the aims stand in \\[m, deg]; x forward, y port, z "
-        "up, so a positive pitch is nose down. Without it the aims stand in the survey's frame.",
-        rich_help_panel="Aims",
-    ),
-]
 
 
 @app.callback(invoke_without_command=True)
@@ -282,30 +70,30 @@ def plan(
             "or .json.",
         ),
     ],
-    out: Out,
-    columns: Columns = None,
-    z: Z = None,
-    scale: Scale = None,
-    crs: Crs = None,
-    vertical_datum: VerticalDatum = None,
-    voxel: Voxel = None,
-    spike_sigma: SpikeSigma = None,
-    outlier_sigma: OutlierSigma = None,
-    as_mesh: AsMesh = None,
+    out: opt.Out,
+    columns: opt.Columns = None,
+    z: opt.Z = None,
+    scale: opt.Scale = None,
+    crs: opt.Crs = None,
+    vertical_datum: opt.VerticalDatum = None,
+    voxel: opt.Voxel = None,
+    spike_sigma: opt.SpikeSigma = None,
+    outlier_sigma: opt.OutlierSigma = None,
+    as_mesh: opt.AsMesh = None,
     plane: Annotated[
         bool,
         typer.Option(
             "--plane", help="Fit a plane: the way for a flat bottom.", rich_help_panel="Bottom"
         ),
     ] = False,
-    method: MethodOption = None,
-    max_edge: MaxEdge = None,
-    world_from_vehicle: Pose = None,
+    method: opt.MethodOption = None,
+    max_edge: opt.MaxEdge = None,
+    world_from_vehicle: opt.Pose = None,
     vertical: Annotated[
-        Vertical | None,
+        opt.Vertical | None,
         typer.Option(
             help="The bottom is cut upright by gravity, or along the vehicle's own z. "
-            + _default(_PLAN, "vertical"),
+            + opt.default_note(_PLAN, "vertical"),
             rich_help_panel="Aims",
         ),
     ] = None,
@@ -313,22 +101,22 @@ def plan(
         float | None,
         typer.Option(
             help="Call a hit grazing beyond this angle of incidence. "
-            + _default(_PLAN, "grazing_angle", degrees=True),
+            + opt.default_note(_PLAN, "grazing_angle", degrees=True),
             rich_help_panel="Aims",
         ),
     ] = None,
     max_range: Annotated[
         float | None,
         typer.Option(
-            help="No target further than this \\[m]. " + _default(_PLAN, "max_range"),
+            help="No target further than this \\[m]. " + opt.default_note(_PLAN, "max_range"),
             rich_help_panel="Aims",
         ),
     ] = None,
     missed: Annotated[
-        Missed | None,
+        opt.Missed | None,
         typer.Option(
             help="Leave aims without a target out with a warning, or refuse the job. "
-            + _default(_PLAN, "missed"),
+            + opt.default_note(_PLAN, "missed"),
             rich_help_panel="Aims",
         ),
     ] = None,
@@ -336,28 +124,29 @@ def plan(
         float | None,
         typer.Option(
             help="Longest stretch between samples \\[m]; 0 keeps the points as cut. "
-            + _default(_PLAN, "step"),
+            + opt.default_note(_PLAN, "step"),
             rich_help_panel="Path",
         ),
     ] = None,
     standoff: Annotated[
         float | None,
         typer.Option(
-            help="Of the tool from the bottom, along a_j \\[m]. " + _default(_PLAN, "standoff"),
+            help="Of the tool from the bottom, along a_j \\[m]. "
+            + opt.default_note(_PLAN, "standoff"),
             rich_help_panel="Path",
         ),
     ] = None,
     speed: Annotated[
         float | None,
         typer.Option(
-            help="Of the tool along its path \\[m/s]. " + _default(_PLAN, "speed"),
+            help="Of the tool along its path \\[m/s]. " + opt.default_note(_PLAN, "speed"),
             rich_help_panel="Path",
         ),
     ] = None,
     acceleration: Annotated[
         float | None,
         typer.Option(
-            help="Along the path \\[m/s²]. " + _default(_PLAN, "acceleration"),
+            help="Along the path \\[m/s²]. " + opt.default_note(_PLAN, "acceleration"),
             rich_help_panel="Path",
         ),
     ] = None,
@@ -365,22 +154,23 @@ def plan(
         float | None,
         typer.Option(
             help="Fastest turn of the tool \\[deg/s]; the feed slows where it must. "
-            + _default(_PLAN, "angular_rate", degrees=True),
+            + opt.default_note(_PLAN, "angular_rate", degrees=True),
             rich_help_panel="Path",
         ),
     ] = None,
     orientation: Annotated[
-        Orientation | None,
+        opt.Orientation | None,
         typer.Option(
             help="Turns spread over the path, or the paper's: constant on each triangle. "
-            + _default(_PLAN, "orientation"),
+            + opt.default_note(_PLAN, "orientation"),
             rich_help_panel="Path",
         ),
     ] = None,
     blend_length: Annotated[
         float | None,
         typer.Option(
-            help="Path over which one turn is spread \\[m]. " + _default(_PLAN, "blend_length"),
+            help="Path over which one turn is spread \\[m]. "
+            + opt.default_note(_PLAN, "blend_length"),
             rich_help_panel="Path",
         ),
     ] = None,
@@ -388,7 +178,7 @@ def plan(
         float | None,
         typer.Option(
             help="Take normals over the tool's footprint of this radius \\[m]; 0: the triangle's "
-            "own, which noise tilts. " + _default(_PLAN, "normal_radius"),
+            "own, which noise tilts. " + opt.default_note(_PLAN, "normal_radius"),
             rich_help_panel="Path",
         ),
     ] = None,
@@ -396,24 +186,25 @@ def plan(
         float | None,
         typer.Option(
             help="Of the tool's body, to flag where it meets ground \\[m]. "
-            + _default(_PLAN, "tool_radius"),
+            + opt.default_note(_PLAN, "tool_radius"),
             rich_help_panel="Path",
         ),
     ] = None,
     tool_length: Annotated[
         float | None,
         typer.Option(
-            help="Of the tool's body \\[m]; 0 checks no body. " + _default(_PLAN, "tool_length"),
+            help="Of the tool's body \\[m]; 0 checks no body. "
+            + opt.default_note(_PLAN, "tool_length"),
             rich_help_panel="Path",
         ),
     ] = None,
-    json: Json = False,
-    quiet: Quiet = False,
+    json: opt.Json = False,
+    quiet: opt.Quiet = False,
 ) -> None:
     """Plan a tool path along the bottom through what the camera was pointed at.
 
-    Writes path.csv path.json path.vtp seabed.vtp plan.png plan.html to the folder,
-    all of them or none. Gaps in the path and aims that met nothing are warnings.
+    Writes path.csv path.json path.vtp seabed.vtp plan.png plan.html, all or none.
+    Gaps in the path and aims that met nothing are warnings.
 
     [bold]Examples:[/]
 
@@ -427,11 +218,11 @@ def plan(
     """
     from bathyal.plan import plan as make_plan
 
-    if vertical is Vertical.vehicle and world_from_vehicle is None:
+    if vertical is opt.Vertical.vehicle and world_from_vehicle is None:
         raise typer.BadParameter(
             "vehicle needs the vehicle's pose, --world-from-vehicle", param_hint="--vertical"
         )
-    talk = _Talk(json=json, quiet=quiet)
+    talk = Talk(json=json, quiet=quiet)
     with talk.progress() as progress:
         planned = make_plan(
             cloud,
@@ -472,18 +263,18 @@ def triangulate(
     out: Annotated[
         Path, typer.Option("--out", "-o", help="Mesh to write: .vtp .ply .obj or .stl.")
     ],
-    columns: Columns = None,
-    z: Z = None,
-    scale: Scale = None,
-    crs: Crs = None,
-    vertical_datum: VerticalDatum = None,
-    voxel: Voxel = None,
-    spike_sigma: SpikeSigma = None,
-    outlier_sigma: OutlierSigma = None,
-    method: MethodOption = None,
-    max_edge: MaxEdge = None,
-    json: Json = False,
-    quiet: Quiet = False,
+    columns: opt.Columns = None,
+    z: opt.Z = None,
+    scale: opt.Scale = None,
+    crs: opt.Crs = None,
+    vertical_datum: opt.VerticalDatum = None,
+    voxel: opt.Voxel = None,
+    spike_sigma: opt.SpikeSigma = None,
+    outlier_sigma: opt.OutlierSigma = None,
+    method: opt.MethodOption = None,
+    max_edge: opt.MaxEdge = None,
+    json: opt.Json = False,
+    quiet: opt.Quiet = False,
 ) -> None:
     """Make a seabed from soundings.
 
@@ -495,7 +286,7 @@ def triangulate(
     """
     from bathyal.plan import make_bottom
 
-    talk = _Talk(json=json, quiet=quiet)
+    talk = Talk(json=json, quiet=quiet)
     with talk.progress() as progress:
         bottom = make_bottom(
             cloud,
@@ -523,14 +314,14 @@ def triangulate(
 @app.command(epilog=_EXIT_CODES)
 def info(
     file: Annotated[Path, typer.Argument(metavar="FILE", help="Soundings or a mesh.")],
-    columns: Columns = None,
-    z: Z = None,
-    scale: Scale = None,
-    crs: Crs = None,
-    vertical_datum: VerticalDatum = None,
-    as_mesh: AsMesh = None,
-    json: Json = False,
-    quiet: Quiet = False,
+    columns: opt.Columns = None,
+    z: opt.Z = None,
+    scale: opt.Scale = None,
+    crs: opt.Crs = None,
+    vertical_datum: opt.VerticalDatum = None,
+    as_mesh: opt.AsMesh = None,
+    json: opt.Json = False,
+    quiet: opt.Quiet = False,
 ) -> None:
     """Say what a file holds: how much, where, how dense, and for a mesh how sound it is.
 
@@ -543,7 +334,7 @@ def info(
     from bathyal.plan import noting, read_either
     from bathyal.reports import describe
 
-    talk = _Talk(json=json, quiet=quiet)
+    talk = Talk(json=json, quiet=quiet)
     warnings: list[str] = []
     with talk.progress() as progress:
         with progress("Reading"), noting(warnings):
@@ -564,18 +355,20 @@ def survey(
     ] = None,
     seed: Annotated[
         int | None,
-        typer.Option(help="Of the random numbers. " + _default(bathyal.generate_survey, "seed")),
+        typer.Option(
+            help="Of the random numbers. " + opt.default_note(bathyal.generate_survey, "seed")
+        ),
     ] = None,
     length: Annotated[
         float | None,
-        typer.Option(help="Along x \\[m]. " + _default(bathyal.generate_survey, "length")),
+        typer.Option(help="Along x \\[m]. " + opt.default_note(bathyal.generate_survey, "length")),
     ] = None,
     width: Annotated[
         float | None,
-        typer.Option(help="Along y \\[m]. " + _default(bathyal.generate_survey, "width")),
+        typer.Option(help="Along y \\[m]. " + opt.default_note(bathyal.generate_survey, "width")),
     ] = None,
-    json: Json = False,
-    quiet: Quiet = False,
+    json: opt.Json = False,
+    quiet: opt.Quiet = False,
 ) -> None:
     """Generate a survey: sand waves, boulders, a trench, a lost stripe, noise.
 
@@ -585,7 +378,7 @@ def survey(
     """
     from bathyal.examples import aims_over, write_aims
 
-    talk = _Talk(json=json, quiet=quiet)
+    talk = Talk(json=json, quiet=quiet)
     chosen = opt.given(seed=seed, length=length, width=width)
     with talk.progress() as progress:
         with progress("Generating"):
@@ -601,7 +394,7 @@ def survey(
 
 def _read_options(
     columns: str | None,
-    z: Down | None,
+    z: opt.Down | None,
     scale: float | None,
     crs: str | None,
     vertical_datum: str | None,
@@ -618,7 +411,7 @@ def _clean_options(
     return opt.given(voxel=voxel, spike_sigma=spike_sigma, outlier_sigma=outlier_sigma)
 
 
-def _mesh_options(method: Method | None, max_edge: float | None) -> dict[str, Any]:
+def _mesh_options(method: opt.Method | None, max_edge: float | None) -> dict[str, Any]:
     return opt.given(method=method and method.value, max_edge=max_edge)
 
 

@@ -10,9 +10,12 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Callable
-from typing import Any
+from enum import Enum
+from pathlib import Path
+from typing import Annotated, Any
 
 import numpy as np
+import typer
 from numpy.typing import NDArray
 
 
@@ -72,3 +75,123 @@ def length_or_none(text: str) -> float:
         return float(text)
     except ValueError:
         raise ValueError(f'expected a length in metres or "none", got {text!r}') from None
+
+
+def default_note(function: Callable[..., Any], name: str, *, degrees: bool = False) -> str:
+    """The default as a line of help ends with it."""
+    return f"[dim]\\[default: {engine_default(function, name, degrees=degrees)}][/]"
+
+
+class Method(str, Enum):
+    """How soundings become a mesh."""
+
+    delaunay = "delaunay"
+    greedy = "greedy"
+
+
+class Down(str, Enum):
+    """Which way z grows in a file."""
+
+    up = "up"
+    down = "down"
+
+
+class Orientation(str, Enum):
+    """How the approach axis goes over edges."""
+
+    blended = "blended"
+    piecewise_constant = "piecewise_constant"
+
+
+class Vertical(str, Enum):
+    """What stands upright where the bottom is cut."""
+
+    gravity = "gravity"
+    vehicle = "vehicle"
+
+
+class Missed(str, Enum):
+    """What becomes of aims that meet no bottom."""
+
+    leave_out = "leave_out"
+    refuse = "refuse"
+
+
+Out = Annotated[Path, typer.Option("--out", "-o", help="Folder for the results; made if missing.")]
+Json = Annotated[bool, typer.Option("--json", help="A machine-readable summary on stdout.")]
+Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="Say warnings and errors only.")]
+Columns = Annotated[
+    str | None,
+    typer.Option(
+        help="Columns of x, y, z in a text file: [b]0,1,2[/b] or [b]easting,northing,depth[/b].",
+        rich_help_panel="Reading",
+    ),
+]
+Z = Annotated[
+    Down | None,
+    typer.Option("--z", help="Which way z grows in the file.", rich_help_panel="Reading"),
+]
+Scale = Annotated[
+    float | None,
+    typer.Option(help="Metres in one unit of the file.", rich_help_panel="Reading"),
+]
+Crs = Annotated[
+    str | None,
+    typer.Option(help="Coordinate reference system, [b]EPSG:32602[/b].", rich_help_panel="Reading"),
+]
+VerticalDatum = Annotated[
+    str | None, typer.Option(help="Vertical datum.", rich_help_panel="Reading")
+]
+Voxel = Annotated[
+    float | None,
+    typer.Option(help="Keep one sounding a cube of this edge \\[m].", rich_help_panel="Cleaning"),
+]
+SpikeSigma = Annotated[
+    float | None,
+    typer.Option(
+        help="Drop soundings so many robust standard deviations off their neighbours, 5 for one.",
+        rich_help_panel="Cleaning",
+    ),
+]
+OutlierSigma = Annotated[
+    float | None,
+    typer.Option(
+        help="Drop soundings whose neighbours are this many standard deviations too far off.",
+        rich_help_panel="Cleaning",
+    ),
+]
+MethodOption = Annotated[
+    Method | None,
+    typer.Option(
+        help="delaunay: a height field, exact and fast. greedy: PCL's, for overhangs.",
+        rich_help_panel="Bottom",
+    ),
+]
+MaxEdge = Annotated[
+    float | None,
+    typer.Option(
+        metavar="METRES",
+        parser=length_or_none,
+        help="Longest horizontal edge, so that gaps stay gaps; [b]none[/b] for no limit. "
+        "[dim]\\[default: 5 × the median of the triangles' longest edges][/]",
+        rich_help_panel="Bottom",
+    ),
+]
+AsMesh = Annotated[
+    bool | None,
+    typer.Option(
+        "--mesh/--cloud",
+        help="Take the file's own faces, or only its points. By default faces are taken where "
+        "there are any.",
+        rich_help_panel="Bottom",
+    ),
+]
+Pose = Annotated[
+    tuple[float, float, float, float, float, float] | None,
+    typer.Option(
+        metavar="X Y Z ROLL PITCH YAW",
+        help="Pose of the vehicle whose frame the aims stand in \\[m, deg]; x forward, y port, z "
+        "up, so a positive pitch is nose down. Without it the aims stand in the survey's frame.",
+        rich_help_panel="Aims",
+    ),
+]

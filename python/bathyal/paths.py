@@ -82,9 +82,8 @@ def write_path(path: ToolPath, filename: str | os.PathLike[str], **provenance: A
     >>> path = bathyal.plan_toolpath(bathyal.Plane((0, 0, 1), -5.0), aims)
     >>> file = tempfile.mkdtemp() + "/path.csv"
     >>> write_path(path, file, crs="EPSG:32602")
-    >>> print(open(file).read()[:40])
-    # tool path in metres, z up
-    # crs EPSG:32
+    >>> open(file).read().splitlines()[:2]
+    ['# tool path in metres, z up', '# crs EPSG:32602']
     """
     suffix = Path(filename).suffix.lower()
     if suffix not in _WRITERS:

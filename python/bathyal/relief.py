@@ -107,10 +107,11 @@ def _heights(surface: Scene | Plane, x: Floats, y: Floats) -> Floats:
         nx, ny, nz = surface.normal
         return np.asarray((surface.offset - nx * grid_x - ny * grid_y) / nz)
     low, high = bounds(surface)
-    above = high[2] + 1.0 + 0.1 * (high[2] - low[2])
+    above = float(high[2] + 1.0 + 0.1 * (high[2] - low[2]))
     origins = np.column_stack([grid_x, grid_y, np.full(grid_x.size, above)])
     down = np.broadcast_to([0.0, 0.0, -1.0], origins.shape)
-    return above - np.asarray(surface.cast(origins, down).range, np.float64)
+    depth: Floats = surface.cast(origins, down).range
+    return above - depth
 
 
 def exaggeration(relief: Relief) -> float:

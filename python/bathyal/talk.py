@@ -1,0 +1,101 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""How the command line talks: results on stdout, progress, warnings and errors on stderr."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Any
+
+import typer
+from rich.console import Console
+from rich.markup import escape
+from rich.progress import Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
+from rich.table import Table
+from typer.core import TyperGroup
+
+from bathyal._core import Error
+
+
+class Commands(TyperGroup):
+    """Turns what went wrong into one line and an exit code; usage errors are typer's own."""
+
+    def invoke(self, ctx: Any) -> Any:
+        err = Console(stderr=True, highlight=False)
+        try:
+            return super().invoke(ctx)
+        except KeyboardInterrupt:
+            err.print("[red]interrupted[/], nothing was written")
+            raise typer.Exit(130) from None
+        except BrokenPipeError:
+            raise
+        except (Error, OSError, ValueError) as error:
+            if ctx.params.get("debug"):
+                err.print_exception()
+            err.print(f"[red]error:[/] {escape(_one_line(error))}", soft_wrap=True)
+            raise typer.Exit(1) from None
+
+
+def _one_line(error: Exception) -> str:
+    if isinstance(error, OSError) and error.strerror:
+        name = f"{error.filename}: " if error.filename else ""
+        return f"{name}{error.strerror}"
+    return " ".join(str(error).split())
+
+
+class Talk:
+    """What is said where: results on stdout, progress and warnings on stderr."""
+
+    def __init__(self, *, json: bool, quiet: bool) -> None:
+        self.json = json
+        self.quiet = quiet
+        self.out = Console(highlight=False)
+        self.err = Console(stderr=True, highlight=False)
+
+    @contextmanager
+    def progress(self) -> Iterator[Any]:
+        """A function `step(name)` for stages; it draws only on a terminal."""
+        if self.json or self.quiet or not self.err.is_terminal:
+            yield _silent
+            return
+        bar = Progress(
+            SpinnerColumn(), TextColumn("{task.description}"), TimeElapsedColumn(),
+            console=self.err, transient=True,
+        )  # fmt: skip
+
+        @contextmanager
+        def step(name: str) -> Iterator[None]:
+            task = bar.add_task(name, total=None)
+            try:
+                yield
+            finally:
+                bar.remove_task(task)
+
+        with bar:
+            yield step
+
+    def result(self, data: dict[str, Any], rows: dict[str, str], title: str = "") -> None:
+        """A table for people, or JSON."""
+        from bathyal.paths import json_text
+
+        if self.json:
+            sys.stdout.write(json_text(data))
+        elif not self.quiet:
+            table = Table(show_header=False, box=None, title=title or None, title_justify="left")
+            table.add_column(style="dim")
+            table.add_column(overflow="fold")
+            for name, value in rows.items():
+                table.add_row(name, escape(value))
+            self.out.print(table)
+
+    def warn(self, warnings: list[str]) -> None:
+        """Warnings are told on stderr also where the rest is quiet."""
+        if not self.json:
+            for warning in warnings:
+                self.err.print(f"[yellow]warning:[/] {escape(warning)}", soft_wrap=True)
+
+
+@contextmanager
+def _silent(_: str) -> Iterator[None]:
+    yield
