@@ -76,8 +76,12 @@ bench: $(STAMPS)/apt-bench $(STAMPS)/venv
 	cmake --build build/bench
 	$(BIN)/python benchmarks/run.py --cpp build/bench/benchmarks/cpp
 
+# The engine's stub is written anew from its bindings.
 format: $(STAMPS)/apt-test $(STAMPS)/venv
-	$(BIN)/pip install -q -c constraints.txt ruff
+	$(call install-python)
+	$(BIN)/pip install -q -c constraints.txt ruff pybind11-stubgen
+	$(BIN)/pybind11-stubgen bathyal._core -o build/stubs
+	cp build/stubs/bathyal/_core.pyi python/bathyal/_core.pyi
 	git ls-files '*.cpp' '*.hpp' | xargs clang-format-14 -i
 	$(BIN)/ruff check --fix . && $(BIN)/ruff format .
 

@@ -9,6 +9,7 @@ it was.
 import argparse
 import datetime
 import importlib.metadata
+import os
 import platform
 import subprocess
 import sys
@@ -17,38 +18,37 @@ from pathlib import Path
 HERE = Path(__file__).parent
 PAGE = HERE / "README.md"
 PYTHON = ["rays.py", "section.py", "read_text.py", "whole_plan.py"]
-CPP = ["bench_delaunay"]
+CPP = ["bench_delaunay", "bench_greedy"]
 PACKAGES = ["numpy", "open3d-cpu", "embreex", "vtk", "pandas", "pyarrow"]
 DEBIAN = ["g++", "libcgal-dev", "libpcl-dev", "libeigen3-dev"]
 
 
 def machine() -> str:
-    cpu = next(
-        line.split(":", 1)[1].strip()
-        for line in Path("/proc/cpuinfo").read_text().splitlines()
-        if line.startswith("model name")
-    )
-    cores = len([c for c in Path("/proc/cpuinfo").read_text().splitlines() if c.startswith("processor")])
-    return f"{cpu}, {cores} cores, {platform.system()} {platform.machine()}"
+    lines = Path("/proc/cpuinfo").read_text().splitlines()
+    cpu = next(line.split(":", 1)[1].strip() for line in lines if line.startswith("model name"))
+    return f"{cpu}, {os.cpu_count()} cores, {platform.system()} {platform.machine()}"
 
 
 def versions() -> str:
     names = [f"{name} {importlib.metadata.version(name)}" for name in PACKAGES]
     for name in DEBIAN:
         query = ["dpkg-query", "-W", "-f=${Version}", name]
-        names.append(f"{name} {subprocess.run(query, capture_output=True, text=True, check=True).stdout}")
+        version = subprocess.run(query, capture_output=True, text=True, check=True).stdout
+        names.append(f"{name} {version}")
     return ", ".join([f"Python {platform.python_version()}", *names])
 
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--cpp", type=Path, required=True, help="folder of the built C++ benchmarks")
+    parser.add_argument(
+        "--cpp", type=Path, required=True, help="folder of the built C++ benchmarks"
+    )
     folder: Path = parser.parse_args().cpp
     sections = [
         "# Benchmarks\n\n"
-        "Made by `make bench`. Peers run in the same process or the same interleaved run, results are "
-        "compared before any time is printed, figures are medians, and ratios come first: the machine "
-        "is shared and noisy, so a ratio says more than a second.\n\n"
+        "Made by `make bench`. Peers run in the same process or the same interleaved run, results "
+        "are compared before any time is printed, figures are medians, and ratios come first: the "
+        "machine is shared and noisy, so a ratio says more than a second.\n\n"
         f"- machine: {machine()}\n- versions: {versions()}\n"
         f"- date: {datetime.datetime.now(tz=datetime.timezone.utc):%Y-%m-%d}\n"
     ]

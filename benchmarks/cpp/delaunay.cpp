@@ -193,22 +193,32 @@ void compare(const char* name, const PointMatrix& matrix, int rounds) {
     ratio_one.push_back(one.back() / cgal.back());
     ratio_two.push_back(two.back() / cgal.back());
   }
-  std::printf("%-16s %9td points %9td triangles, equal to CGAL's\n", name, points.rows(),
-              whole.triangles.rows());
-  std::printf("  1 thread   %.2f x CGAL   %6.3f s   %4.0f MB above the input\n", median(ratio_one),
-              median(one), memory[0]);
-  std::printf("  2 threads  %.2f x CGAL   %6.3f s   %4.0f MB above the input\n", median(ratio_two),
-              median(two), memory[1]);
-  std::printf("  CGAL       1            %6.3f s   %4.0f MB above its own points\n", median(cgal),
-              memory[2]);
+  for (const auto& [threads, ratio, own, peak] :
+       {std::tuple{1, median(ratio_one), median(one), memory[0]},
+        std::tuple{2, median(ratio_two), median(two), memory[1]}}) {
+    std::printf("| %s | %td | %d | %.2f | %.3f | %.3f | %.0f | %.0f |\n", name, points.rows(),
+                threads, ratio, own, median(cgal), peak, memory[2]);
+  }
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
   const int rounds = argc > 1 ? std::atoi(argv[1]) : 7;
-  std::printf("Delaunay beside CGAL %s, medians of %d interleaved rounds\n", CGAL_VERSION_STR,
-              rounds);
+  std::printf("## 2.5-D Delaunay triangulation beside CGAL %s\n\n", CGAL_VERSION_STR);
+  std::printf(
+      "`build/bench/benchmarks/cpp/bench_delaunay %d`: medians of %d interleaved rounds; the sets "
+      "of "
+      "triangles are equal to CGAL's, to the last one. Ours is the whole call, from an (N, 3) "
+      "array to "
+      "ordered, trimmed triangles; CGAL's `Delaunay_triangulation_2` (EPICK, insertion of a range) "
+      "is "
+      "timed on one thread, the only way it runs. Memory is the peak above the input.\n\n",
+      rounds, rounds);
+  std::printf(
+      "| soundings | points | threads | time / CGAL | ours [s] | CGAL [s] | ours [MB] | CGAL [MB] "
+      "|\n"
+      "|---|---|---|---|---|---|---|---|\n");
   compare("uniform", uniform_soundings(1000000), rounds);
   compare("UTM grid", utm_grid(1078, 1074), rounds);
   compare("survey lines", survey_lines(2500), rounds);

@@ -18,12 +18,12 @@ import time
 import embreex
 import numpy as np
 import open3d
-from bathyal._core import simd_level
 from embreex.mesh_construction import TriangleMesh as EmbreeMesh
 from embreex.rtcore_scene import EmbreeScene
 from open3d.t.geometry import RaycastingScene
 
 import bathyal
+from bathyal._core import simd_level
 
 WIDTH = 500.0  # of the seabed [m]
 RAYS = 500_000

@@ -252,4 +252,4 @@ def _draw_north(axes: Axes) -> None:
         arrowprops={"arrowstyle": "-|>", "color": INK, "lw": 1.6},
     )  # fmt: skip
     if north.arrow_patch is not None:
-        north.arrow_patch.set_path_effects(_HALO)
+        north.arrow_patch.set_path_effects([*_HALO])

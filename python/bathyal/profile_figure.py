@@ -147,7 +147,7 @@ def _draw_targets(axes: Axes, path: ToolPath, stations: Stations) -> None:
     """The targets stand where segments meet: their numbers are those of the map."""
     known = np.flatnonzero(np.isfinite(path.targets.point).all(axis=1))
     height = path.targets.point[known, 2]
-    x = [stations.at_target(row) for row in known]
+    x = [stations.at_target(row) for row in known.tolist()]
     for distance in x:
         axes.axvline(distance, color=INK, lw=0.5, ls=":", alpha=0.6, zorder=2)
     axes.plot(x, height, "o", ms=6, mfc=PALE, mec=INK, mew=1.3, zorder=8, ls="none")

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import importlib
 import warnings
 from typing import Any
 
@@ -86,7 +87,7 @@ def triangulate(
 
 def _triangulate_greedy(cloud: PointCloud | ArrayLike, **options: Any) -> TriangleMesh:
     try:
-        from bathyal import _pcl
+        _pcl = importlib.import_module("bathyal._pcl")
     except ImportError as error:
         raise Error(
             'method="greedy" needs the extension bathyal._pcl, which the wheel leaves out: install '

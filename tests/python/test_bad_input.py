@@ -13,11 +13,11 @@ import struct
 import warnings
 from pathlib import Path
 
-import bathyal
 import numpy as np
 import pytest
-from alone import Case, refused, run_alone, works
 
+import bathyal
+from alone import Case, refused, run_alone, works
 from bathyal import Error
 
 FAR = 1e7
@@ -334,7 +334,7 @@ CASES += [
     refused(
         "section: two points over each other", "b|up", lambda: scene().section([1, 1, 0], [1, 1, 4])
     ),
-    refused("section: no plane", "plane", lambda: scene().section(None), ANY),
+    refused("section: no plane", "plane|`a`", lambda: scene().section(None), ANY),
     refused("plane: a zero normal", "normal", lambda: bathyal.Plane([0, 0, 0], 1.0)),
     refused("plane: a NaN normal", "normal", lambda: bathyal.Plane([0, math.nan, 1], 1.0)),
     refused("plane: an infinite offset", "offset", lambda: bathyal.Plane([0, 0, 1], math.inf)),
@@ -376,7 +376,7 @@ CASES += [
         "plan: 1e7 m away",
         lambda: same(
             np.isfinite(
-                bathyal.plan_toolpath(scene(FAR), np.array(TWO) + [FAR, FAR, FAR, 0, 0, 0]).position
+                bathyal.plan_toolpath(scene(FAR), np.add(TWO, [FAR, FAR, FAR, 0, 0, 0])).position
             ).all(),
             True,
         ),
@@ -502,7 +502,8 @@ ASC_HUGE = "ncols 100000\nnrows 100000\nxllcorner 0\nyllcorner 0\ncellsize 1\n1 
 STL_HUGE = b"\0" * 80 + struct.pack("<I", 2_000_000_000) + b"\0" * 50
 LAS_HEAD = b"LASF" + b"\0" * 100
 BOMB = (
-    '<?xml version="1.0"?><!DOCTYPE a [<!ENTITY a "aaaaaaaaaa"><!ENTITY b "&a;&a;&a;&a;&a;&a;&a;&a;">'
+    '<?xml version="1.0"?><!DOCTYPE a [<!ENTITY a "aaaaaaaaaa">'
+    '<!ENTITY b "&a;&a;&a;&a;&a;&a;&a;&a;">'
     '<!ENTITY c "&b;&b;&b;&b;&b;&b;&b;&b;"><!ENTITY d "&c;&c;&c;&c;&c;&c;&c;&c;">]><{0}>&d;</{0}>'
 )
 

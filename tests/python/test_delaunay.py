@@ -6,9 +6,10 @@ from math import inf
 
 import numpy as np
 import pytest
-from bathyal._core import triangulate_delaunay
 from hypothesis import given, settings
 from hypothesis import strategies as st
+
+from bathyal._core import triangulate_delaunay
 
 
 def with_depth(xy):

@@ -3,11 +3,11 @@
 
 import numpy as np
 import pytest
-from bathyal._core import set_simd_level, simd_level
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import bathyal
+from bathyal._core import set_simd_level, simd_level
 
 SURVEY = np.array([620_000.0, 7_246_000.0, -52.0])  # an offset as survey coordinates have it
 

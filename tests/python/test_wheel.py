@@ -22,7 +22,8 @@ SYSTEM_LIBRARIES = {
 
 # Hides every library of PCL, VTK and Ceres behind an empty file, in a mount namespace of its own.
 HIDE = """
-for library in $(find /usr/lib /usr/local/lib -name 'libpcl_*' -o -name 'libvtk*' -o -name 'libceres*'); do
+for library in $(find /usr/lib /usr/local/lib -name 'libpcl_*' -o -name 'libvtk*' \\
+                 -o -name 'libceres*'); do
   mount --bind /dev/null "$library"
 done
 exec "$@"

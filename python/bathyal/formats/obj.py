@@ -72,7 +72,7 @@ def _vertices(lines: list[str]) -> tuple[NDArray[np.float64], dict[str, NDArray[
     if width == 4 and np.any(table[:, 3] != 1):
         raise Error("its vertices have weights, which are of rational curves and not read")
     # Nine decimals of a byte's fraction: a whole number comes back as one.
-    colours = np.round(table[:, 3:] * 255, 9).T if width == 6 else []
+    colours = np.round(table[:, 3:] * 255, 9).T if width == 6 else np.empty((0, len(table)))
     return table[:, :3].copy(), dict(zip(COLOURS, colours, strict=False))
 
 

@@ -7,6 +7,6 @@ int main() {
   corners << -1, -1, -5, 2, -1, -5, -1, 2, -5;
   const bathyal::TriangleMesh bottom(corners, bathyal::TriangleMatrix{{0, 1, 2}});
   const bathyal::Scene scene({bottom});
-  const bathyal::RayHit hit = scene.cast({0, 0, 0}, {0, 0, -1});
+  const bathyal::RayHit hit = scene.cast(bathyal::Vec3(0, 0, 0), bathyal::Vec3(0, 0, -1));
   return std::abs(hit.range - 5.0) < 1e-12 && hit.triangle == 0 ? 0 : 1;
 }

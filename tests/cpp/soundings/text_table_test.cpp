@@ -2,6 +2,7 @@
 #include "bathyal/soundings/text_table.hpp"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <fstream>
@@ -255,7 +256,8 @@ TEST(TextTable, TellsWhyAFileCannotBeOpened) {
 }
 
 TEST(TextTable, ReadsAFileAsItReadsMemory) {
-  const std::string path = testing::TempDir() + "bathyal_text_table.xyz";
+  const std::string path =
+      testing::TempDir() + "bathyal_text_table_" + std::to_string(getpid()) + ".xyz";
   std::ofstream(path, std::ios::binary) << long_text(1000, "\r\n");
   const TextTable table = read_text_table(path);
   EXPECT_EQ(numbers_of(table.table), read(long_text(1000, "\n")));

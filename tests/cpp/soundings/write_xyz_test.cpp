@@ -2,6 +2,7 @@
 #include "bathyal/soundings/write_xyz.hpp"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <bit>
 #include <cmath>
@@ -17,7 +18,10 @@
 namespace bathyal {
 namespace {
 
-std::string path() { return testing::TempDir() + "bathyal_write_xyz.xyz"; }
+/// Of this process alone: the tests run side by side.
+std::string path() {
+  return testing::TempDir() + "bathyal_write_xyz_" + std::to_string(getpid()) + ".xyz";
+}
 
 std::string written(const PointCloud& cloud, const WriteXyzOptions& options = {}) {
   write_xyz(path(), cloud, options);

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The 2.5-D Delaunay triangulation beside PCL's greedy projection triangulation with PCL's own
+// normals, as Filaretov, Konoplin, Konoplin (2018) use it: same soundings, one thread each.
+#include <pcl/features/normal_3d.h>
+#include <pcl/pcl_config.h>
+#include <pcl/search/kdtree.h>
+#include <pcl/surface/gp3.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <functional>
+#include <numbers>
+#include <vector>
+
+#include "bathyal/base/random.hpp"
+#include "bathyal/terrain/delaunay.hpp"
+
+namespace {
+
+using namespace bathyal;
+using Cloud = pcl::PointCloud<pcl::PointNormal>;
+using Tree = pcl::search::KdTree<pcl::PointNormal>;
+
+constexpr Index kCount = 1'000'000;
+constexpr double kSide = 1000.0;  // [m], so that the spacing is 1 m
+constexpr int kNormalNeighbours = 20;
+constexpr double kRadius = 3.0;  // [m]
+
+double seconds(const std::function<void()>& work) {
+  const auto start = std::chrono::steady_clock::now();
+  work();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+double plan_area(PointView points, TriangleView triangles) {
+  double area = 0.0;
+  for (Index t = 0; t < triangles.rows(); ++t) {
+    const Vec3 a = points.row(triangles(t, 0));
+    const Vec3 b = points.row(triangles(t, 1));
+    const Vec3 c = points.row(triangles(t, 2));
+    area += 0.5 * std::abs((b - a).cross(c - a).z());
+  }
+  return area;
+}
+
+TriangleMatrix to_matrix(const std::vector<pcl::Vertices>& polygons) {
+  TriangleMatrix triangles(static_cast<Index>(polygons.size()), 3);
+  for (Index t = 0; t < triangles.rows(); ++t) {
+    const auto& corners = polygons[static_cast<std::size_t>(t)].vertices;
+    triangles.row(t) << corners[0], corners[1], corners[2];
+  }
+  return triangles;
+}
+
+}  // namespace
+
+int main() {
+  PointMatrix soundings(kCount, 3);
+  RandomStream random(1);
+  const Cloud::Ptr cloud(new Cloud);
+  for (Index i = 0; i < kCount; ++i) {
+    const double x = random.uniform(0.0, kSide), y = random.uniform(0.0, kSide);
+    soundings.row(i) << x, y, 0.5 * std::sin(0.1 * x) * std::cos(0.07 * y);
+    pcl::PointNormal p;
+    p.getVector3fMap() = soundings.row(i).transpose().cast<float>();
+    cloud->push_back(p);
+  }
+  const PointView points(soundings.data(), kCount, 3);
+  Delaunay ours;
+  std::vector<double> times;
+  for (int round = 0; round < 5; ++round) {
+    times.push_back(seconds([&] { ours = delaunay(points, {.num_threads = 1}); }));
+  }
+  std::sort(times.begin(), times.end());
+
+  const Tree::Ptr tree(new Tree);
+  std::vector<pcl::Vertices> polygons;
+  const double normals = seconds([&] {
+    tree->setInputCloud(cloud);
+    pcl::NormalEstimation<pcl::PointNormal, pcl::PointNormal> estimate;
+    estimate.setInputCloud(cloud);
+    estimate.setSearchMethod(tree);
+    estimate.setKSearch(kNormalNeighbours);
+    estimate.compute(*cloud);
+  });
+  const double surface = seconds([&] {
+    pcl::GreedyProjectionTriangulation<pcl::PointNormal> greedy;
+    greedy.setSearchRadius(kRadius);
+    greedy.setMu(2.5);
+    greedy.setMaximumNearestNeighbors(100);
+    greedy.setMaximumSurfaceAngle(std::numbers::pi / 4);
+    greedy.setMinimumAngle(std::numbers::pi / 18);
+    greedy.setMaximumAngle(2 * std::numbers::pi / 3);
+    greedy.setNormalConsistency(false);
+    greedy.setInputCloud(cloud);
+    greedy.setSearchMethod(tree);
+    greedy.reconstruct(polygons);
+  });
+  const double area = plan_area(points, ours.triangles.view());
+  const double peer_area = plan_area(points, Triangles(to_matrix(polygons)).view());
+  if (std::abs(area / (kSide * kSide) - 1.0) > 0.01 || peer_area < 0.8 * area) {
+    std::fprintf(stderr, "the surfaces do not cover the same ground: %g and %g m2\n", area,
+                 peer_area);
+    return 1;
+  }
+  const double mine = times[times.size() / 2];
+  std::printf("## 2.5-D Delaunay triangulation beside PCL %s's greedy projection\n\n",
+              PCL_VERSION_PRETTY);
+  std::printf(
+      "`build/bench/benchmarks/cpp/bench_greedy`: %td random soundings 1 m apart, one thread each, "
+      "ours "
+      "the median of 5 runs, PCL's once. Search radius %g m, mu 2.5, 100 neighbours, surface angle "
+      "45°, "
+      "angles 10° to 120°, normals by %d neighbours. In plan ours covers %.1f %% of the ground and "
+      "PCL's "
+      "triangles add up to %.1f %%.\n\n",
+      points.rows(), kRadius, kNormalNeighbours, 100 * area / (kSide * kSide),
+      100 * peer_area / (kSide * kSide));
+  std::printf(
+      "| PCL / ours | PCL without normals / ours | ours [s] | PCL greedy [s] | PCL normals [s] |\n"
+      "|---|---|---|---|---|\n| %.0f | %.0f | %.3f | %.1f | %.1f |\n",
+      (normals + surface) / mine, surface / mine, mine, surface, normals);
+}

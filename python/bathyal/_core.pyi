@@ -1,0 +1,1519 @@
+"""
+The engine. Its public names are those of the package bathyal.
+"""
+from __future__ import annotations
+
+import collections.abc
+import os
+import typing
+
+import numpy
+import numpy.typing
+
+__all__: list[str] = ['CleanReport', 'CleanResult', 'Error', 'Hits', 'MeshReport', 'Nearest', 'Plane', 'PlaneFit', 'PointCloud', 'Polyline', 'Scene', 'SheetPatch', 'SheetReport', 'Targets', 'TextTable', 'ToolPath', 'TriangleMesh', 'clean_cloud', 'cover_polygon', 'find_sheets', 'find_targets', 'fit_plane', 'generate_survey', 'intersect_moller_trumbore', 'mesh_report', 'plan_toolpath', 'read_pcd', 'read_text_table', 'set_simd_level', 'simd_level', 'survey_height', 'triangulate', 'triangulate_delaunay', 'write_xyz']
+class Error(RuntimeError):
+    """
+    A broken file, a solver that failed or a part that is not installed.
+    """
+class Plane:
+    """
+    normal · x = offset.
+    
+    Filaretov, Konoplin, Konoplin (2018), eq 1: the unit normal m and the distance d.
+    
+    Parameters
+    ----------
+    normal : (3,) array
+        Any length but zero; scaled to unit length, `offset` with it.
+    offset : float
+        [m]
+    
+    Examples
+    --------
+    >>> import bathyal
+    >>> bathyal.Plane((0, 0, 2), -10.0).offset
+    -5.0
+    """
+    def __init__(self, normal: typing.Any, offset: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def distance(self, points: typing.Any) -> numpy.ndarray:
+        """
+        Signed distances (N,) [m] of points (N, 3), positive above.
+        """
+    @property
+    def normal(self) -> numpy.ndarray:
+        """
+        (3,) unit normal, up for a bottom.
+        """
+    @property
+    def offset(self) -> float:
+        """
+        normal · x of every point of the plane [m].
+        """
+class PointCloud:
+    """
+    Positions in metres, z up, and what rides along with them.
+    
+    Survey coordinates (10⁵ to 10⁷ m) are kept as they are. Read-only once made.
+    
+    Parameters
+    ----------
+    points : (N, 3) array
+        [m]. Shared, not copied, where it is float64 in C order: do not write to it afterwards.
+    attributes : dict of (N,) arrays, optional
+        For instance ``uncertainty`` [m], ``intensity``, ``red``, ``green``, ``blue``.
+    crs, vertical_datum : str, optional
+        Coordinate reference system ("EPSG:…" or WKT) and vertical datum; empty when unknown.
+    
+    Examples
+    --------
+    >>> import bathyal
+    >>> cloud = bathyal.PointCloud([[0, 0, -5], [1, 0, -5.1]], crs="EPSG:32602")
+    >>> len(cloud), cloud.crs
+    (2, 'EPSG:32602')
+    """
+    def __init__(self, points: typing.Any, *, attributes: collections.abc.Mapping[str, typing.Any] = {}, crs: str = '', vertical_datum: str = '') -> None:
+        ...
+    def __len__(self) -> int:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def show(self) -> typing.Any:
+        """
+        An interactive figure (bathyal.views.show_cloud).
+        """
+    def write(self, path: typing.Any) -> None:
+        """
+        Write a file of the format its suffix names: see bathyal.write_cloud.
+        """
+    @property
+    def attributes(self) -> dict:
+        """
+        What rides along: name → (N,) array.
+        """
+    @property
+    def crs(self) -> str:
+        ...
+    @property
+    def points(self) -> numpy.ndarray:
+        """
+        (N, 3) positions [m], z up.
+        """
+    @property
+    def vertical_datum(self) -> str:
+        ...
+class TriangleMesh:
+    """
+    Vertices and the triangles over them.
+    
+    Triangles run counter-clockwise seen from outside (from above, for a bottom). Vertices that no
+    triangle uses are allowed: a mesh made from a cloud keeps its points row for row.
+    
+    Parameters
+    ----------
+    vertices : (N, 3) array
+        [m], finite. Shared, not copied, where it is float64 in C order.
+    triangles : (T, 3) array of int
+        Rows of `vertices`.
+    attributes, crs, vertical_datum
+        As in PointCloud, one value a vertex.
+    
+    Examples
+    --------
+    >>> import bathyal
+    >>> bathyal.TriangleMesh([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])
+    TriangleMesh(3 vertices, 1 triangle)
+    """
+    def __init__(self, vertices: typing.Any, triangles: typing.Any, *, attributes: collections.abc.Mapping[str, typing.Any] = {}, crs: str = '', vertical_datum: str = '') -> None:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def show(self) -> typing.Any:
+        """
+        An interactive figure (bathyal.views.show_mesh).
+        """
+    def write(self, path: typing.Any) -> None:
+        """
+        Write a file of the format its suffix names: see bathyal.write_mesh.
+        """
+    @property
+    def attributes(self) -> dict:
+        """
+        What rides along: name → (N,) array.
+        """
+    @property
+    def crs(self) -> str:
+        ...
+    @property
+    def triangles(self) -> numpy.ndarray:
+        """
+        (T, 3) int32 rows of `vertices`.
+        """
+    @property
+    def vertical_datum(self) -> str:
+        ...
+    @property
+    def vertices(self) -> numpy.ndarray:
+        """
+        (N, 3) positions [m], z up.
+        """
+class MeshReport:
+    """
+    What a person asks of a mesh before trusting it.
+    
+    Made by `mesh_report`. Lengths in metres, angles in radians; ``print`` it to read it.
+    """
+    def __repr__(self) -> str:
+        ...
+    def __str__(self) -> str:
+        ...
+    def as_dict(self) -> dict:
+        """
+        All of it, by name.
+        """
+    @property
+    def area(self) -> float:
+        """
+        Area of the surface [m²].
+        """
+    @property
+    def area_share_inverted(self) -> float:
+        """
+        Part of the area that faces down.
+        """
+    @property
+    def boundary_edges(self) -> int:
+        """
+        Edges of one triangle only.
+        """
+    @property
+    def boundary_loops(self) -> numpy.ndarray:
+        """
+        Lengths of the rims, longest first [m].
+        """
+    @property
+    def closed(self) -> bool:
+        """
+        Whether every edge has two triangles, turned consistently.
+        """
+    @property
+    def components(self) -> int:
+        """
+        Pieces joined by edges.
+        """
+    @property
+    def duplicate_triangles(self) -> int:
+        """
+        Triangles on the same three vertices as an earlier one.
+        """
+    @property
+    def high(self) -> numpy.ndarray:
+        """
+        (3,) greatest corner of the bounding box [m].
+        """
+    @property
+    def inconsistent_edges(self) -> int:
+        """
+        Edges along which their two triangles run the same way.
+        """
+    @property
+    def inverted_triangles(self) -> int:
+        """
+        Triangles facing down.
+        """
+    @property
+    def low(self) -> numpy.ndarray:
+        """
+        (3,) least corner of the bounding box of the vertices in use [m].
+        """
+    @property
+    def nonmanifold_edges(self) -> int:
+        """
+        Edges of three triangles or more.
+        """
+    @property
+    def nonmanifold_vertices(self) -> int:
+        """
+        Vertices where fans of triangles touch by the vertex alone.
+        """
+    @property
+    def planar_area(self) -> float:
+        """
+        Area of the shadow on the horizontal plane, every place once [m²].
+        """
+    @property
+    def rugosity(self) -> float:
+        """
+        area / planar_area; NaN without a shadow.
+        """
+    @property
+    def slope_max(self) -> float:
+        """
+        [rad]
+        """
+    @property
+    def slope_mean(self) -> float:
+        """
+        Area-weighted mean angle between normal and up, 0 to π [rad].
+        """
+    @property
+    def slope_median(self) -> float:
+        """
+        Area-weighted median [rad].
+        """
+    @property
+    def slope_p95(self) -> float:
+        """
+        95 % of the area is less steep [rad].
+        """
+    @property
+    def triangle_count(self) -> int:
+        ...
+    @property
+    def unused_vertices(self) -> int:
+        """
+        Vertices of no triangle.
+        """
+    @property
+    def vertex_count(self) -> int:
+        ...
+    @property
+    def volume(self) -> float:
+        """
+        Volume inside [m³], negative when turned inside out; NaN unless closed.
+        """
+    @property
+    def zero_area_triangles(self) -> int:
+        ...
+class TextTable:
+    """
+    Numbers of a text file, and how it was understood.
+    """
+    def __len__(self) -> int:
+        ...
+    @property
+    def decimal(self) -> str:
+        ...
+    @property
+    def extra(self) -> list:
+        """
+        (N,) float64 each: the chosen columns beyond `leading`.
+        """
+    @property
+    def grid(self) -> bool:
+        """
+        Whether it was an ESRI ASCII grid (x, y, z).
+        """
+    @property
+    def names(self) -> list[str]:
+        """
+        One a chosen column; empty when the file has none.
+        """
+    @property
+    def separator(self) -> str:
+        ...
+    @property
+    def table(self) -> numpy.ndarray:
+        """
+        (N, C) float64, the first `leading` of the chosen columns, or all of them.
+        """
+class CleanReport:
+    """
+    How many soundings each step of clean_cloud dropped; str() is for people.
+    """
+    def __repr__(self) -> str:
+        ...
+    def __str__(self) -> str:
+        ...
+    def as_dict(self) -> dict:
+        """
+        Name → count, in the order of the steps.
+        """
+    @property
+    def after(self) -> int:
+        ...
+    @property
+    def before(self) -> int:
+        ...
+    @property
+    def duplicates(self) -> int:
+        """
+        Equal x, y and z, all but one.
+        """
+    @property
+    def not_finite(self) -> int:
+        """
+        x, y or z is NaN or infinite.
+        """
+    @property
+    def outliers(self) -> int:
+        ...
+    @property
+    def same_place(self) -> int:
+        """
+        Share x, y with a sounding of another z; counted, dropped or not.
+        """
+    @property
+    def same_place_dropped(self) -> int:
+        ...
+    @property
+    def spikes(self) -> int:
+        ...
+    @property
+    def thinned(self) -> int:
+        """
+        By voxels.
+        """
+class CleanResult:
+    """
+    What clean_cloud returns.
+    """
+    @property
+    def cloud(self) -> PointCloud:
+        """
+        PointCloud of what stayed.
+        """
+    @property
+    def report(self) -> CleanReport:
+        """
+        CleanReport: how many went, and why.
+        """
+    @property
+    def rows(self) -> numpy.ndarray:
+        """
+        (N,) int32: which row of the given cloud each sounding was.
+        """
+class PlaneFit:
+    """
+    The plane of a bottom and how far to trust it.
+    
+    Made by `fit_plane`. Unpacks as ``plane, rms = fit``.
+    """
+    def __iter__(self) -> collections.abc.Iterator:
+        ...
+    def __repr__(self) -> str:
+        ...
+    @property
+    def flat(self) -> bool:
+        """
+        Whether the plane may stand for the bottom.
+        """
+    @property
+    def flat_share(self) -> float:
+        """
+        Share of the patches that lie within the tolerance.
+        """
+    @property
+    def inlier_count(self) -> int:
+        ...
+    @property
+    def inliers(self) -> numpy.ndarray:
+        """
+        (N,) bool: the points that the plane rests on.
+        """
+    @property
+    def normal(self) -> numpy.ndarray:
+        """
+        (3,) unit normal m of eq 1, up.
+        """
+    @property
+    def offset(self) -> float:
+        """
+        d of eq 1 [m].
+        """
+    @property
+    def plane(self) -> Plane:
+        """
+        Plane, its unit normal up.
+        """
+    @property
+    def relief(self) -> float:
+        """
+        Largest distance of a patch from the plane [m].
+        """
+    @property
+    def rms(self) -> float:
+        """
+        Of the inliers, along the normal [m].
+        """
+    @property
+    def tilt_std(self) -> float:
+        """
+        Standard deviation of the normal's direction, its worst way [rad].
+        """
+class SheetPatch:
+    """
+    One place where a cloud has several sheets.
+    """
+    def __repr__(self) -> str:
+        ...
+    @property
+    def area(self) -> float:
+        """
+        In plan, to the size of a cell [m²].
+        """
+    @property
+    def high(self) -> numpy.ndarray:
+        """
+        (3,) greatest corner [m].
+        """
+    @property
+    def low(self) -> numpy.ndarray:
+        """
+        (3,) least corner of its bounding box [m].
+        """
+    @property
+    def point_count(self) -> int:
+        """
+        Soundings on its sheets.
+        """
+    @property
+    def separation(self) -> float:
+        """
+        Median vertical distance of its sheets [m].
+        """
+class SheetReport:
+    """
+    Where a cloud has several sheets over one (x, y).
+    
+    Made by `find_sheets`. True where there are any; ``str`` says where and how much.
+    """
+    def __bool__(self) -> bool:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def __str__(self) -> str:
+        ...
+    @property
+    def cell_size(self) -> float:
+        """
+        Side of a cell [m].
+        """
+    @property
+    def cells(self) -> numpy.ndarray:
+        """
+        (K, 3) cells of the patches: centre x, y and the height between the sheets [m].
+        """
+    @property
+    def covered_area(self) -> float:
+        """
+        Of all cells that hold a sounding [m²].
+        """
+    @property
+    def min_separation(self) -> float:
+        """
+        What was asked of a separation [m].
+        """
+    @property
+    def noise(self) -> float:
+        """
+        Median rms of soundings about the planes they lie on [m].
+        """
+    @property
+    def patches(self) -> list[SheetPatch]:
+        """
+        SheetPatch, the largest area first.
+        """
+    @property
+    def separation(self) -> numpy.ndarray:
+        """
+        (K,) vertical distance of the two sheets there [m].
+        """
+    @property
+    def share(self) -> float:
+        """
+        sheet_area / covered_area.
+        """
+    @property
+    def sheet_area(self) -> float:
+        """
+        Of `cells` [m²].
+        """
+    @property
+    def single_valued(self) -> bool:
+        """
+        Whether the cloud is a height field.
+        """
+    @property
+    def spacing(self) -> float:
+        """
+        √(covered area / soundings) [m].
+        """
+class Hits:
+    """
+    What each of N rays met first.
+    
+    All arrays are read-only. ``range``, ``mesh`` and ``triangle`` are there when the cast returns (as
+    columns of one array, so with a stride); ``point``, ``normal`` and ``barycentric`` are computed when
+    they are first asked for, and kept.
+    """
+    def __len__(self) -> int:
+        ...
+    def __repr__(self) -> str:
+        ...
+    @property
+    def barycentric(self) -> typing.Any:
+        """
+        (N, 3) weights (u, v, w) of corners 1, 2 and 0, as eq 4; NaN where there is none.
+        """
+    @property
+    def mesh(self) -> numpy.ndarray:
+        """
+        (N,) number of the mesh in the scene, −1 where the ray met nothing.
+        """
+    @property
+    def normal(self) -> typing.Any:
+        """
+        (N, 3) unit normal of the triangle as it is wound, NaN where the ray met nothing.
+        """
+    @property
+    def point(self) -> typing.Any:
+        """
+        (N, 3) where it met it [m], NaN where it met nothing.
+        """
+    @property
+    def range(self) -> numpy.ndarray:
+        """
+        (N,) distance along the ray [m], inf where it met nothing.
+        """
+    @property
+    def triangle(self) -> numpy.ndarray:
+        """
+        (N,) triangle of that mesh, −1 where the ray met nothing.
+        """
+class Nearest:
+    """
+    The closest point of a scene to each of N points.
+    """
+    def __len__(self) -> int:
+        ...
+    def __repr__(self) -> str:
+        ...
+    @property
+    def barycentric(self) -> numpy.ndarray:
+        """
+        (N, 3) weights (u, v, w) of corners 1, 2 and 0, as eq 4; NaN where there is none.
+        """
+    @property
+    def distance(self) -> numpy.ndarray:
+        """
+        (N,) [m], inf where the scene holds no triangle.
+        """
+    @property
+    def mesh(self) -> numpy.ndarray:
+        """
+        (N,) number of the mesh in the scene, −1 where there is none.
+        """
+    @property
+    def point(self) -> numpy.ndarray:
+        """
+        (N, 3) [m], NaN where there is none.
+        """
+    @property
+    def triangle(self) -> numpy.ndarray:
+        """
+        (N,) triangle of that mesh, −1 where there is none.
+        """
+class Polyline:
+    """
+    A line of a section: segment i runs from point i to point i + 1.
+    """
+    def __repr__(self) -> str:
+        ...
+    @property
+    def closed(self) -> bool:
+        """
+        Whether the line comes back to where it began.
+        """
+    @property
+    def mesh(self) -> numpy.ndarray:
+        """
+        (P − 1,) the mesh each segment lies on: one and the same along a line.
+        """
+    @property
+    def points(self) -> numpy.ndarray:
+        """
+        (P, 3) [m]; a closed line repeats its first point.
+        """
+    @property
+    def triangle(self) -> numpy.ndarray:
+        """
+        (P − 1,) the triangle of that mesh each segment lies on.
+        """
+class Scene:
+    """
+    One or more meshes, made ready for rays, nearest points and sections.
+    
+    Answers are decided in double, the same bytes on every instruction set and for any number of
+    threads; equal ranges or distances give the lowest (mesh, triangle). The meshes are shared, not
+    copied. Any number of threads may ask at once.
+    
+    Parameters
+    ----------
+    mesh : TriangleMesh, or a sequence of them
+        One at least; meshes without triangles are allowed and never hit.
+    num_threads : int
+        For the build; 0 means all.
+    
+    Examples
+    --------
+    >>> import bathyal
+    >>> floor = bathyal.TriangleMesh([[0, 0, 0], [4, 0, 0], [0, 4, 0]], [[0, 1, 2]])
+    >>> bathyal.Scene(floor)
+    Scene(1 mesh, 1 triangle)
+    """
+    @typing.overload
+    def __init__(self, mesh: TriangleMesh, *, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> None:
+        ...
+    @typing.overload
+    def __init__(self, mesh: collections.abc.Sequence[TriangleMesh], *, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> None:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def cast(self, origins: typing.Any, directions: typing.Any, *, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> Hits:
+        """
+        The first triangle that each ray meets, from either side.
+        
+        Decided in double on the mesh's own vertices, with exact signs, so that a ray through an edge or a
+        vertex of a closed mesh never slips through (Woop, Benthin, Wald 2013, Watertight ray/triangle
+        intersection). Equal ranges give the lowest (mesh, triangle). A ray that runs in the plane of a
+        triangle does not meet that one, but meets its neighbours' borders.
+        
+        Parameters
+        ----------
+        origins : (N, 3), (1, 3) or (3,) array
+            [m], finite. One origin serves all directions.
+        directions : (N, 3) or (3,) array
+            Any length but zero.
+        num_threads : int
+            0 means all. The result is the same bytes for any number.
+        
+        Returns
+        -------
+        Hits
+            ``.range`` (N,) [m], ``.mesh`` and ``.triangle`` (N,), ``.point``, ``.normal`` and
+            ``.barycentric`` (N, 3). A ray that meets nothing gives inf, −1 and NaN.
+        
+        Raises
+        ------
+        ValueError
+            For a direction of zero or a value that is not finite: names the first row at fault.
+        
+        Examples
+        --------
+        >>> import bathyal
+        >>> floor = bathyal.TriangleMesh([[0, 0, 0], [4, 0, 0], [0, 4, 0]], [[0, 1, 2]])
+        >>> hits = bathyal.Scene(floor).cast((1, 1, 3), [[0, 0, -2], [0, 0, 1]])
+        >>> hits.range, hits.triangle.tolist()
+        (array([ 3., inf]), [0, -1])
+        """
+    def contains(self, points: typing.Any, *, accuracy: typing.SupportsFloat | typing.SupportsIndex = 0.1, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> numpy.typing.NDArray[numpy.bool]:
+        """
+        Whether each point lies inside.
+        
+        Inside is where the winding number is beyond ±1/2, so it holds for meshes that are inside out, open
+        or cut themselves: a hole counts as filmed over. A point on a triangle is contained. Bodies that
+        overlap add up; two that are wound against each other cancel where both are.
+        
+        Parameters
+        ----------
+        points : (N, 3) array
+            [m], finite.
+        accuracy : float
+            As in winding_number.
+        num_threads : int
+            0 means all.
+        
+        Returns
+        -------
+        (N,) array of bool
+        
+        Examples
+        --------
+        >>> import bathyal
+        >>> tetrahedron = bathyal.TriangleMesh([[0, 0, 0], [3, 0, 0], [0, 3, 0], [0, 0, 3]],
+        ...                                    [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+        >>> bathyal.Scene(tetrahedron).contains([[0.5, 0.5, 0.5], [5, 5, 5]]).tolist()
+        [True, False]
+        """
+    def nearest(self, points: typing.Any, *, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> Nearest:
+        """
+        The closest point of all triangles to each point.
+        
+        Decided in double; equal distances give the lowest (mesh, triangle). A triangle without area counts
+        as the segment or point that it is.
+        
+        Parameters
+        ----------
+        points : (N, 3) array
+            [m], finite.
+        num_threads : int
+            0 means all.
+        
+        Returns
+        -------
+        Nearest
+            ``.distance`` (N,) [m], ``.point`` (N, 3), ``.mesh`` (N,), ``.triangle`` (N,) and
+            ``.barycentric`` (N, 3). A scene without triangles gives inf, NaN and −1.
+        
+        Examples
+        --------
+        >>> import bathyal
+        >>> floor = bathyal.TriangleMesh([[0, 0, 0], [4, 0, 0], [0, 4, 0]], [[0, 1, 2]])
+        >>> near = bathyal.Scene(floor).nearest([[1, 1, 3], [-3, 0, -4]])
+        >>> near.distance.tolist(), near.point.tolist()
+        ([3.0, 5.0], [[1.0, 1.0, 0.0], [0.0, 0.0, 0.0]])
+        """
+    def occluded(self, from_: typing.Any, to: typing.Any, *, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> numpy.ndarray:
+        """
+        Whether anything lies on each straight segment, its ends included.
+        
+        Decided as by cast. A segment of no length meets nothing.
+        
+        Parameters
+        ----------
+        from_ : (N, 3), (1, 3) or (3,) array
+            [m], finite. One start serves all ends.
+        to : (N, 3) or (3,) array
+            [m], finite.
+        num_threads : int
+            0 means all.
+        
+        Returns
+        -------
+        (N,) array of bool
+        
+        Examples
+        --------
+        >>> import bathyal
+        >>> floor = bathyal.TriangleMesh([[0, 0, 0], [4, 0, 0], [0, 4, 0]], [[0, 1, 2]])
+        >>> bathyal.Scene(floor).occluded((1, 1, 3), [[1, 1, -1], [1, 1, 1]]).tolist()
+        [True, False]
+        """
+    @typing.overload
+    def section(self, plane: Plane) -> list[Polyline]:
+        """
+        The lines in which a whole plane cuts the scene; see below.
+        """
+    @typing.overload
+    def section(self, a: typing.Any, b: typing.Any = None, up: typing.Any = None) -> list[Polyline]:
+        """
+        The lines in which a plane cuts the scene.
+        
+        ``section(plane)`` cuts by a whole plane. ``section(a, b)`` cuts by the plane through two points and
+        the direction ``up`` and keeps what lies between them, measured along the horizontal, ends included
+        (Filaretov, Konoplin, Konoplin 2018: r = (b − a) × up).
+        
+        Edges in the plane appear once, triangles in the plane give the outline of their region, a surface
+        that touches the plane at single points gives nothing there. Lines never join two meshes; they are
+        sorted by mesh and by where they start. Open lines run from a towards b (by a plane: from their end
+        with the lower x, then y, z), closed ones counter-clockwise seen from where the normal, or r, points
+        to. A line that starts or ends at a or b to rounding starts or ends at exactly that point.
+        
+        Parameters
+        ----------
+        plane : Plane
+            Alone; or
+        a, b : (3,) array
+            Two points [m], not above each other along `up`.
+        up : (3,) array, optional
+            Beside two points: any length but zero; (0, 0, 1) unless given.
+        
+        Returns
+        -------
+        list of Polyline
+            ``.points`` (P, 3) [m], ``.mesh`` and ``.triangle`` (P − 1,), ``.closed``.
+        
+        Raises
+        ------
+        ValueError
+            Where b lies above, below or at a along ``up``: there is no such plane.
+        
+        Examples
+        --------
+        >>> import bathyal
+        >>> floor = bathyal.TriangleMesh([[0, 0, 0], [4, 0, 0], [0, 4, 0]], [[0, 1, 2]])
+        >>> line, = bathyal.Scene(floor).section((0, 1, 9), (2, 1, 9))
+        >>> line.points.tolist()
+        [[0.0, 1.0, 0.0], [2.0, 1.0, 0.0]]
+        """
+    def winding_number(self, points: typing.Any, *, accuracy: typing.SupportsFloat | typing.SupportsIndex = 0.1, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> numpy.ndarray:
+        """
+        How often the triangles wind around each point.
+        
+        The solid angle of all triangles over 4π: 1 inside a closed mesh with outward normals, −1 inside one
+        turned inside out, 2 inside two of them, a fraction near the holes of an open one, the mean of the
+        two sides on a triangle. Jacobson, Kavan, Sorkine-Hornung (2013), Robust inside-outside segmentation
+        using generalized winding numbers; far triangles are taken together as in Barill, Dickson, Schmidt,
+        Levin, Jacobson (2018), Fast winding numbers for soups and clouds.
+        
+        Parameters
+        ----------
+        points : (N, 3) array
+            [m], finite.
+        accuracy : float
+            What a far cluster of triangles may be off by, as a part of its area / (4π distance²); above 0.
+        num_threads : int
+            0 means all.
+        
+        Returns
+        -------
+        (N,) array
+        
+        Examples
+        --------
+        >>> import bathyal
+        >>> tetrahedron = bathyal.TriangleMesh([[0, 0, 0], [3, 0, 0], [0, 3, 0], [0, 0, 3]],
+        ...                                    [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+        >>> bathyal.Scene(tetrahedron).winding_number([[0.5, 0.5, 0.5], [5, 5, 5]]).round(3) + 0.0
+        array([1., 0.])
+        """
+    @property
+    def memory(self) -> int:
+        """
+        Bytes held beside the meshes' own arrays.
+        """
+    @property
+    def meshes(self) -> list[TriangleMesh]:
+        """
+        The meshes, as a list.
+        """
+class Targets:
+    """
+    Where camera axes meet the bottom, one target a row of the aims.
+    """
+    def __len__(self) -> int:
+        ...
+    def __repr__(self) -> str:
+        ...
+    @property
+    def barycentric(self) -> numpy.ndarray:
+        """
+        (K, 3) (u, v, w) of eq 4: A = w V0 + u V1 + v V2; NaN where there is none.
+        """
+    @property
+    def incidence(self) -> numpy.ndarray:
+        """
+        (K,) between the axis and the normal [rad], above π/2 from beneath.
+        """
+    @property
+    def mesh(self) -> numpy.ndarray:
+        """
+        (K,) mesh of the scene, −1 where there is none.
+        """
+    @property
+    def normal(self) -> numpy.ndarray:
+        """
+        (K, 3) unit, out of the bottom, NaN where there is none.
+        """
+    @property
+    def point(self) -> numpy.ndarray:
+        """
+        (K, 3) A_i [m], NaN where there is none.
+        """
+    @property
+    def range(self) -> numpy.ndarray:
+        """
+        (K,) along the unit direction [m], inf where there is none.
+        """
+    @property
+    def status(self) -> numpy.ndarray:
+        """
+        (K,) "hit", "miss", "parallel", "behind", "hole" or "grazing".
+        """
+    @property
+    def triangle(self) -> numpy.ndarray:
+        """
+        (K,) triangle of the mesh, −1 where there is none.
+        """
+class ToolPath:
+    """
+    An oriented tool path along the bottom, one sample a row, in the world frame.
+    
+    Positions [m], times [s], angles [rad]. All arrays are read-only.
+    """
+    def __len__(self) -> int:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def show(self) -> typing.Any:
+        """
+        An interactive figure (bathyal.views.show_path).
+        """
+    def write(self, path: typing.Any) -> None:
+        """
+        Write to a .csv, .json or .vtp file (bathyal.paths.write_path).
+        """
+    @property
+    def approach(self) -> numpy.ndarray:
+        """
+        (M, 3) a_j, unit, out of the bottom; the tool's z is −a_j.
+        """
+    @property
+    def arc_length(self) -> numpy.ndarray:
+        """
+        (M,) along the positions, from 0.
+        """
+    @property
+    def contact(self) -> numpy.ndarray:
+        """
+        (M,) whether the tool's body meets ground here.
+        """
+    @property
+    def crossing(self) -> numpy.ndarray:
+        """
+        (M,) whether the stood-off path turns back or crosses itself here.
+        """
+    @property
+    def frame(self) -> numpy.ndarray:
+        """
+        (M, 4, 4) world_from_tool: rotation columns [n, −b, −a], translation the position.
+        """
+    @property
+    def gap(self) -> numpy.ndarray:
+        """
+        (M,) whether the stretch to the next sample crosses a gap of the bottom.
+        """
+    @property
+    def mesh(self) -> numpy.ndarray:
+        """
+        (M,) mesh of the scene, −1 on a plane.
+        """
+    @property
+    def normal_std(self) -> numpy.ndarray:
+        """
+        (M,) root mean square of the angle the true normal may lie off; NaN where unknown.
+        """
+    @property
+    def position(self) -> numpy.ndarray:
+        """
+        (M, 3) the tool's point: T_j, or T_j + standoff · a_j.
+        """
+    @property
+    def quaternion(self) -> numpy.ndarray:
+        """
+        (M, 4) x y z w of the frame, continuous in sign.
+        """
+    @property
+    def segment(self) -> numpy.ndarray:
+        """
+        (M,) i of the pair A_i A_{i+1}: a row of the aims.
+        """
+    @property
+    def side(self) -> numpy.ndarray:
+        """
+        (M, 3) b_j = a_j × n_j.
+        """
+    @property
+    def surface(self) -> numpy.ndarray:
+        """
+        (M, 3) T_j, on the bottom.
+        """
+    @property
+    def targets(self) -> Targets:
+        """
+        The Targets the path goes through, one a row of the aims.
+        """
+    @property
+    def time(self) -> numpy.ndarray:
+        """
+        (M,) from 0, never falling.
+        """
+    @property
+    def travel(self) -> numpy.ndarray:
+        """
+        (M, 3) n_j, unit, along the travel, perpendicular to a_j.
+        """
+    @property
+    def triangle(self) -> numpy.ndarray:
+        """
+        (M,) triangle of the stretch that begins here, −1 on a plane.
+        """
+    @property
+    def warnings(self) -> list[str]:
+        """
+        What a person should know before the path is followed: list of str.
+        """
+def clean_cloud(cloud: PointCloud, *, same_place: str = 'keep', spike_sigma: typing.SupportsFloat | typing.SupportsIndex = 0.0, spike_height: typing.SupportsFloat | typing.SupportsIndex = 0.1, spike_neighbours: typing.SupportsInt | typing.SupportsIndex = 16, outlier_sigma: typing.SupportsFloat | typing.SupportsIndex = 0.0, outlier_neighbours: typing.SupportsInt | typing.SupportsIndex = 12, voxel: typing.SupportsFloat | typing.SupportsIndex = 0.0, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> CleanResult:
+    """
+    Drop what is no sounding and, where asked, what is too much or out of line; say how many and why.
+    
+    Points that are not finite go first, then exact duplicates. The other steps run only where asked, in
+    the order of the parameters. Attributes and datum follow; rows keep their order, and which positions
+    stay does not depend on it.
+    
+    Parameters
+    ----------
+    cloud : PointCloud
+    same_place : "keep", "shallowest" or "deepest"
+        Which of several soundings with equal x, y and different z stays. They are counted in any case.
+    spike_sigma, spike_height, spike_neighbours : float, float, int
+        Drop soundings further from the median height of their neighbours in plan than `spike_sigma`
+        robust standard deviations (of the neighbours or of the whole cloud, whichever is larger) and
+        than `spike_height` [m]. 0 does not look for spikes.
+    outlier_sigma, outlier_neighbours : float, int
+        Drop soundings whose mean distance to their neighbours in space is above that of all by more than
+        `outlier_sigma` standard deviations (Rusu et al. 2008). 0 does not look for outliers.
+    voxel : float
+        Of all soundings in a cube of this edge [m] keep the one nearest to their centroid: what stays
+        was measured. 0 does not thin.
+    num_threads : int
+        0: all.
+    
+    Returns
+    -------
+    CleanResult
+        ``.cloud``, ``.report`` and ``.rows``.
+    
+    Raises
+    ------
+    ValueError
+        An option out of its range.
+    
+    Examples
+    --------
+    >>> import bathyal
+    >>> cloud = bathyal.PointCloud([[0, 0, -5], [0, 0, -5], [1, 0, float("nan")], [2, 0, -5.1]])
+    >>> result = bathyal.clean_cloud(cloud)
+    >>> result.cloud
+    PointCloud(2 points)
+    >>> print(result.report)
+    2 of 4 soundings kept
+      1 dropped: a coordinate is not finite
+      1 dropped: exact duplicates (equal x, y, z)
+    """
+def cover_polygon(surface: typing.Any, polygon: typing.Any, spacing: typing.SupportsFloat | typing.SupportsIndex, *, direction: typing.SupportsFloat | typing.SupportsIndex = 0.0, margin: typing.SupportsFloat | typing.SupportsIndex = 0.0) -> numpy.ndarray:
+    """
+    Aims that mow a polygon in parallel lines.
+    
+    Two axes straight down for every straight stretch, at its beginning and its end; plan_toolpath joins
+    them along the bottom. A concave polygon is mown cell by cell; the way to the next cell may leave it.
+    
+    Parameters
+    ----------
+    surface : Scene or Plane
+    polygon : (N, 2) array
+        Corners (x, y) in the world [m], in either sense.
+    spacing : float
+        Widest distance between neighbouring lines [m]; the outermost lie half of it inside.
+    direction : float
+        Of the lines, from the world's x towards y [rad].
+    margin : float
+        Kept from every edge [m].
+    
+    Returns
+    -------
+    (K, 6) array
+        Aims in the world frame: hand them on with ``frame="world"`` where `world_from_vehicle` is given.
+    
+    Raises
+    ------
+    ValueError
+        For fewer than three corners, no area, or edges that meet each other.
+    
+    Examples
+    --------
+    >>> import bathyal
+    >>> square = [[0, 0], [4, 0], [4, 2], [0, 2]]
+    >>> aims = bathyal.cover_polygon(bathyal.Plane((0, 0, 1), -5.0), square, spacing=1.0)
+    >>> aims[:, :3].tolist()
+    [[0.0, 0.5, -4.0], [4.0, 0.5, -4.0], [4.0, 1.5, -4.0], [0.0, 1.5, -4.0]]
+    """
+def find_sheets(cloud: typing.Any, *, min_separation: typing.SupportsFloat | typing.SupportsIndex = 0.0, min_points: typing.SupportsInt | typing.SupportsIndex = 12, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> SheetReport:
+    """
+    Find where a cloud is not a height field: overhangs, arches, undersides.
+    
+    Survey passes that disagree in height by clearly more than their noise are found as well. Steep
+    and stepped ground, noise and spikes are not: a place counts when its soundings lie on two planes,
+    well apart for their scatter, and the two groups are interleaved in plan.
+    
+    Parameters
+    ----------
+    cloud : PointCloud or (N, 3) array
+        [m], z up.
+    min_separation : float
+        Vertical distance from which two sheets count [m]; 0 takes the larger of 6 × noise and
+        1 × spacing, both measured from the cloud.
+    min_points : int
+        Soundings that a place needs on each of its sheets.
+    num_threads : int
+        0 = all. The same report for any.
+    
+    Returns
+    -------
+    SheetReport
+    
+    Examples
+    --------
+    >>> import bathyal, numpy as np
+    >>> x, y = np.mgrid[0:20, 0:20] * 0.1
+    >>> ground = np.c_[x.ravel(), y.ravel(), np.zeros(400)]
+    >>> bool(bathyal.find_sheets(ground))
+    False
+    >>> roof = ground[ground[:, 0] < 1] + [0.05, 0.05, 0.8]
+    >>> report = bathyal.find_sheets(np.r_[ground, roof])
+    >>> len(report.patches), round(report.patches[0].separation, 3)
+    (1, 0.8)
+    """
+def find_targets(surface: typing.Any, aims: typing.Any, *, world_from_vehicle: typing.Any = None, frame: str = 'vehicle', vertical: str = 'gravity', grazing_angle: typing.SupportsFloat | typing.SupportsIndex = 1.3962634015954636, max_range: typing.SupportsFloat | typing.SupportsIndex = ..., num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> Targets:
+    """
+    Where camera axes meet the bottom.
+    
+    On a plane by eq 2–3 with t ≥ 0, on meshes the nearest hit at t ≥ 0 (eq 4–9). Normals point out of
+    the bottom: on a mesh to the side its triangles are wound for, on a plane to the side of up.
+    
+    Parameters
+    ----------
+    surface : Scene or Plane
+    aims : (K, 6) array
+        px py pz, a point of each axis [m], and dx dy dz, its direction of any length but zero.
+    world_from_vehicle : (4, 4) array, optional
+        Pose of the vehicle, identity unless given.
+    frame : {"vehicle", "world"}
+        What the aims stand in: the vehicle's frame (`world_from_vehicle` moves them) or the world's.
+    vertical : {"gravity", "vehicle"}
+        The world's z or the vehicle's; for a plane it tells which side is out of the bottom.
+    grazing_angle : float
+        Incidence above which a hit is "grazing" [rad].
+    max_range : float
+        Hits beyond it are misses [m].
+    num_threads : int
+        0 = all.
+    
+    Returns
+    -------
+    Targets
+    
+    Raises
+    ------
+    ValueError
+        For aims that are not finite or have no direction.
+    
+    Notes
+    -----
+    Status: "hit"; "grazing", a hit with its point beyond `grazing_angle`; "parallel", the axis runs
+    along the plane; "behind", the bottom is met at t < 0 only; "hole", the axis passes between the open
+    ends of the bottom on its two sides; "miss", anything else.
+    
+    References
+    ----------
+    Filaretov, Konoplin, Konoplin (2018), eq 1–9.
+    
+    Examples
+    --------
+    >>> import bathyal
+    >>> targets = bathyal.find_targets(bathyal.Plane((0, 0, 1), -5.0), [[0, 0, 0, 3, 0, -4]])
+    >>> targets.point[0].tolist(), float(targets.range[0]), str(targets.status[0])
+    ([3.75, 0.0, -5.0], 6.25, 'hit')
+    """
+def fit_plane(cloud: typing.Any, *, tolerance: typing.SupportsFloat | typing.SupportsIndex = 0.05, patch_points: typing.SupportsInt | typing.SupportsIndex = 50, flat_share: typing.SupportsFloat | typing.SupportsIndex = 0.99, trials: typing.SupportsInt | typing.SupportsIndex = 500, seed: typing.SupportsInt | typing.SupportsIndex = 1, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> PlaneFit:
+    """
+    Fit a plane to a bottom, undisturbed by gross errors in up to 45 % of the points.
+    
+    Least median of squares over random triples, then total least squares over the points within three
+    sigma (Filaretov, Konoplin, Konoplin 2018, eq 1; Rousseeuw 1984). A vertical plane has no up: the
+    first component of its normal that is not zero is positive.
+    
+    Parameters
+    ----------
+    cloud : PointCloud or (N, 3) array
+        [m]
+    tolerance : float
+        How far the ground may lie off the plane and still count as flat [m].
+    patch_points : int
+        Soundings in a patch; the median of a patch stands for the ground there, so that neither noise
+        nor single spikes count as relief.
+    flat_share : float
+        Share of the patches that must lie within `tolerance`.
+    trials, seed : int
+        Random triples tried, and the seed of their choice.
+    num_threads : int
+        0 = all. The same result for any.
+    
+    Returns
+    -------
+    PlaneFit
+        ``.plane .normal .offset .rms .inliers .flat .relief …``; unpacks as ``plane, rms``.
+    
+    Raises
+    ------
+    ValueError
+        For fewer than three distinct points, points on one line, or coordinates that are not finite.
+    
+    Examples
+    --------
+    >>> import bathyal
+    >>> fit = bathyal.fit_plane([[0, 0, -5], [1, 0, -5], [0, 1, -5], [1, 1, -5]])
+    >>> fit.plane
+    Plane(normal=(0, 0, 1), offset=-5)
+    >>> fit.flat
+    True
+    """
+def generate_survey(*, seed: typing.SupportsInt | typing.SupportsIndex = 0, origin: typing.Any = (431200.0, 6172650.0, -38.0), length: typing.SupportsFloat | typing.SupportsIndex = 60.0, width: typing.SupportsFloat | typing.SupportsIndex = 40.0, wave_height: typing.SupportsFloat | typing.SupportsIndex = 0.5, wave_length: typing.SupportsFloat | typing.SupportsIndex = 9.0, ripple_height: typing.SupportsFloat | typing.SupportsIndex = 0.04, roughness: typing.SupportsFloat | typing.SupportsIndex = 0.15, boulders: typing.SupportsInt | typing.SupportsIndex = 30, boulder_radius: typing.SupportsFloat | typing.SupportsIndex = 1.3, trench_depth: typing.SupportsFloat | typing.SupportsIndex = 1.1, trench_width: typing.SupportsFloat | typing.SupportsIndex = 3.5, lines: typing.SupportsInt | typing.SupportsIndex = 2, altitude: typing.SupportsFloat | typing.SupportsIndex = 8.0, opening: typing.SupportsFloat | typing.SupportsIndex = 2.0943951, beams: typing.SupportsInt | typing.SupportsIndex = 256, ping_spacing: typing.SupportsFloat | typing.SupportsIndex = 0.12, lost_width: typing.SupportsFloat | typing.SupportsIndex = 2.0, range_noise: typing.SupportsFloat | typing.SupportsIndex = 0.006, range_noise_rate: typing.SupportsFloat | typing.SupportsIndex = 0.0008, angle_noise: typing.SupportsFloat | typing.SupportsIndex = 0.0006, spike_fraction: typing.SupportsFloat | typing.SupportsIndex = 0.0, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> PointCloud:
+    """
+    A multibeam survey that never was, over a bottom that is known exactly.
+    
+    Sand waves with ripples, boulders with scour and shadow, a trench, a stripe of lost pings, noise that
+    grows with range, and the uneven spacing of beams at equal angles. The same seed and options give the
+    same numbers, for any number of threads. `survey_height` gives the true height.
+    
+    Parameters
+    ----------
+    seed : int
+    origin : (3,) array
+        South-west corner and the bottom's mean height [m].
+    length, width : float
+        Along (x) and across (y) the survey lines [m].
+    wave_height, wave_length : float
+        Sand waves, trough to crest and crest to crest [m].
+    ripple_height, roughness : float
+        Ripples, trough to crest, and the rms of a slow undulation [m].
+    boulders : int
+    boulder_radius : float
+        Of the largest [m].
+    trench_depth, trench_width : float
+        [m]; a depth of 0 for none.
+    lines, beams : int
+        Survey lines over the width, and beams a ping.
+    altitude : float
+        Of the sounder above the mean height [m].
+    opening : float
+        Of the fan of beams [rad].
+    ping_spacing : float
+        Along the line [m].
+    lost_width : float
+        Length of the stripe of pings that the first line lost [m].
+    range_noise, range_noise_rate, angle_noise : float
+        Standard deviation of a range, constant part [m] and growth [m/m], and of a beam's angle [rad].
+    spike_fraction : float
+        Of soundings that are echoes from fish above the bottom, 0 to 1.
+    num_threads : int
+        0: all.
+    
+    Returns
+    -------
+    PointCloud
+        With the attributes ``uncertainty``, the standard deviation of z [m], and ``intensity`` [dB].
+    
+    Raises
+    ------
+    ValueError
+        An option out of its range, or a sounder that would touch the bottom.
+    
+    Examples
+    --------
+    >>> import bathyal
+    >>> cloud = bathyal.generate_survey(seed=1, length=6.0, beams=64)
+    >>> cloud
+    PointCloud(5504 points)
+    >>> sorted(cloud.attributes)
+    ['intensity', 'uncertainty']
+    """
+def intersect_moller_trumbore(mesh: TriangleMesh, origins: typing.Any, directions: typing.Any, *, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> Hits:
+    """
+    Every ray against every triangle, as the paper does it.
+    
+    Filaretov, Konoplin, Konoplin (2018), eq 5–9, after Möller and Trumbore (1997), with what the
+    printed form leaves out: t ≥ 0 and the nearest hit. For study and comparison: it costs rays ×
+    triangles, and unlike Scene.cast it may let a ray slip between triangles that share an edge.
+    
+    Parameters
+    ----------
+    mesh : TriangleMesh
+    origins, directions
+        As in Scene.cast.
+    num_threads : int
+        0 means all.
+    
+    Returns
+    -------
+    Hits
+    
+    Examples
+    --------
+    >>> import bathyal
+    >>> floor = bathyal.TriangleMesh([[0, 0, 0], [4, 0, 0], [0, 4, 0]], [[0, 1, 2]])
+    >>> bathyal.intersect_moller_trumbore(floor, (1, 1, 3), [[0, 0, -1], [0, 0, 1]]).range
+    array([ 3., inf])
+    """
+def mesh_report(mesh: TriangleMesh, *, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> MeshReport:
+    """
+    Measure a mesh: area, rims, pieces, defects, slopes, rugosity.
+    
+    The planar area is that of the mesh's shadow on the horizontal plane, every place counted once:
+    exact where no two triangles lie over one another, else to a few parts in 10⁴. Published
+    rugosities divide by other planar areas: compare with care.
+    
+    Parameters
+    ----------
+    mesh : TriangleMesh
+    num_threads : int
+        0 = all. The same numbers for any.
+    
+    Returns
+    -------
+    MeshReport
+        Zeros for an empty mesh, NaN where there is nothing to divide.
+    
+    Examples
+    --------
+    >>> import bathyal
+    >>> ramp = bathyal.TriangleMesh([[0, 0, 0], [1, 0, 1], [0, 1, 0]], [[0, 1, 2]])
+    >>> report = bathyal.mesh_report(ramp)
+    >>> round(report.rugosity, 6), report.inverted_triangles, len(report.boundary_loops)
+    (1.414214, 0, 1)
+    """
+def plan_toolpath(surface: typing.Any, aims: typing.Any, *, world_from_vehicle: typing.Any = None, frame: str = 'vehicle', vertical: str = 'gravity', grazing_angle: typing.SupportsFloat | typing.SupportsIndex = 1.3962634015954636, max_range: typing.SupportsFloat | typing.SupportsIndex = ..., missed: str = 'leave_out', orientation: str = 'blended', blend_length: typing.SupportsFloat | typing.SupportsIndex = 0.1, angular_rate: typing.SupportsFloat | typing.SupportsIndex = 0.5, speed: typing.SupportsFloat | typing.SupportsIndex = 0.1, acceleration: typing.SupportsFloat | typing.SupportsIndex = 0.1, standoff: typing.SupportsFloat | typing.SupportsIndex = 0.0, step: typing.SupportsFloat | typing.SupportsIndex = 0.0, normal_radius: typing.SupportsFloat | typing.SupportsIndex = 0.0, tool_radius: typing.SupportsFloat | typing.SupportsIndex = 0.0, tool_length: typing.SupportsFloat | typing.SupportsIndex = 0.0, contact_tolerance: typing.SupportsFloat | typing.SupportsIndex = 0.01, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> ToolPath:
+    """
+    Plan the path of a tool along the bottom.
+    
+    Through the targets the camera axes point at, in their order: the upright section between each pair
+    and the next, oriented and timed.
+    
+    Parameters
+    ----------
+    surface, aims, world_from_vehicle, frame, vertical, grazing_angle, max_range, num_threads
+        As in find_targets; `vertical` also says how the bottom is cut.
+    missed : {"leave_out", "refuse"}
+        Aims without a target: left out with a warning, the stretch over them a gap; or an error.
+    orientation : {"blended", "piecewise_constant"}
+        Turns spread over `blend_length`, or the paper's form: constant on a facet, T_j twice on an
+        edge, once per facet, the tool turning in place.
+    blend_length : float
+        Path over which one turn is spread [m].
+    angular_rate : float
+        Limit of the tool's whole frame [rad/s]; the feed slows where it must.
+    speed, acceleration : float
+        Limits of the tool's point along its path [m/s], [m/s²]; it starts and ends at rest.
+    standoff : float
+        Of the tool's point from the bottom, along a_j [m].
+    step : float
+        Longest stretch between samples on the bottom [m]; 0 keeps the T_j as cut. T_j always stay.
+    normal_radius : float
+        Radius of the footprint normals are taken over [m]; 0 takes facet normals.
+    tool_radius, tool_length : float
+        The tool's body, a capsule from its point back along a_j [m]; length 0 checks no body.
+    contact_tolerance : float
+        How far ground may reach into the body without a contact flag [m].
+    
+    Returns
+    -------
+    ToolPath
+    
+    Raises
+    ------
+    ValueError
+        For no aims, aims that are not finite, or no target at all.
+    
+    Notes
+    -----
+    A gap is crossed straight between two samples, the first flagged, the tool at rest at both. Targets
+    that coincide give no length. A target above the next one is joined down the wall between them. One
+    target gives one sample. Read `warnings`.
+    
+    References
+    ----------
+    Filaretov, Konoplin, Konoplin (2018), section 2.
+    
+    Examples
+    --------
+    >>> import bathyal
+    >>> bottom = bathyal.Plane((0, 0, 1), -5.0)
+    >>> aims = [[0, 0, 0, 0, 0, -1], [2, 0, 0, 0, 0, -1]]
+    >>> path = bathyal.plan_toolpath(bottom, aims, speed=0.1, acceleration=0.1)
+    >>> path.position.tolist()
+    [[0.0, 0.0, -5.0], [2.0, 0.0, -5.0]]
+    >>> path.approach[0].tolist(), path.travel[0].tolist()
+    ([0.0, 0.0, 1.0], [1.0, 0.0, 0.0])
+    >>> round(float(path.time[-1]), 3)
+    21.0
+    """
+def read_pcd(path: os.PathLike | str | bytes, *, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> PointCloud:
+    """
+    The point cloud of a .pcd file: ascii, binary or binary_compressed.
+    
+    Fields beside x, y, z become attributes; `rgb` and `rgba` are taken apart into red, green, blue.
+    """
+def read_text_table(path: os.PathLike | str | bytes, *, separator: str | None = None, decimal: str | None = None, comments: collections.abc.Sequence[str] = ['#', '//', '%', '!', ';'], header_lines: typing.SupportsInt | typing.SupportsIndex = -1, skip_lines: typing.SupportsInt | typing.SupportsIndex = 0, columns: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex | str] = (), leading: typing.SupportsInt | typing.SupportsIndex = 0, empty_is_nan: bool = False, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> TextTable:
+    """
+    Numbers in columns of a text file, or an ESRI ASCII grid as x, y, z.
+    
+    Parameters
+    ----------
+    path : path
+    separator : " ", ",", ";" or tab, optional
+        " " is any run of blanks and tabs. None looks at the file.
+    decimal : "." or ",", optional
+        None takes a comma only where ";" or a tab separates columns and the numbers leave no doubt.
+    comments : sequence of str
+        A line that begins with one of these is skipped, and so is the rest of a line behind a blank
+        and one of these.
+    header_lines : int
+        Lines of column names; -1 takes lines without numbers as such.
+    skip_lines : int
+        Lines at the top that are not looked at.
+    columns : sequence of int or str
+        Which columns, by index or name, in this order; empty takes all. The others may hold text.
+    leading : int
+        How many of them lie side by side in ``.table``; each further one is an array of its own in
+        ``.extra``. 0: all side by side.
+    empty_is_nan : bool
+        An empty field, NA or null is NaN instead of an error.
+    num_threads : int
+        0: all.
+    
+    Raises
+    ------
+    ValueError
+        Options that make no sense, or columns that the file lacks.
+    Error
+        With file and line: not readable, no text, no rows, no number, rows of different lengths.
+    """
+def set_simd_level(level: str) -> None:
+    """
+    Choose a lower instruction set, for tests and benchmarks: results are the same bytes.
+    """
+def simd_level() -> str:
+    """
+    The instruction set in use: "baseline" (x86-64-v2), "avx2" or "avx512".
+    """
+def survey_height(x: typing.Any, y: typing.Any, *, seed: typing.SupportsInt | typing.SupportsIndex = 0, origin: typing.Any = (431200.0, 6172650.0, -38.0), length: typing.SupportsFloat | typing.SupportsIndex = 60.0, width: typing.SupportsFloat | typing.SupportsIndex = 40.0, wave_height: typing.SupportsFloat | typing.SupportsIndex = 0.5, wave_length: typing.SupportsFloat | typing.SupportsIndex = 9.0, ripple_height: typing.SupportsFloat | typing.SupportsIndex = 0.04, roughness: typing.SupportsFloat | typing.SupportsIndex = 0.15, boulders: typing.SupportsInt | typing.SupportsIndex = 30, boulder_radius: typing.SupportsFloat | typing.SupportsIndex = 1.3, trench_depth: typing.SupportsFloat | typing.SupportsIndex = 1.1, trench_width: typing.SupportsFloat | typing.SupportsIndex = 3.5, lines: typing.SupportsInt | typing.SupportsIndex = 2, altitude: typing.SupportsFloat | typing.SupportsIndex = 8.0, opening: typing.SupportsFloat | typing.SupportsIndex = 2.0943951, beams: typing.SupportsInt | typing.SupportsIndex = 256, ping_spacing: typing.SupportsFloat | typing.SupportsIndex = 0.12, lost_width: typing.SupportsFloat | typing.SupportsIndex = 2.0, range_noise: typing.SupportsFloat | typing.SupportsIndex = 0.006, range_noise_rate: typing.SupportsFloat | typing.SupportsIndex = 0.0008, angle_noise: typing.SupportsFloat | typing.SupportsIndex = 0.0006, spike_fraction: typing.SupportsFloat | typing.SupportsIndex = 0.0, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> numpy.ndarray:
+    """
+    True height of the bottom under a generated survey.
+    
+    Parameters
+    ----------
+    x, y : (N,) arrays
+        Survey coordinates [m].
+    seed, origin, length, …
+        As given to generate_survey.
+    
+    Returns
+    -------
+    (N,) array
+        [m]
+    
+    Examples
+    --------
+    >>> import bathyal
+    >>> flat = dict(wave_height=0, ripple_height=0, roughness=0, boulders=0, trench_depth=0)
+    >>> bathyal.survey_height([431210.0], [6172660.0], **flat)
+    array([-38.])
+    """
+def triangulate(cloud: typing.Any, *, max_edge: typing.SupportsFloat | typing.SupportsIndex | None = None, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> tuple[TriangleMesh, SheetReport]:
+    """
+    The TriangleMesh of a cloud as a height field, and its SheetReport.
+    """
+def triangulate_delaunay(points: typing.Any, *, max_edge: typing.SupportsFloat | typing.SupportsIndex | None = None, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> tuple[numpy.ndarray, dict]:
+    """
+    (T, 3) int32 rows of `points`, and a dict: max_edge [m], cut_triangles, merged_points.
+    """
+def write_xyz(path: os.PathLike | str | bytes, cloud: PointCloud, *, decimals: typing.SupportsInt | typing.SupportsIndex = -1, separator: str = ' ', preamble: str = '', header: bool = False, attributes: collections.abc.Sequence[str] = [], num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> None:
+    """
+    Write x y z and the named attributes as text, one point a line.
+    
+    `decimals` of -1 writes the shortest text that reads back as the same number; `preamble` stands above
+    all else as it is. Writes in place: write aside and rename.
+    """
