@@ -29,7 +29,7 @@ import numpy as np
 
 from bathyal import PointCloud, _core, generate_survey
 
-PEERS = {"pandas": "pandas>=2", "pyarrow": "pyarrow>=16,<20"}  # later ones need numpy 2
+PEERS = {"pandas": "pandas>=2", "pyarrow": "pyarrow>=16"}
 
 
 def install_peers() -> None:
@@ -120,6 +120,7 @@ def main() -> None:
         ("all digits, comma", ",", -1),
     ]
     print(
+        "## Reading text\n\n"
         f"{len(points)} rows of x y z, {platform.machine()}, {os.cpu_count()} processors, "
         f"Python {platform.python_version()}, numpy {np.__version__}, pandas {pandas.__version__}, "
         f"pyarrow {pyarrow.__version__}, {datetime.date.today()}, "

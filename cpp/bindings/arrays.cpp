@@ -70,6 +70,11 @@ Points points_argument(std::string_view name, const py::object& object) {
   return real_argument<3>(name, object);
 }
 
+PointCloud cloud_argument(const py::object& object) {
+  if (py::isinstance<PointCloud>(object)) return object.cast<PointCloud>();
+  return PointCloud(points_argument("cloud", object));
+}
+
 Values values_argument(std::string_view name, const py::object& object) {
   return real_argument<1>(name, object);
 }
@@ -84,7 +89,8 @@ Triangles triangles_argument(std::string_view name, const py::object& object) {
     const auto typed = typed_array<std::int32_t>(name, array, "i", expected);
     return {typed.data(), typed.shape(0), keep_alive(typed)};
   }
-  const auto wide = typed_array<std::int64_t>(name, array, array.size() == 0 ? "iuf" : "iu", expected);
+  const auto wide =
+      typed_array<std::int64_t>(name, array, array.size() == 0 ? "iuf" : "iu", expected);
   TriangleMatrix triangles(wide.shape(0), 3);
   for (Index i = 0; i < triangles.size(); ++i) {
     const std::int64_t index = wide.data()[i];

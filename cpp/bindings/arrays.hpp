@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "bathyal/geometry/shared_array.hpp"
+#include "bathyal/geometry/point_cloud.hpp"
 
 // The border between numpy and the engine. Arguments: shape and type are checked here, with the
 // argument's name, before anything else is done; float64 in C order is shared, anything else that
@@ -19,6 +19,9 @@ namespace py = pybind11;
 
 /// (N, 3) real numbers.
 Points points_argument(std::string_view name, const py::object& object);
+
+/// A PointCloud as it is, or an (N, 3) array taken as one.
+PointCloud cloud_argument(const py::object& object);
 
 /// (N,) real numbers.
 Values values_argument(std::string_view name, const py::object& object);
@@ -38,8 +41,7 @@ template <class Scalar>
 py::array read_only_array(const Scalar* data, std::vector<py::ssize_t> shape,
                           std::shared_ptr<const void> owner) {
   auto* holder = new std::shared_ptr<const void>(std::move(owner));
-  py::capsule base(holder,
-                   [](void* p) { delete static_cast<std::shared_ptr<const void>*>(p); });
+  py::capsule base(holder, [](void* p) { delete static_cast<std::shared_ptr<const void>*>(p); });
   py::array_t<Scalar> array(std::move(shape), data, base);
   array.attr("setflags")(py::arg("write") = false);
   return array;
@@ -53,7 +55,8 @@ py::array to_numpy(const SharedArray<Scalar, Cols>& array) {
   return read_only_array(array.data(), std::move(shape), array.owner());
 }
 
-/// Takes a vector over; `tail` are the dimensions after the first: {} for (N,), {3, 3} for (N, 3, 3).
+/// Takes a vector over; `tail` are the dimensions after the first: {} for (N,), {3, 3} for (N, 3,
+/// 3).
 template <class Scalar>
 py::array to_numpy(std::vector<Scalar> values, std::vector<py::ssize_t> tail = {}) {
   py::ssize_t width = 1;

@@ -56,9 +56,13 @@ Examples
            }),
            py::arg("normal"), py::arg("offset"))
       .def_property_readonly(
-          "normal", [](const Plane& p) { return to_numpy(std::vector<double>(p.normal().begin(), p.normal().end())); },
+          "normal",
+          [](const Plane& p) {
+            return to_numpy(std::vector<double>(p.normal().begin(), p.normal().end()));
+          },
           "(3,) unit normal, up for a bottom.")
-      .def_property_readonly("offset", &Plane::offset, "normal · x of every point of the plane [m].")
+      .def_property_readonly("offset", &Plane::offset,
+                             "normal · x of every point of the plane [m].")
       .def(
           "distance",
           [](const Plane& plane, const py::object& points) {
@@ -78,7 +82,8 @@ Examples
 }
 
 void bind_point_cloud(py::module_& module) {
-  py::class_<PointCloud>(module, "PointCloud", R"(Positions in metres, z up, and what rides along with them.
+  py::class_<PointCloud>(module, "PointCloud",
+                         R"(Positions in metres, z up, and what rides along with them.
 
 Survey coordinates (10⁵ to 10⁷ m) are kept as they are. Read-only once made.
 
@@ -112,7 +117,8 @@ Examples
           "attributes", [](const PointCloud& c) { return to_python(c.attributes()); },
           "What rides along: name → (N,) array.")
       .def_property_readonly("crs", [](const PointCloud& c) { return c.datum().crs; })
-      .def_property_readonly("vertical_datum", [](const PointCloud& c) { return c.datum().vertical; })
+      .def_property_readonly("vertical_datum",
+                             [](const PointCloud& c) { return c.datum().vertical; })
       .def(
           "write",
           [](const py::object& cloud, const py::object& path) {
@@ -126,9 +132,8 @@ Examples
           },
           "An interactive figure (bathyal.views.show_cloud).")
       .def("__len__", &PointCloud::size)
-      .def("__repr__", [](const PointCloud& c) {
-        return "PointCloud(" + count_text(c.size(), "point") + ")";
-      });
+      .def("__repr__",
+           [](const PointCloud& c) { return "PointCloud(" + count_text(c.size(), "point") + ")"; });
 }
 
 void bind_triangle_mesh(py::module_& module) {
@@ -155,10 +160,9 @@ TriangleMesh(3 vertices, 1 triangle)
       .def(py::init([](const py::object& vertices, const py::object& triangles,
                        const PythonAttributes& attributes, std::string crs,
                        std::string vertical_datum) {
-             return TriangleMesh(points_argument("vertices", vertices),
-                                 triangles_argument("triangles", triangles),
-                                 attributes_argument(attributes),
-                                 {std::move(crs), std::move(vertical_datum)});
+             return TriangleMesh(
+                 points_argument("vertices", vertices), triangles_argument("triangles", triangles),
+                 attributes_argument(attributes), {std::move(crs), std::move(vertical_datum)});
            }),
            py::arg("vertices"), py::arg("triangles"), py::kw_only(),
            py::arg("attributes") = PythonAttributes{}, py::arg("crs") = "",

@@ -225,7 +225,7 @@ void bind_clean(py::module_& module) {
   const CleanOptions d;
   module.def(
       "clean_cloud",
-      [](const PointCloud& cloud, const std::string& same_place, double spike_sigma,
+      [](const py::object& cloud, const std::string& same_place, double spike_sigma,
          double spike_height, int spike_neighbours, double outlier_sigma, int outlier_neighbours,
          double voxel, int num_threads) {
         CleanOptions options;
@@ -237,8 +237,9 @@ void bind_clean(py::module_& module) {
         options.outlier_neighbours = outlier_neighbours;
         options.voxel = voxel;
         options.num_threads = num_threads;
+        const PointCloud input = cloud_argument(cloud);
         const py::gil_scoped_release release;
-        return clean_cloud(cloud, options);
+        return clean_cloud(input, options);
       },
       py::arg("cloud"), py::kw_only(), py::arg("same_place") = to_text(d.same_place),
       py::arg("spike_sigma") = d.spike_sigma, py::arg("spike_height") = d.spike_height,
@@ -253,7 +254,7 @@ stay does not depend on it.
 
 Parameters
 ----------
-cloud : PointCloud
+cloud : PointCloud or (N, 3) array
 same_place : "keep", "shallowest" or "deepest"
     Which of several soundings with equal x, y and different z stays. They are counted in any case.
 spike_sigma, spike_height, spike_neighbours : float, float, int

@@ -12,12 +12,6 @@
 namespace bathyal::python {
 namespace {
 
-/// A PointCloud, or an (N, 3) array taken as one.
-PointCloud cloud_argument(const py::object& object) {
-  if (py::isinstance<PointCloud>(object)) return object.cast<PointCloud>();
-  return PointCloud(points_argument("cloud", object));
-}
-
 void bind_plane_fit(py::module_& module) {
   using Options = FitPlaneOptions;
   py::class_<PlaneFit>(module, "PlaneFit", R"(The plane of a bottom and how far to trust it.

@@ -2,14 +2,11 @@
 The engine. Its public names are those of the package bathyal.
 """
 from __future__ import annotations
-
 import collections.abc
-import os
-import typing
-
 import numpy
 import numpy.typing
-
+import os
+import typing
 __all__: list[str] = ['CleanReport', 'CleanResult', 'Error', 'Hits', 'MeshReport', 'Nearest', 'Plane', 'PlaneFit', 'PointCloud', 'Polyline', 'Scene', 'SheetPatch', 'SheetReport', 'Targets', 'TextTable', 'ToolPath', 'TriangleMesh', 'clean_cloud', 'cover_polygon', 'find_sheets', 'find_targets', 'fit_plane', 'generate_survey', 'intersect_moller_trumbore', 'mesh_report', 'plan_toolpath', 'read_pcd', 'read_text_table', 'set_simd_level', 'simd_level', 'survey_height', 'triangulate', 'triangulate_delaunay', 'write_xyz']
 class Error(RuntimeError):
     """
@@ -1036,7 +1033,7 @@ class ToolPath:
         """
         What a person should know before the path is followed: list of str.
         """
-def clean_cloud(cloud: PointCloud, *, same_place: str = 'keep', spike_sigma: typing.SupportsFloat | typing.SupportsIndex = 0.0, spike_height: typing.SupportsFloat | typing.SupportsIndex = 0.1, spike_neighbours: typing.SupportsInt | typing.SupportsIndex = 16, outlier_sigma: typing.SupportsFloat | typing.SupportsIndex = 0.0, outlier_neighbours: typing.SupportsInt | typing.SupportsIndex = 12, voxel: typing.SupportsFloat | typing.SupportsIndex = 0.0, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> CleanResult:
+def clean_cloud(cloud: typing.Any, *, same_place: str = 'keep', spike_sigma: typing.SupportsFloat | typing.SupportsIndex = 0.0, spike_height: typing.SupportsFloat | typing.SupportsIndex = 0.1, spike_neighbours: typing.SupportsInt | typing.SupportsIndex = 16, outlier_sigma: typing.SupportsFloat | typing.SupportsIndex = 0.0, outlier_neighbours: typing.SupportsInt | typing.SupportsIndex = 12, voxel: typing.SupportsFloat | typing.SupportsIndex = 0.0, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> CleanResult:
     """
     Drop what is no sounding and, where asked, what is too much or out of line; say how many and why.
     
@@ -1046,7 +1043,7 @@ def clean_cloud(cloud: PointCloud, *, same_place: str = 'keep', spike_sigma: typ
     
     Parameters
     ----------
-    cloud : PointCloud
+    cloud : PointCloud or (N, 3) array
     same_place : "keep", "shallowest" or "deepest"
         Which of several soundings with equal x, y and different z stays. They are counted in any case.
     spike_sigma, spike_height, spike_neighbours : float, float, int

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <sys/mman.h>
+
 #include <cstdlib>
 #include <limits>
 #include <memory>
@@ -43,6 +45,20 @@ class GrowingArray {
     return data_ + size_;
   }
   void commit(std::size_t count) { size_ += count; }
+
+  /// Wishes for room for `count` while the array is still empty, on large pages where that is
+  /// megabytes: faulting small pages in one by one costs half as much as parsing what fills them.
+  /// A guess that is too high costs no memory, one that is refused or too low costs time only.
+  void expect(std::size_t count) {
+    constexpr std::size_t kLargePage = std::size_t{1} << 21U;
+    if (data_ != nullptr || count < kLargePage / sizeof(Scalar)) return;
+    if (count > std::numeric_limits<std::ptrdiff_t>::max() / sizeof(Scalar) - kLargePage) return;
+    const std::size_t bytes = (count * sizeof(Scalar) + kLargePage - 1) / kLargePage * kLargePage;
+    data_ = static_cast<Scalar*>(std::aligned_alloc(kLargePage, bytes));
+    if (data_ == nullptr) return;
+    capacity_ = bytes / sizeof(Scalar);
+    madvise(data_, bytes, MADV_HUGEPAGE);
+  }
 
   void push_back(Scalar value) {
     *room_for(1) = value;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <limits>
 
 #include "bathyal/base/parallel.hpp"
 #include "bathyal/soundings/parse_number.hpp"
@@ -36,6 +37,12 @@ std::string_view TextBlocks::block() const {
 void TextBlocks::skip(std::size_t bytes) {
   buffers_[turn_].begin += bytes;
   split();
+}
+
+std::size_t TextBlocks::bytes_left() const {
+  const std::size_t here = current().filled - current().begin;
+  const std::size_t behind = at_end_ ? 0 : source_.bytes_left();
+  return behind > std::numeric_limits<std::size_t>::max() - here ? here : here + behind;
 }
 
 void TextBlocks::parse_parts(int num_threads,

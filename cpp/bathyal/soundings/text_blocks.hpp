@@ -49,6 +49,9 @@ class TextBlocks {
   /// How many parts the block in hand has.
   std::size_t part_count() const { return parts_.size(); }
 
+  /// The block in hand and what the source has left behind it, as far as it knows [bytes].
+  std::size_t bytes_left() const;
+
   /// Lets the front of the block in hand fall away (a header that has been dealt with).
   void skip(std::size_t bytes);
 

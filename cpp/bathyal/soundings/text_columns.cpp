@@ -18,6 +18,17 @@ class Columns {
     extra_.resize(chosen - width);
   }
 
+  /// Makes room, before the first rows, for so many rows as a source of `share` times the bytes
+  /// that gave these parts should give.
+  void expect(const std::vector<TextRows>& parts, std::size_t count, double share) {
+    std::size_t rows = 0;
+    for (std::size_t i = 0; i < count; ++i) rows += parts[i].values.size() / chosen_;
+    const double expected = 1.01 * share * static_cast<double>(rows);
+    if (!(expected < kMostExpected)) return;
+    table_.expect(static_cast<std::size_t>(expected) * width_);
+    for (GrowingArray<double>& column : extra_) column.expect(static_cast<std::size_t>(expected));
+  }
+
   /// Appends the rows of all parts, in order, with every thread copying parts of its own.
   void append(const std::vector<TextRows>& parts, std::size_t count, int num_threads) {
     std::vector<std::size_t> first(count + 1, 0);
@@ -34,6 +45,8 @@ class Columns {
     for (GrowingArray<double>& column : extra_) column.commit(first[count]);
   }
 
+  bool empty() const { return table_.size() == 0; }
+
   void release(TextTable& result) {
     result.width = static_cast<Index>(width_);
     result.rows = static_cast<Index>(table_.size() / width_);
@@ -42,6 +55,8 @@ class Columns {
   }
 
  private:
+  static constexpr double kMostExpected = 1e9;  // rows: above, it grows as it goes
+
   void copy(const GrowingArray<double>& rows, std::size_t first, double* table,
             const std::vector<double*>& extra) const {
     const double* from = rows.data();
@@ -110,6 +125,7 @@ TextTable read_columns(TextBlocks& blocks, const TextFormat& format, Index leadi
   while (!blocks.block().empty()) {
     const std::size_t count = blocks.part_count();
     const std::size_t offset = blocks.offset();
+    const auto block_bytes = static_cast<double>(blocks.block().size());
     const char* const begin = blocks.block().data();
     if (parts.size() < count) parts.resize(count);
     blocks.parse_parts(num_threads, [&](std::size_t i, std::string_view text) {
@@ -117,6 +133,9 @@ TextTable read_columns(TextBlocks& blocks, const TextFormat& format, Index leadi
       parse_rows(text, offset + static_cast<std::size_t>(text.data() - begin), format, parts[i]);
     });
     lines = check_parts(parts, count, lines, name);
+    if (columns.empty()) {
+      columns.expect(parts, count, 1.0 + static_cast<double>(blocks.bytes_left()) / block_bytes);
+    }
     columns.append(parts, count, num_threads);
   }
   if (blocks.too_long()) throw_at(name, lines + 1, "a line of more than 1 MiB");
