@@ -30,11 +30,16 @@ fi
 @mkdir -p $(STAMPS) && touch $@
 endef
 
-# install-python(extras): the package with these extras, versions held by constraints.txt.
-# The build tree is kept, so a second build compiles only what changed.
-define install-python
-$(BIN)/pip install -q -c constraints.txt --no-build-isolation -C build-dir=build/python$(2) \
-  "$(if $(1),.[$(1)],.)"
+# The package itself. The build tree is kept, so a second build compiles only what changed.
+define install-package
+$(BIN)/pip install -q -c constraints.txt --no-build-isolation -C build-dir=build/python $(1) .
+endef
+
+# The package among everything its tests, documentation and benchmarks use: constraints.txt names
+# every package down to the last, so nothing is left to resolve.
+define install-everything
+$(BIN)/pip install -q --no-deps -r constraints.txt
+$(call install-package,--no-deps)
 endef
 
 $(STAMPS)/apt-build: Makefile
@@ -51,7 +56,7 @@ $(STAMPS)/venv: $(STAMPS)/apt-build constraints.txt
 
 # The main job, as a user would run it: a generated survey written as a file, planned over.
 demo: $(STAMPS)/venv
-	$(call install-python)
+	$(call install-package)
 	mkdir -p demo
 	$(BIN)/bathyal survey demo/survey.xyz --aims-out demo/aims.csv
 	$(BIN)/bathyal plan demo/survey.xyz --aims demo/aims.csv --out demo/plan
@@ -67,18 +72,18 @@ test: $(STAMPS)/apt-test $(STAMPS)/venv
 	  -DCMAKE_CXX_COMPILER=clang++-14 -DCMAKE_C_COMPILER=clang-14 >/dev/null
 	cmake --build build/asan
 	ctest --test-dir build/asan --output-on-failure -j 2
-	$(call install-python,test)
+	$(call install-everything)
 	$(BIN)/python -m pytest
 
 bench: $(STAMPS)/apt-bench $(STAMPS)/venv
-	$(call install-python,bench)
+	$(call install-everything)
 	cmake -G Ninja -B build/bench -DBATHYAL_BENCHMARKS=ON >/dev/null
 	cmake --build build/bench
 	$(BIN)/python benchmarks/run.py --cpp build/bench/benchmarks/cpp
 
 # The engine's stub is written anew from its bindings.
 format: $(STAMPS)/apt-test $(STAMPS)/venv
-	$(call install-python)
+	$(call install-package)
 	$(BIN)/pip install -q -c constraints.txt ruff pybind11-stubgen
 	$(BIN)/pybind11-stubgen bathyal._core -o build/stubs
 	cp build/stubs/bathyal/_core.pyi python/bathyal/_core.pyi
@@ -86,7 +91,7 @@ format: $(STAMPS)/apt-test $(STAMPS)/venv
 	$(BIN)/ruff check --fix . && $(BIN)/ruff format .
 
 docs: $(STAMPS)/venv
-	$(call install-python,docs)
+	$(call install-everything)
 	$(BIN)/sphinx-build -W --keep-going -b html docs build/docs
 	@echo "The documentation is build/docs/index.html."
 

@@ -13,6 +13,8 @@ namespace bathyal {
 namespace {
 
 constexpr std::size_t kFewest = 6;  // vertices a fit of three numbers is trusted with
+constexpr int kMostTurns = 50;
+constexpr double kTurned = 1e-9;  // [rad]
 
 struct Fit {
   Vec3 normal = Vec3::UnitZ();
@@ -63,6 +65,21 @@ std::optional<Fit> fit_heights(const TriangleMesh& mesh, const Values* uncertain
   return fit;
 }
 
+/// The same over a plane that turns with the fit until it is the fitted one. Over the plane of a
+/// steep facet among noisy soundings one fit would stay near that facet: there the noise stands in
+/// the places and not in the heights, and flattens the slope.
+std::optional<Fit> fit_footprint(const TriangleMesh& mesh, const Values* uncertainty,
+                                 const std::vector<std::int32_t>& vertices, const Vec3& centre,
+                                 const Vec3& up) {
+  std::optional<Fit> fit = fit_heights(mesh, uncertainty, vertices, centre, up);
+  for (int turn = 0; fit && turn < kMostTurns; ++turn) {
+    const Vec3 before = fit->normal;
+    fit = fit_heights(mesh, uncertainty, vertices, centre, before);
+    if (fit && (fit->normal - before).norm() < kTurned) break;
+  }
+  return fit;
+}
+
 /// tr Cov(g) of the facet itself: Σ σ_i² (e_i / 2A)².
 double facet_slope_trace(const TriangleMesh& mesh, const Values* uncertainty, std::int32_t triangle,
                          double residual) {
@@ -83,7 +100,7 @@ void estimate_normal(Piece& piece, const TriangleMesh& mesh, const SheetWalk& wa
   const Vec3 middle = 0.5 * (piece.from + piece.to);
   if (radius > 0.0) {
     const auto vertices = walk.vertices_within(piece.triangle, middle, radius);
-    if (const auto fit = fit_heights(mesh, uncertainty, vertices, middle, piece.normal)) {
+    if (const auto fit = fit_footprint(mesh, uncertainty, vertices, middle, piece.normal)) {
       piece.normal = fit->normal;
       piece.normal_std = std::atan(std::sqrt(fit->slope_trace));
       return;

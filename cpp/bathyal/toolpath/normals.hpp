@@ -10,8 +10,9 @@ namespace bathyal {
 /// fewer than six vertices or only vertices on a line lie in the footprint, the normal is the
 /// facet's.
 ///
-/// Footprint: heights z over the facet's own plane are fitted by least squares, z = c + g·x; the
-/// normal is that of the fit. The sheet is walked from the piece's facet over shared vertices, so
+/// Footprint: heights z over a plane are fitted by least squares, z = c + g·x, first over the
+/// facet's own plane and then over the fitted one until it turns no more; the normal is that of the
+/// last fit. The sheet is walked from the piece's facet over shared vertices, so
 /// that the ground across a narrow cleft or on the other side of a plate stays out; triangles that
 /// look away from the facet (by more than 90°) are left out too. In a soup, whose triangles share
 /// no vertices, every facet stands alone.

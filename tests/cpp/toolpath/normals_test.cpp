@@ -95,6 +95,24 @@ TEST(NormalStd, WithoutAnAttributeComesFromTheScatterAround) {
   EXPECT_EQ(plan_toolpath(Plane(Vec3::UnitZ(), 0), down({{0, 0}})).normal_std[0], 0.0);
 }
 
+TEST(Footprint, DoesNotStayNearASteepFacet) {
+  RandomStream random(11);
+  const auto slope = [&](double x, double) { return 1.2 * x + 0.04 * random.normal(); };
+  const Scene scene = scene_of(grid(slope, 0, 3, 60, 0, 3, 60));
+  ToolPathOptions options;
+  options.normal_radius = 0.3;
+  options.orientation = Orientation::kPiecewiseConstant;
+  const ToolPath path = plan_toolpath(scene, down({{0.5, 0.6}, {2.5, 2.4}}), options);
+  double steepest = 0.0, worst = 0.0;
+  for (std::size_t j = 0; j < path.size(); ++j) {
+    const Vec3 facet = outward_normal(scene.meshes()[0], path.triangle[j]);
+    steepest = std::max(steepest, angle(facet, Vec3(-1.2, 0, 1)));
+    worst = std::max(worst, angle(path.approach[j], Vec3(-1.2, 0, 1)));
+  }
+  EXPECT_GT(steepest, 0.7) << "the ground must hold what the test is about";
+  EXPECT_LT(worst, 0.15);
+}
+
 TEST(Footprint, IsExactOnATiltedPlaneAndQuietsNoise) {
   ToolPathOptions options;
   options.normal_radius = 0.3;
