@@ -370,7 +370,8 @@ def test_interrupted_plan_leaves_the_folder_as_it_was(job, tmp_path, monkeypatch
 def test_signal_ends_the_program_cleanly(job, tmp_path):
     """Ctrl-C while it works, in a process of its own: no half-written file, no traceback."""
     program = (
-        "import time, bathyal.figures, bathyal.cli\n"
+        "import signal, time, bathyal.figures, bathyal.cli\n"
+        "signal.signal(signal.SIGINT, signal.default_int_handler)\n"  # a background job ignores it
         "def slow(*_):\n    print('drawing', flush=True)\n    time.sleep(60)\n"
         "bathyal.figures.write_png = slow\nbathyal.cli.app()\n"
     )
