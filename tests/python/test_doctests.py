@@ -1,0 +1,16 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The examples in the docstrings of every public name run as they stand."""
+
+import doctest
+
+import pytest
+
+import bathyal
+
+
+@pytest.mark.parametrize("name", bathyal.__all__)
+def test_examples_of_the_docstring_run(name: str) -> None:
+    runner = doctest.DocTestRunner()
+    for examples in doctest.DocTestFinder().find(getattr(bathyal, name), name, False, {}):
+        runner.run(examples)
+    assert runner.summarize(verbose=False).failed == 0
