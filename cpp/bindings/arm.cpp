@@ -7,6 +7,7 @@
 #include <string>
 
 #include "arm_docs.hpp"
+#include "arm_inverse.hpp"
 #include "arrays.hpp"
 #include "bathyal/arm/dh.hpp"
 #include "bathyal/arm/kinematics.hpp"
@@ -489,10 +490,12 @@ void bind_kinematics(py::class_<Arm>& cls) {
 void bind_arm(py::module_& module) {
   bind_link(module);
   bind_table(module);
+  bind_inverse_result(module);
   py::class_<Arm> cls(module, "Arm", kArmDoc);
   bind_makers(cls);
   bind_properties(cls);
   bind_kinematics(cls);
+  add_inverse(cls);
 }
 
 }  // namespace bathyal::python

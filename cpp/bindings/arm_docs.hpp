@@ -229,4 +229,62 @@ Examples
 array([9.807])
 )";
 
+inline constexpr const char* kInverseDoc = R"(Joint angles that bring the tool to poses.
+
+Damped least squares (Sugihara 2011) within the limits, from `start` and then from poses drawn
+within the limits, those first whose tool lies nearest. The result of a pose does not depend on the
+others, nor on the number of threads.
+
+Parameters
+----------
+poses : (N, 4, 4) or (4, 4) array
+    world_from_tool. With task "position" also (N, 3) or (3,) places.
+start : (n,) or (N, n) array, optional
+    Where the search begins, within the limits; the answer stays near it where it can, also by whole
+    turns. Unless given, near the middle of the limits.
+task : str
+    "pose"; "position", the tool centre point alone; "position_axis", and one axis of the tool.
+method : str
+    "damped"; or "pseudo_inverse" (also "jacobian_inverse", what it is where J is square), the
+    stepping of Maevskiy and Zanin (2020): the way cut into equal `steps`, each by J⁺, without
+    limits, damping or a second start.
+axis : (3,) array
+    Of "position_axis", in the tool's frame: it is to point as that of the target does.
+position_tolerance, angle_tolerance : float, optional
+    [m], [rad]. 1e-6 unless given; with "pseudo_inverse" 1e-2, as in the paper.
+max_iterations : int
+    Of one start.
+max_starts : int
+    Tried at most, the given one among them.
+candidates : int
+    The search goes on until so many starts have reached; the one nearest to `start` is taken.
+centering_steps : int, optional
+    Steps that a redundant arm, having reached, takes towards the middle of its limits. Unless
+    given, 0 from a start, which it would leave, else 10.
+steps : int
+    Of "pseudo_inverse".
+seed : int
+    Of the drawn starts.
+num_threads : int
+    0 is all.
+
+Returns
+-------
+InverseResult
+    .q (N, n), .status, .error, .position_error, .angle_error, .iterations, .starts. Statuses:
+    "reached"; "limit", reached only beyond the limits; "singular", the search was stuck though the
+    pose lies within reach; "out_of_reach".
+
+Examples
+--------
+>>> import bathyal
+>>> arm = bathyal.arms.ur10e()
+>>> q = [0.3, -1.2, 1.4, -0.5, 1.0, 0.2]
+>>> found = arm.inverse(arm.forward(q), start=[0.2, -1, 1, 0, 1, 0])
+>>> found.status, found.q.round(5)
+('reached', array([ 0.3, -1.2,  1.4, -0.5,  1. ,  0.2]))
+>>> arm.inverse([3.0, 0, 0], task="position").status
+'out_of_reach'
+)";
+
 }  // namespace bathyal::python

@@ -19,22 +19,22 @@ enum class DhConvention {
 /// base_from_flange = root * row 1 * … * row m * flange.
 struct DhTable {
   DhConvention convention = DhConvention::kStandard;
-  std::vector<DhRow> rows;
-  std::vector<JointType> types;  ///< of each row
+  std::vector<DhRow> rows = {};
+  std::vector<JointType> types = {};  ///< of each row
   Pose root = Pose::Identity();
   Pose flange = Pose::Identity();
 };
 
 /// What is known of the joints and links beside the table; empty lists are unknown.
 struct DhArmOptions {
-  std::string name;
-  std::string source;
-  std::vector<std::string> names;  ///< of the rows; else "joint_1" …
-  std::vector<double> lower;       ///< [rad] or [m], one a row
-  std::vector<double> upper;
-  std::vector<double> velocity;  ///< [rad/s] or [m/s]
-  std::vector<double> effort;    ///< [N m] or [N]
-  std::vector<Link> links;       ///< one more than rows
+  std::string name = {};
+  std::string source = {};
+  std::vector<std::string> names = {};  ///< of the rows; else "joint_1" …
+  std::vector<double> lower = {};       ///< [rad] or [m], one a row
+  std::vector<double> upper = {};
+  std::vector<double> velocity = {};  ///< [rad/s] or [m/s]
+  std::vector<double> effort = {};    ///< [N m] or [N]
+  std::vector<Link> links = {};       ///< one more than rows
 };
 
 /// The arm of a table. A table in the modified convention is taken over exactly: the first row's a,

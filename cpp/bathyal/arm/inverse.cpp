@@ -69,6 +69,7 @@ InverseResult empty_result(std::size_t rows, Index size) {
   InverseResult result;
   result.q.setZero(static_cast<Index>(rows), size);
   result.status.resize(rows);
+  result.error.resize(rows);
   result.position_error.resize(rows);
   result.angle_error.resize(rows);
   result.iterations.resize(rows);

@@ -30,7 +30,8 @@ enum class InverseMethod {
 enum class InverseStatus {
   kReached,
   kLimit,       ///< reached by no start within the limits, and by one without them
-  kSingular,    ///< the search ends close to the target in a pose that cannot move towards it
+  kSingular,    ///< no start comes through, though the pose lies within the limits: the search is
+                ///< stuck
   kOutOfReach,  ///< no start comes to the target, with limits or without
 };
 
@@ -41,14 +42,15 @@ struct InverseOptions {
   InverseMethod method = InverseMethod::kDampedLeastSquares;
   Vec3 axis = Vec3::UnitZ();  ///< of kPositionAxis, in the tool's frame; any length but zero
   /// [m] above 0; when nothing is said 1e-6, and 1e-2 for kPseudoInverse as in the paper.
-  std::optional<double> position_tolerance;
-  std::optional<double> angle_tolerance;  ///< [rad] above 0; when nothing is said as many as above
-  int max_iterations = 60;                ///< of one start, 1 or more
-  int max_starts = 64;                    ///< 1 or more; the given one is the first
-  int candidates = 1;  ///< the search goes on until so many starts have reached, 1 or more
+  std::optional<double> position_tolerance = std::nullopt;
+  std::optional<double> angle_tolerance =
+      std::nullopt;         ///< [rad] above 0; when nothing is said as many as above
+  int max_iterations = 60;  ///< of one start, 1 or more
+  int max_starts = 64;      ///< 1 or more; the given one is the first
+  int candidates = 1;       ///< the search goes on until so many starts have reached, 1 or more
   /// Steps that a redundant arm takes towards the middle of its limits once it has reached, 0 or
   /// more; when nothing is said 0 from a given start, which it would leave, else 10.
-  std::optional<int> centering_steps;
+  std::optional<int> centering_steps = std::nullopt;
   int steps = 100;         ///< of kPseudoInverse along the line, 1 or more
   std::uint64_t seed = 0;  ///< of the starts
   int num_threads = 0;
@@ -60,6 +62,8 @@ struct InverseOptions {
 struct InverseResult {
   JointMatrix q;  ///< (N, n), within the limits; where nothing was reached, the nearest found
   std::vector<InverseStatus> status;
+  /// Left of position and angle together, a radian weighing a fifth of the lengths of the arm [m].
+  std::vector<double> error;
   std::vector<double> position_error;  ///< left at q [m]
   std::vector<double> angle_error;     ///< left at q [rad]; 0 for kPosition
   std::vector<int> iterations;         ///< over all starts

@@ -57,7 +57,7 @@ InverseProblem::InverseProblem(const Arm& arm, const InverseOptions& options)
       max_iterations(options.max_iterations) {
   for (std::size_t j = 0; j < size(); ++j) {
     const double width = upper[j] - lower[j];
-    wraps[j] = turns[j] != 0 && width >= kTurn - 1e-9 ? 1 : 0;
+    wraps[j] = turns[j] != 0 && width >= kTurn ? 1 : 0;
     middle[j] =
         std::isfinite(width) ? 0.5 * (lower[j] + upper[j]) : std::clamp(0.0, lower[j], upper[j]);
   }

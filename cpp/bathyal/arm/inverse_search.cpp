@@ -102,6 +102,7 @@ class Search final : public InverseRows {
     const TipState& state = w.solver.state();
     std::copy(w.best.begin(), w.best.end(), result.q.row(static_cast<Index>(row)).begin());
     result.status[row] = status;
+    result.error[row] = state.error();
     result.position_error[row] = state.position_error();
     result.angle_error[row] = state.angle_error();
     result.iterations[row] = w.iterations;

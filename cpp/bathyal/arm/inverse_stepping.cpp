@@ -57,6 +57,7 @@ class Stepping final : public InverseRows {
       singular = !advance(state, 1.0 / left, q);
     }
     result.q.row(static_cast<Index>(row)) = q.transpose();
+    result.error[row] = state.error();
     result.position_error[row] = state.position_error();
     result.angle_error[row] = state.angle_error();
     result.iterations[row] = iteration;

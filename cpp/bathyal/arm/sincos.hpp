@@ -11,7 +11,7 @@ struct SineCosine {
   typename V::D cosine;
 };
 
-/// Sine and cosine of every lane, within 1 ulp up to |x| = 1e5 and by the C library beyond; the
+/// Sine and cosine of every lane, within 1.5 ulp up to |x| = 1e5 and by the C library beyond; the
 /// same operations, and so the same bytes, in vectors of any width. Finite x only.
 ///
 /// The nearest multiple of pi/2 is taken off in three parts (Cody, Waite 1980): 33 bits each, so

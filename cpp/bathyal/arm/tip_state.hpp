@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cmath>
 #include <vector>
 
 #include "bathyal/arm/forward_kernel.hpp"
@@ -24,6 +25,7 @@ class TipState {
 
   double position_error() const { return position_error_; }  ///< [m]
   double angle_error() const { return angle_error_; }        ///< [rad]
+  double error() const { return std::sqrt(2.0 * cost()); }   ///< norm of the residual [m]
   /// Half the squared residual [m²].
   double cost() const {
     const double angle = task_.length * angle_error_;
