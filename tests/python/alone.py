@@ -17,6 +17,7 @@ from pathlib import Path
 
 SECONDS = 60
 MEMORY = 2 << 30
+ARGUMENT = re.compile(r"`[^`]+`: expected .+, got .+", re.DOTALL)  # how a mistake is told
 
 
 @dataclass(frozen=True)
@@ -52,6 +53,8 @@ def judge(case: Case) -> str:
             return "".join(traceback.format_exception(error))
         if not re.search(case.says, str(error)):
             return f"the error does not say {case.says!r}: {error}"
+        if isinstance(error, ValueError) and not ARGUMENT.match(str(error)):
+            return f"the error does not name its argument, what it expected and got: {error}"
         return ""
     return f"no error, but {answer!r}" if case.errors else ""
 

@@ -14,6 +14,7 @@ import pytest
 import bathyal
 import scenes
 from bathyal import decimation, figures, map_figure, relief, stations, views
+from bathyal.page import write_html
 from bathyal.palette import GAP, INK, SEGMENTS
 from bathyal.window import map_window
 
@@ -229,9 +230,7 @@ def traces(figure) -> list[dict]:
 def test_page_needs_no_network(tmp_path):
     surface, axes, path = scenes.planned()
     file = tmp_path / "plan.html"
-    views.write_html(
-        views.show_plan(surface, axes, path), file, title="a <b>", warnings=path.warnings
-    )
+    write_html(views.show_plan(surface, axes, path), file, title="a <b>", warnings=path.warnings)
     page = file.read_text()
     for tag in re.findall(r"<(?:script|link|img|iframe)\b[^>]*>", page):
         assert not re.search(r"""(?:src|href)\s*=\s*["']?(?:https?:)?//""", tag)

@@ -635,18 +635,18 @@ def test_huge_headers_take_no_memory(tmp_path):
 def test_arguments_are_named(tmp_path):
     path = tmp_path / "a.obj"
     bathyal.write_mesh(cube(), path)
-    with pytest.raises(ValueError, match=r"path: expected a mesh file \(.dae .obj .ply .stl .vtp"):
+    with pytest.raises(ValueError, match=r"`path`: expected a mesh file \(.dae .obj .ply .stl .vtp"):
         bathyal.read_mesh("a.xyz")
-    with pytest.raises(ValueError, match="path: expected a mesh file"):
+    with pytest.raises(ValueError, match="`path`: expected a mesh file"):
         bathyal.write_mesh(cube(), "a.dae")
     for scale in (0, -1, np.nan, np.inf):
-        with pytest.raises(ValueError, match="scale: expected"):
+        with pytest.raises(ValueError, match="`scale`: expected"):
             bathyal.read_mesh(path, scale=scale)
-    with pytest.raises(ValueError, match="up: expected"):
+    with pytest.raises(ValueError, match="`up`: expected"):
         bathyal.read_mesh(path, up="down")
     with pytest.raises(FileNotFoundError):
         bathyal.read_mesh(tmp_path / "none.ply")
     with pytest.raises(FileNotFoundError, match="cannot write"):
         bathyal.write_mesh(cube(), tmp_path / "no" / "a.ply")
-    with pytest.raises(ValueError, match="other than a coordinate"):
+    with pytest.raises(ValueError, match="`attributes`: expected names other"):
         bathyal.write_mesh(cube(attributes={"x": np.zeros(8)}), tmp_path / "x.ply")
