@@ -176,7 +176,10 @@ _TEXT_KEYWORDS = {
 
 
 def _factors(scale: float | Sequence[float] | None) -> NDArray[np.float64]:
-    factors = np.asarray(1.0 if scale is None else scale, np.float64)
+    try:
+        factors = np.asarray(1.0 if scale is None else scale, np.float64)
+    except (TypeError, ValueError):
+        factors = np.empty(0)
     if factors.shape not in ((), (3,)) or not np.all((factors > 0) & np.isfinite(factors)):
         raise argument_error("scale", "one or three finite numbers above 0", repr(scale))
     return np.broadcast_to(factors, (3,))

@@ -11,6 +11,7 @@ import re
 import resource
 import signal
 import traceback
+import warnings
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
@@ -84,3 +85,13 @@ def run_alone(case: Case, folder: Path) -> str:
     if not answer:
         return "ended without an answer"
     return str(pickle.loads(answer))
+
+
+def check(case: Case, folder: Path) -> None:
+    """Fail unless the case goes as it should and leaves no half-written file behind."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # of fork beside the pool's threads, which the child leaves
+        wrong = run_alone(case, folder)
+    assert not wrong, wrong
+    left_aside = [path.name for path in folder.rglob("*") if path.name.startswith(".")]
+    assert left_aside == []
