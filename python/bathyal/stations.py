@@ -111,3 +111,13 @@ def spread(points: Floats, count: int) -> NDArray[np.int64]:
     wanted = np.linspace(0.0, travelled[-1], max(count, 1))
     rows: NDArray[np.int64] = np.searchsorted(travelled, wanted)
     return np.unique(np.clip(rows, 0, len(points) - 1)).astype(np.int64)
+
+
+def axis_ends(aims: Floats, path: ToolPath) -> Floats:
+    """Where camera axes (K, 6) are drawn to [m]: their targets, or for those without one as far as
+    the others reach."""
+    targets = path.targets
+    hit = np.isfinite(targets.point).all(axis=1)
+    reach = float(np.median(targets.range[hit])) if hit.any() else 1.0
+    unit = aims[:, 3:] / np.linalg.norm(aims[:, 3:], axis=1, keepdims=True)
+    return np.where(hit[:, None], targets.point, aims[:, :3] + reach * unit)

@@ -11,12 +11,15 @@ from numpy.typing import NDArray
 
 from bathyal._core import ToolPath
 from bathyal.palette import DEPTH, GAP, INK, SEGMENTS
-from bathyal.stations import runs, spread
+from bathyal.stations import axis_ends, runs, spread
 
 Floats = NDArray[np.float64]
 
 ARROW = 0.035  # length of an approach arrow, as a share of the picture's size
 _APPROACH_ARROWS = 120
+# Path and targets are drawn so far above the bottom, as a share of the picture's size: on it, half
+# of them would be hidden in it. What hovering tells is where they are.
+_LIFT = 0.004
 
 
 def local(points: Floats, origin: Floats) -> NDArray[np.float32]:
@@ -51,9 +54,7 @@ def bottom_trace(
 def aim_traces(aims: NDArray[Any], path: ToolPath, origin: Floats) -> list[go.Scatter3d]:
     targets = path.targets
     hit = np.isfinite(targets.point).all(axis=1)
-    reach = float(np.median(targets.range[hit])) if hit.any() else 1.0
-    unit = aims[:, 3:] / np.linalg.norm(aims[:, 3:], axis=1, keepdims=True)
-    end = np.where(hit[:, None], targets.point, aims[:, :3] + reach * unit)
+    end = axis_ends(aims, path)
     traces = []
     for rows, colour, dash, name in (
         (hit, "#555555", "solid", "camera axis"),
@@ -76,28 +77,29 @@ def aim_traces(aims: NDArray[Any], path: ToolPath, origin: Floats) -> list[go.Sc
 
 def path_traces(path: ToolPath, origin: Floats, size: float) -> list[go.Scatter3d]:
     position, approach = np.asarray(path.position), np.asarray(path.approach)
-    traces = _segment_traces(path, origin)
+    lifted = position + approach * _LIFT * size
+    traces = _segment_traces(path, lifted, origin)
     gap = np.flatnonzero(path.gap)
     if len(gap):
         points = _joined(position[gap], position[gap + 1])
         traces.append(_line(points, origin, GAP, 5, "gap: no bottom known", dash="dash"))
     rows = spread(position, _APPROACH_ARROWS)
     tips = position[rows] + approach[rows] * ARROW * size
-    traces.append(_line(_joined(position[rows], tips), origin, INK, 2, "approach a_j"))
+    traces.append(_line(_joined(position[rows], tips), origin, INK, 2, "approach a<sub>j</sub>"))
     if not np.array_equal(path.position, path.surface):
         feet = _joined(path.surface[rows], position[rows])
         traces.append(_line(feet, origin, "#888888", 1.5, "standoff"))
-    traces.append(_target_trace(path, origin))
+    traces.append(_target_trace(path, origin, size))
     return traces
 
 
-def _segment_traces(path: ToolPath, origin: Floats) -> list[go.Scatter3d]:
+def _segment_traces(path: ToolPath, drawn: Floats, origin: Floats) -> list[go.Scatter3d]:
     """One trace a colour; each stretch ends with a row of NaN, which plotly does not draw over."""
     segment = np.asarray(path.segment)
     table = np.column_stack(
         [
             np.arange(len(segment)), segment, path.position, path.approach, path.travel,
-            path.arc_length, path.time,
+            path.arc_length, path.time, drawn,
         ]
     )  # fmt: skip
     nothing = np.full((1, table.shape[1]), np.nan)
@@ -108,14 +110,14 @@ def _segment_traces(path: ToolPath, origin: Floats) -> list[go.Scatter3d]:
     traces = []
     for number, (colour, parts) in enumerate(sorted(pieces.items())):
         rows = np.vstack(parts)
-        x, y, z = local(rows[:, 2:5], origin)
+        x, y, z = local(rows[:, 13:], origin)
         traces.append(
             go.Scatter3d(
                 x=x, y=y, z=z, mode="lines+markers", name="tool path, by segment",
                 legendgroup="path", showlegend=number == 0,
                 line={"color": SEGMENTS[colour], "width": 6},
                 marker={"color": SEGMENTS[colour], "size": 2},
-                customdata=rows, hovertemplate=_HOVER,
+                customdata=rows[:, :13], hovertemplate=_HOVER,
             )
         )  # fmt: skip
     return traces
@@ -130,10 +132,10 @@ _HOVER = (
 )
 
 
-def _target_trace(path: ToolPath, origin: Floats) -> go.Scatter3d:
+def _target_trace(path: ToolPath, origin: Floats, size: float) -> go.Scatter3d:
     targets = path.targets
     rows = np.flatnonzero(np.isfinite(targets.point).all(axis=1))
-    x, y, z = local(targets.point[rows], origin)
+    x, y, z = local(targets.point[rows] + targets.normal[rows] * _LIFT * size, origin)
     told = [
         f"A{row}: {targets.status[row]}<br>"
         + "({:.3f}, {:.3f}, {:.3f}) m".format(*targets.point[row])
@@ -142,9 +144,9 @@ def _target_trace(path: ToolPath, origin: Floats) -> go.Scatter3d:
         for row in rows
     ]
     return go.Scatter3d(
-        x=x, y=y, z=z, mode="markers+text", name="target A_i", text=[str(row) for row in rows],
-        textposition="top center", textfont={"size": 14, "color": INK}, hovertext=told,
-        hoverinfo="text",
+        x=x, y=y, z=z, mode="markers+text", name="target A<sub>i</sub>",
+        text=[str(row) for row in rows], textposition="top center",
+        textfont={"size": 14, "color": INK}, hovertext=told, hoverinfo="text",
         marker={"size": 6, "color": "white", "line": {"color": INK, "width": 2}},
     )  # fmt: skip
 

@@ -8,6 +8,7 @@ coordinates that would be steps of half a metre.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import product
 from typing import Any
 
 import numpy as np
@@ -18,6 +19,7 @@ from bathyal._core import Plane, PointCloud, Scene, ToolPath, TriangleMesh
 from bathyal.decimation import crop, decimate
 from bathyal.palette import INK
 from bathyal.relief import bounds
+from bathyal.stations import axis_ends
 from bathyal.traces import (
     ARROW,
     Floats,
@@ -27,12 +29,13 @@ from bathyal.traces import (
     local,
     path_traces,
 )
-from bathyal.window import surroundings
+from bathyal.window import surroundings, view_window
 
 # Triangles and points a browser still turns smoothly, and a page of less than ten megabytes.
 TRIANGLE_BUDGET = 90_000
 POINT_BUDGET = 120_000
 _STRETCHES = (1, 2, 5, 10, 20, 50)
+_ROOM = 1.1  # about the box, for the numbers on its axes
 
 
 def show_mesh(mesh: TriangleMesh) -> go.Figure:
@@ -85,15 +88,15 @@ def show_plan(surface: Scene | Plane, aims: NDArray[Any], path: ToolPath) -> go.
     path : ToolPath
     """
     aims = np.asarray(aims, float).reshape(-1, 6)
-    near = surroundings(path, aims)
     traces, notes, boxes = [], [], [path.surface, path.position, path.targets.point]
     if isinstance(surface, Plane):
-        vertices, triangles = _plane_patch(surface, *near)
+        vertices, triangles = _plane_patch(surface, *surroundings(path, aims))
         parts = [(vertices, triangles)]
         notes.append("the bottom is a plane")
     else:
         budget = TRIANGLE_BUDGET // len(surface.meshes)
-        cropped = [crop(mesh, *near) for mesh in surface.meshes]
+        corners = view_window(surface, aims, path)
+        cropped = [crop(mesh, *corners) for mesh in surface.meshes]
         total = sum(len(mesh.triangles) for mesh in surface.meshes)
         parts = [decimate(*part, budget) for part in cropped if len(part[1])]
         around = sum(len(part[1]) for part in cropped)
@@ -138,7 +141,7 @@ def _figure(
         scene={
             "aspectmode": "manual",
             "aspectratio": _aspect(size, 1),
-            "camera": {"eye": {"x": -0.75, "y": -1.15, "z": 0.85}},
+            "camera": {"eye": _eye(_aspect(size, 1))},
             **axes,
         },
         margin={"l": 0, "r": 0, "t": 36, "b": 0},
@@ -159,6 +162,23 @@ def _aspect(size: Floats, stretch: float) -> dict[str, float]:
     scaled = size * [1.0, 1.0, stretch]
     scaled = 1.9 * scaled / np.linalg.norm(scaled)
     return dict(zip("xyz", map(float, scaled), strict=True))
+
+
+def _eye(aspect: dict[str, float]) -> dict[str, float]:
+    """Where plotly's camera stands so that it sees the whole box, from the south-west above.
+
+    It looks at the box's middle with an angle of 45° from bottom to top; the page is at least a
+    third wider than high.
+    """
+    back = np.array([-0.75, -1.15, 0.85])
+    back /= np.linalg.norm(back)
+    right = np.cross([0.0, 0.0, 1.0], back)
+    right /= np.linalg.norm(right)
+    half = np.array([aspect[name] for name in "xyz"]) / 2
+    corners = half * np.array(list(product((-1, 1), repeat=3)))
+    off_axis = np.maximum(np.abs(corners @ np.cross(back, right)), np.abs(corners @ right) * 3 / 4)
+    distance = np.max(corners @ back + off_axis / np.tan(np.radians(45 / 2)))
+    return dict(zip("xyz", map(float, _ROOM * distance * back), strict=True))
 
 
 def _axis_title(name: str, offset: float) -> str:
@@ -183,13 +203,13 @@ def _box(points: Floats) -> tuple[Floats, Floats]:
 def _with_room(
     low: Floats, high: Floats, path: ToolPath, aims: NDArray[Any]
 ) -> tuple[Floats, Floats]:
-    """Corners that hold the arrows too, and the cameras as far as half the picture's size up."""
+    """Corners that hold the arrows too, and the camera axes as far as half the picture's size up
+    and a fifth of it beside."""
     size = float(np.max(high - low))
     tips = np.asarray(path.position) + np.asarray(path.approach) * ARROW * size
-    cameras = aims[np.isfinite(aims).all(axis=1), :3]
-    inside = cameras[
-        np.all((cameras >= low) & (cameras <= high), axis=1, where=[True, True, False])
-    ]
+    seen = np.vstack([aims[:, :3], axis_ends(aims, path)]) if len(aims) else tips
+    beside = np.abs(seen - (low + high) / 2)[:, :2] - (high - low)[:2] / 2
+    inside = seen[np.all(beside <= size / 5, axis=1)]
     inside = np.column_stack([inside[:, :2], np.minimum(inside[:, 2], high[2] + size / 2)])
     return _box(np.vstack([low, high, tips, inside]))
 
