@@ -56,11 +56,13 @@ def unroll(path: ToolPath) -> Stations:
     surface, segment = np.asarray(path.surface), np.asarray(path.segment)
     segments, first, counts = np.unique(segment, return_index=True, return_counts=True)
     last = first + counts - 1
-    start = surface[first]
-    span = (surface[last] - start) * [1.0, 1.0, 0.0]
+    start, finish = surface[first], surface[last]
+    joined = np.flatnonzero(~np.asarray(path.gap, bool)[last[:-1]])
+    finish[joined] = start[joined + 1]  # the target between two segments is the next one's sample
+    span = (finish - start) * [1.0, 1.0, 0.0]
     length = np.linalg.norm(span, axis=1)
     along = np.divide(span, length[:, None], out=np.zeros_like(span), where=length[:, None] > 0)
-    between = np.linalg.norm((start[1:] - surface[last[:-1]])[:, :2], axis=1)
+    between = np.linalg.norm((start[1:] - finish[:-1])[:, :2], axis=1)
     begin = np.concatenate([[0.0], np.cumsum(length[:-1] + between)])
 
     of_point = np.searchsorted(segments, segment)

@@ -357,3 +357,17 @@ def test_an_axis_that_misses_is_in_the_picture():
     x = numbers(lost["x"])
     low, high = figure.layout.scene.xaxis.range
     assert low <= x[:2].min() <= x[:2].max() == 21.5 <= high
+
+
+def test_the_section_goes_on_from_segment_to_segment_unless_a_gap_parts_them():
+    _, _, path = scenes.planned(hole=False, miss=False, step=0.7)
+    whole = stations.unroll(path)
+    np.testing.assert_array_equal(whole.end[:-1], whole.begin[1:])
+    known = path.targets.point[:, :2]
+    lengths = np.linalg.norm(np.diff(known, axis=0), axis=1)
+    np.testing.assert_allclose(whole.end - whole.begin, lengths, atol=1e-9)
+    axes = np.insert(scenes.aims(miss=False), 1, [60.0, 3, -20, 0, 0, -1], axis=0)
+    parted = stations.unroll(bathyal.plan_toolpath(scenes.bottom(hole=False), axes, step=0.7))
+    assert len(parted.begin) == 2
+    assert parted.begin[1] == pytest.approx(np.linalg.norm(known[1] - known[0]))
+    assert parted.end[0] == 0.0
