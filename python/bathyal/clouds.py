@@ -91,7 +91,7 @@ def read_cloud(
     >>> bathyal.read_cloud(path, z="down").points.tolist()
     [[620153.873, 7246503.912, -51.987]]
     """
-    suffix = known_suffix(path, _READERS, "point")
+    suffix = known_suffix(path, (*_TEXT, *_GRIDS, *_READERS), "point")
     _check_keywords(suffix, columns, band, text)
     if z not in (None, "up", "down"):
         raise argument_error("z", '"up" or "down"', repr(z))
@@ -237,9 +237,8 @@ def _write_csv(cloud: PointCloud, path: PathLike) -> None:
     write_text(path, cloud, separator=",", notes=notes_of(cloud))
 
 
-_READERS: dict[str, Callable[..., Soundings]] = {
-    **dict.fromkeys(_TEXT, read_text),
-    **dict.fromkeys(_GRIDS, read_geotiff),
+# Of the formats that take no keyword of their own.
+_READERS: dict[str, Callable[[PathLike], Soundings]] = {
     ".bag": read_bag,
     ".las": read_las,
     ".laz": read_las,

@@ -16,7 +16,7 @@ import plotly.graph_objects as go  # type: ignore[import-untyped]
 from numpy.typing import NDArray
 
 from bathyal._core import Plane, PointCloud, Scene, ToolPath, TriangleMesh
-from bathyal.decimation import crop, decimate
+from bathyal.decimation import Indices, crop, decimate
 from bathyal.palette import INK
 from bathyal.relief import bounds
 from bathyal.stations import axis_ends
@@ -81,37 +81,39 @@ def show_plan(surface: Scene | Plane, aims: NDArray[Any], path: ToolPath) -> go.
     Parameters
     ----------
     surface : Scene or Plane
-        What the path was planned on. Around the path it is shown in full or, above
-        `TRIANGLE_BUDGET` triangles, decimated; the title says which.
+        What the path was planned on. Of a survey much wider than the path only its surroundings
+        are shown; above `TRIANGLE_BUDGET` triangles they are decimated. The title says so.
     aims : (K, 6) array
         In the frame of the surface [m].
     path : ToolPath
     """
     aims = np.asarray(aims, float).reshape(-1, 6)
-    traces, notes, boxes = [], [], [path.surface, path.position, path.targets.point]
-    if isinstance(surface, Plane):
-        vertices, triangles = _plane_patch(surface, *surroundings(path, aims))
-        parts = [(vertices, triangles)]
-        notes.append("the bottom is a plane")
-    else:
-        budget = TRIANGLE_BUDGET // len(surface.meshes)
-        corners = view_window(surface, aims, path)
-        cropped = [crop(mesh, *corners) for mesh in surface.meshes]
-        total = sum(len(mesh.triangles) for mesh in surface.meshes)
-        parts = [decimate(*part, budget) for part in cropped if len(part[1])]
-        around = sum(len(part[1]) for part in cropped)
-        notes.append(_triangle_note(sum(len(part[1]) for part in parts), around, total))
-    boxes += [part[0] for part in parts]
-    low, high = _box(np.vstack(boxes))
+    parts, note = _bottom_parts(surface, aims, path)
+    vertices = [part[0] for part in parts]
+    low, high = _box(np.vstack([path.surface, path.position, path.targets.point, *vertices]))
     size = float(np.max(high - low))
     low, high = _with_room(low, high, path, aims)
     origin = _origin(low, high)
-    heights = [part[0][:, 2] for part in parts] or [np.zeros(1)]
-    limits = tuple(np.quantile(np.concatenate(heights), [0.002, 0.998]) - origin[2])
+    heights = np.concatenate([[], *(corners[:, 2] for corners in vertices)])
+    limits = tuple(np.quantile(heights, [0.002, 0.998]) - origin[2]) if len(heights) else None
     traces = [bottom_trace(*part, origin, limits) for part in parts]
     traces += aim_traces(aims, path, origin)
     traces += path_traces(path, origin, size)
-    return _figure(traces, low, high, origin, "; ".join(notes))
+    return _figure(traces, low, high, origin, note)
+
+
+def _bottom_parts(
+    surface: Scene | Plane, aims: Floats, path: ToolPath
+) -> tuple[list[tuple[Floats, Indices]], str]:
+    """Vertices and triangles of each mesh as it is shown, and a note of how much that is."""
+    if isinstance(surface, Plane):
+        return [_plane_patch(surface, *surroundings(path, aims))], "the bottom is a plane"
+    corners = view_window(surface, aims, path)
+    cropped = [crop(mesh, *corners) for mesh in surface.meshes]
+    budget = TRIANGLE_BUDGET // len(surface.meshes)
+    parts = [decimate(*part, budget) for part in cropped if len(part[1])]
+    shown, around = (sum(len(part[1]) for part in some) for some in (parts, cropped))
+    return parts, _triangle_note(shown, around, sum(len(mesh.triangles) for mesh in surface.meshes))
 
 
 def _figure(
@@ -223,7 +225,7 @@ def _triangle_note(shown: int, around: int, total: int | None = None) -> str:
     return note
 
 
-def _plane_patch(plane: Plane, low: Floats, high: Floats) -> tuple[Floats, NDArray[np.int32]]:
+def _plane_patch(plane: Plane, low: Floats, high: Floats) -> tuple[Floats, Indices]:
     corners = np.array([[low[0], low[1]], [high[0], low[1]], [high[0], high[1]], [low[0], high[1]]])
     height = (plane.offset - corners @ plane.normal[:2]) / plane.normal[2]
     return np.column_stack([corners, height]), np.array([[0, 1, 2], [0, 2, 3]], np.int32)
