@@ -134,7 +134,7 @@ def _figure(
         f"{name}axis": {
             "title": {"text": _axis_title(name, offset)}, "range": [a - offset, b - offset],
             "backgroundcolor": "#f3f3f1", "gridcolor": "#dddddd", "zerolinecolor": "#dddddd",
-            "nticks": 3 if name == "z" else 7,
+            "nticks": 7 if name != "z" else 3 if size[2] > max(size) / 8 else 2,
         }
         for name, offset, a, b in zip("xyz", origin, low, high, strict=True)
     }  # fmt: skip
