@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
+#include "bathyal/base/page_array.hpp"
 #include "bathyal/scene/nodes.hpp"
-#include "bathyal/scene/page_array.hpp"
 #include "bathyal/scene/scene.hpp"
 #include "bathyal/scene/winding.hpp"
 
@@ -49,8 +49,8 @@ struct Scene::Hierarchy {
   Vec3 origin = Vec3::Zero();  ///< of the local frame, in the world: whole metres
   Vec3 low = Vec3::Zero();     ///< box of all triangles in the local frame, exact up to double
   Vec3 high = Vec3::Zero();
-  scene::PageArray<scene::WideNode> nodes;
-  scene::PageArray<scene::TriangleBlock> blocks;
+  PageArray<scene::WideNode> nodes;
+  PageArray<scene::TriangleBlock> blocks;
   scene::Clusters clusters;  ///< for winding numbers; made when first asked for
 };
 
