@@ -30,16 +30,24 @@ struct Scene::Hierarchy {
     return scene::name_of(arrays.data(), static_cast<std::int32_t>(arrays.size()), primitive);
   }
 
-  /// The triangle's three corners in the world [m], as the mesh has them.
-  std::array<Vec3, 3> corners(std::uint32_t primitive) const {
-    const auto [mesh, triangle] = name(primitive);
-    const scene::MeshArrays& m = arrays[static_cast<std::size_t>(mesh)];
-    const std::int32_t* index = m.triangles + 3 * std::int64_t{triangle};
-    const auto corner = [&](int c) {
-      return Vec3(Eigen::Map<const Vec3>(m.vertices + 3 * std::int64_t{index[c]}));
-    };
-    return {corner(0), corner(1), corner(2)};
+  /// The triangle's row in its mesh, and the vertices that it counts.
+  struct Row {
+    const double* vertices;
+    const std::int32_t* index;
+
+    const double* corner(int c) const { return vertices + 3 * std::int64_t{index[c]}; }
+  };
+  Row row(const scene::PrimitiveName& name) const {
+    const scene::MeshArrays& mesh = arrays[static_cast<std::size_t>(name.mesh)];
+    return {mesh.vertices, mesh.triangles + 3 * std::int64_t{name.triangle}};
   }
+  Row row(std::uint32_t primitive) const { return row(name(primitive)); }
+
+  /// The triangle's three corners in the world [m], as the mesh has them.
+  static std::array<Vec3, 3> corners(const Row& row) {
+    return {Vec3(row.corner(0)), Vec3(row.corner(1)), Vec3(row.corner(2))};
+  }
+  std::array<Vec3, 3> corners(std::uint32_t primitive) const { return corners(row(primitive)); }
 
   std::size_t memory() const { return nodes.bytes() + blocks.bytes() + clusters.bytes(); }
 
