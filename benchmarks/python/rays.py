@@ -1,14 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Rays and nearest points against Open3D and embreex: ``python benchmarks/python/rays.py``.
 
-Peers, both on Embree, from PyPI (``pip install open3d-cpu embreex``), in the same run, on the same triangles and
-rays. Every call starts from numpy arrays in the peer's own precision (float32; ours float64) and
-ends with its result structs: Open3D computes ranges, numbers, normals and (u, v) in the call,
-embreex ranges, numbers, normals and (u, v), ours ranges, numbers and (u, v), the rest when first
-asked for; the last column asks for normals and points as well. embreex has no threads. Hits are
-compared before any time is printed: peers decide in float32, so a ray in 10 000 may differ at the
-border of a triangle or a shadow, and ranges by a centimetre. Of the nearest points, which embreex
-does not have, distances are compared: they may differ by float32's digits.
+Peers, both on Embree, from PyPI (``pip install open3d-cpu embreex``), in the same run, on the same
+triangles and rays. Every call starts from numpy arrays in the peer's own precision (float32; ours
+float64) and ends with its result structs: Open3D computes ranges, numbers, normals and (u, v) in
+the call, embreex ranges, numbers, normals and (u, v), ours ranges, numbers and (u, v), the rest
+when first asked for; the last column asks for normals and points as well. embreex has no threads.
+Hits are compared before any time is printed: peers decide in float32, so a ray in 10 000 may differ
+at the border of a triangle or a shadow, and ranges by a centimetre. Of the nearest points, which
+embreex does not have, distances are compared: they may differ by float32's digits.
 """
 
 import argparse
