@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <limits>
 
@@ -68,9 +69,10 @@ class Nearness {
         squared += m * m;
       }
       const Float4 h = min4(h0, min4(h1, h2));
-      // Below a length of 10⁻¹⁰ m the square of m is short of digits.
-      const Int4 is_clear = (h > Float4{}) & (squared > all4(1e-20F));
-      const Float4 bound = is_clear ? h * h / squared : Float4{};
+      // The square of m is short of digits below a length of 10⁻¹⁰ m, and infinite far away.
+      constexpr float kLargest = std::numeric_limits<float>::max();
+      const Int4 is_known = (h > Float4{}) & (squared > all4(1e-20F)) & (squared <= all4(kLargest));
+      const Float4 bound = is_known ? h / squared * h : Float4{};
       __builtin_memcpy(bounds.data() + i, &bound, sizeof bound);
     }
   }
