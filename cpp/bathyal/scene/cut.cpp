@@ -15,8 +15,6 @@ constexpr unsigned kRight = 4;     // the same, on the right
 constexpr unsigned kSliver = 8;    // lies in the plane and has no width
 constexpr unsigned kCovered = 16;  // its longest edge, which its other two cover
 
-double reach(const Vec3& v) { return v.cwiseAbs().maxCoeff(); }
-
 /// Weyl's multiplier of the golden ratio spreads each word; the high half is the well mixed one.
 std::uint64_t mix(std::uint64_t hash, std::uint64_t value) {
   return (std::rotl(hash, 23) ^ value) * 0x9e3779b97f4a7c15U;

@@ -15,6 +15,9 @@ inline bool precedes(const Vec3& a, const Vec3& b) {
   return a.y() != b.y() ? a.y() < b.y() : a.z() < b.z();
 }
 
+/// Largest coordinate: what a point's rounding is a part of.
+inline double reach(const Vec3& point) { return point.cwiseAbs().maxCoeff(); }
+
 /// Where a section cuts: a plane and, between two points, the strip of it that is kept.
 class Cutter {
  public:
@@ -83,7 +86,6 @@ class Cutter {
   static constexpr double kVertexRounding = 8.0 * std::numeric_limits<double>::epsilon();
   static constexpr double kPointRounding = 256.0 * std::numeric_limits<double>::epsilon();
 
-  static double reach(const Vec3& v) { return v.cwiseAbs().maxCoeff(); }
   static Vec3 cut_between(const Vec3& v0, double p0, const Vec3& v1, double p1) {
     // t = r · (A − V0) / r · (V1 − V0). The paper prints |OA · r| over a normalised edge, which is
     // wrong for half of all planes.

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -27,10 +26,9 @@ class Gauge {
       rising_[axis] = direction_[axis][0] >= 0.0F;
     }
     offset_ = all4(static_cast<float>(offset));
-    const double reach =
-        std::max(hierarchy.low.lpNorm<Eigen::Infinity>(), hierarchy.high.lpNorm<Eigen::Infinity>());
     constexpr double kRounding = 16.0 * std::numeric_limits<float>::epsilon();
-    const auto margin = static_cast<float>(kRounding * (reach + std::abs(offset)) + scale * slack);
+    const auto margin =
+        static_cast<float>(kRounding * (hierarchy.reach() + std::abs(offset)) + scale * slack);
     bottom_ = all4(-margin);
     top_ = all4(static_cast<float>(length) + margin);
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <span>
 #include <vector>
@@ -13,7 +14,7 @@
 namespace bathyal {
 
 /// The bounding volume hierarchy of a scene: eight boxes a node, one block of up to eight triangles
-/// a leaf. `nodes()[0]` is the root; there is no node when there is no triangle. A node comes
+/// a leaf. `nodes[0]` is the root; there is no node when there is no triangle. A node comes
 /// before its children, so a loop from the last node to the first sees children before parents, and
 /// every block belongs to exactly one lane of one node. The same bytes for any number of threads.
 ///
@@ -48,6 +49,9 @@ struct Scene::Hierarchy {
     return {Vec3(row.corner(0)), Vec3(row.corner(1)), Vec3(row.corner(2))};
   }
   std::array<Vec3, 3> corners(std::uint32_t primitive) const { return corners(row(primitive)); }
+
+  /// Largest coordinate of any triangle in the local frame [m].
+  double reach() const { return std::max(low.cwiseAbs().maxCoeff(), high.cwiseAbs().maxCoeff()); }
 
   std::size_t memory() const { return nodes.bytes() + blocks.bytes() + clusters.bytes(); }
 

@@ -78,8 +78,6 @@ ClosestPoint closest_point(const std::array<Vec3, 3>& corners, const Vec3& query
 
 namespace {
 
-double reach(const Vec3& v) { return v.cwiseAbs().maxCoeff(); }
-
 /// A node, or ~block, that may hold something nearer.
 struct Waiting {
   float bound;

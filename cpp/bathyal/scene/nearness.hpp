@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <limits>
 
@@ -25,9 +24,7 @@ class Nearness {
     // Differences of rounded coordinates, and their products with a direction, are off by less than
     // 18 ε · (the largest coordinate of the query + that of the scene).
     constexpr double kRounding = 32.0 * std::numeric_limits<float>::epsilon();
-    slack_ = kRounding *
-             (query.lpNorm<Eigen::Infinity>() + std::max(hierarchy.low.lpNorm<Eigen::Infinity>(),
-                                                         hierarchy.high.lpNorm<Eigen::Infinity>()));
+    slack_ = kRounding * (query.lpNorm<Eigen::Infinity>() + hierarchy.reach());
   }
 
   /// The largest bound of what is within `distance` [m].

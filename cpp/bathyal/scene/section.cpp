@@ -15,9 +15,7 @@ using scene::Gauge;
 
 /// Largest coordinate of the scene in the world [m].
 double reach_of(const Scene::Hierarchy& hierarchy) {
-  return hierarchy.origin.lpNorm<Eigen::Infinity>() +
-         std::max(hierarchy.low.lpNorm<Eigen::Infinity>(),
-                  hierarchy.high.lpNorm<Eigen::Infinity>());
+  return scene::reach(hierarchy.origin) + hierarchy.reach();
 }
 
 /// The blocks whose boxes the section may cut. Breadth first: by the time a node is looked at it
