@@ -55,8 +55,10 @@ class TextBlocks {
   /// Lets the front of the block in hand fall away (a header that has been dealt with).
   void skip(std::size_t bytes);
 
-  static constexpr std::size_t kBlock = std::size_t{4} << 20U;
-  static constexpr std::size_t kPart = std::size_t{256} << 10U;
+  /// Two of them and what they are parsed to stay in a core's cache; less would make the threads
+  /// wait for one another more often.
+  static constexpr std::size_t kBlock = std::size_t{2} << 20U;
+  static constexpr std::size_t kPart = std::size_t{128} << 10U;
 
  private:
   struct Buffer {
