@@ -6,6 +6,7 @@
 #include "bathyal/soundings/byte_source.hpp"
 #include "bathyal/soundings/field_ends.hpp"
 #include "bathyal/soundings/parse_number.hpp"
+#include "bathyal/soundings/plain_decimal.hpp"
 #include "bathyal/soundings/text_blocks.hpp"
 
 namespace bathyal {
@@ -38,17 +39,17 @@ class PlainRows {
   /// read_line must look at; then `seek` says where to go on.
   const char* read(const char* line, double* row) {
     if (!any_) return nullptr;
-    const char* end = line - 1;
-    for (std::size_t i = 0; i < slots_.size(); ++i) {
-      if (i > 0 && is_line_end(*end)) return nullptr;
-      const char* const begin = end + 1;
+    const char* begin = line;
+    const char* end = line;
+    for (std::size_t i = 0; i < slots_.size(); ++i, begin = end + 1) {
+      if (i > 0 && is_line_end(*end)) return nullptr;  // fewer columns than there should be
       end = ends_.next();
       const Index slot = slots_[i];
       const bool plain = slot >= 0 ? read_number(begin, end, row[slot]) : is_plain_text(begin, end);
       if (!plain) return nullptr;
     }
     if (!is_line_end(*end)) {  // a separator, or blanks, at the end of the line
-      const char* const begin = skip_blanks(end + 1);
+      begin = skip_blanks(begin);
       end = ends_.next();
       if (begin != end || !is_line_end(*end)) return nullptr;
     }

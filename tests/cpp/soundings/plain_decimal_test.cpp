@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "bathyal/soundings/plain_decimal.hpp"
+
 #include <gtest/gtest.h>
 
 #include <bit>
