@@ -14,6 +14,11 @@ namespace bathyal {
 /// Longest line, or longest run without a blank where blanks are what counts [bytes].
 inline constexpr std::size_t kLongestPiece = std::size_t{1} << 20U;
 
+/// Alignment of what a part of a block is parsed to: its counters change with every number, and a
+/// cache line (or the pair of them that is fetched together) that two threads write costs more than
+/// the second thread gains [bytes].
+inline constexpr std::size_t kPartAlignment = 128;
+
 /// Where a text may be cut between two threads.
 enum class TextCut { kLine, kBlank };
 
