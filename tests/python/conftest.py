@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
@@ -23,3 +25,13 @@ def job(tmp_path_factory):
     write_aims(scenes.aims(offset=scenes.UTM), folder / "aims.csv")
     write_aims(scenes.aims(offset=scenes.UTM, miss=False), folder / "found.csv")
     return folder
+
+
+@pytest.fixture
+def write(tmp_path: Path):
+    def write_file(content: str | bytes, name: str = "f.xyz") -> Path:
+        path = tmp_path / name
+        path.write_bytes(content.encode() if isinstance(content, str) else content)
+        return path
+
+    return write_file
