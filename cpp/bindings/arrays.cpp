@@ -115,6 +115,17 @@ Vec3 vector_argument(std::string_view name, const py::object& object) {
   return vector;
 }
 
+Pose pose_argument(std::string_view name, const py::object& object) {
+  Pose pose = Pose::Identity();
+  if (object.is_none()) return pose;
+  const auto table = table_argument(name, object, 4);
+  if (table.rows() != 4) {
+    throw_argument(name, "shape (4, 4)", "shape (" + std::to_string(table.rows()) + ", 4)");
+  }
+  pose.matrix() = table;
+  return pose;
+}
+
 Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> table_argument(
     std::string_view name, const py::object& object, Index columns) {
   const std::string expected = "real numbers of shape (N, " + std::to_string(columns) + ")";
@@ -140,17 +151,6 @@ Rows rows_argument(std::string_view name, const py::object& object, Index column
   rows.table = Eigen::Map<const decltype(rows.table)>(typed.data(),
                                                       rows.single ? 1 : array.shape(0), columns);
   return rows;
-}
-
-Pose pose_argument(std::string_view name, const py::object& object) {
-  Pose pose = Pose::Identity();
-  if (object.is_none()) return pose;
-  const auto table = table_argument(name, object, 4);
-  if (table.rows() != 4) {
-    throw_argument(name, "shape (4, 4)", "shape (" + std::to_string(table.rows()) + ", 4)");
-  }
-  pose.matrix() = table;
-  return pose;
 }
 
 }  // namespace bathyal::python
