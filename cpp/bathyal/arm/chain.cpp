@@ -8,7 +8,7 @@
 
 #include "bathyal/arm/check_rigid.hpp"
 #include "bathyal/arm/row_frames.hpp"
-#include "bathyal/base/error.hpp"
+#include "bathyal/base/check.hpp"
 
 namespace bathyal {
 namespace {
@@ -78,9 +78,9 @@ DhRow row_of_parallel(const Line& next) {
   return row;
 }
 
-DhRow row_to(const Line& next) {
-  return next.direction.head<2>().norm() < kNearlyParallel ? row_of_parallel(next)
-                                                           : row_of_normal(next);
+DhRow row_to(const Line& next, double nearly_parallel) {
+  const double sine = next.direction.head<2>().norm();
+  return sine < nearly_parallel || sine == 0.0 ? row_of_parallel(next) : row_of_normal(next);
 }
 
 /// The row that ends the table: along and about the last axis only, to the frame of the last link.
@@ -217,7 +217,10 @@ void attach(Link& link, const Pose& link_from_body, const Link& body) {
   link.frames.insert(link.frames.end(), here.frames.begin(), here.frames.end());
 }
 
-Arm arm_from_chain(const JointChain& chain) {
+void ChainOptions::check() const { check_range("nearly_parallel", nearly_parallel, 0.0, 0.5); }
+
+Arm arm_from_chain(const JointChain& chain, const ChainOptions& options) {
+  options.check();
   check_chain(chain);
   MovingChain moving = without_fixed(chain);
   const std::size_t count = moving.joints.size();
@@ -229,8 +232,9 @@ Arm arm_from_chain(const JointChain& chain) {
   for (std::size_t k = 0; k < count; ++k) {
     const Pose before_from_joint = before_from_link * moving.parent_from_joint[k];
     DhRow& row = moving.joints[k].row;
-    row = k + 1 < count ? row_to(before_from_joint * axis_before(moving, k + 1))
-                        : last_row(before_from_joint);
+    row = k + 1 < count
+              ? row_to(before_from_joint * axis_before(moving, k + 1), options.nearly_parallel)
+              : last_row(before_from_joint);
     // What the row, rounded, does not tell stays in the link's frame: nothing adds up.
     const Pose row_from_before = row_pose(row, moving.joints[k].type, 0.0).inverse();
     before_from_link = row_from_before * before_from_joint;

@@ -40,11 +40,20 @@ struct JointChain {
   std::vector<ChainLink> links;
 };
 
+struct ChainOptions {
+  /// Neighbouring axes whose directions have a sine below this take Hayati's row [0 to 0.5]; 0
+  /// leaves that to axes that are parallel to the last digit: a plain table, whose d grows beyond
+  /// measure with nearly parallel axes.
+  double nearly_parallel = kNearlyParallel;
+
+  void check() const;
+};
+
 /// The arm that moves as the chain does, to rounding, links included.
 ///
 /// Rows follow the common normals of neighbouring axes (Denavit, Hartenberg 1955); of the two
 /// tables that tell one normal (theta and alpha turned round, a negated) the one with theta in
-/// (-pi/2, pi/2] (to 1e-6). Neighbours within `kNearlyParallel` of parallel or antiparallel take
+/// (-pi/2, pi/2] (to 1e-6). Neighbours within `nearly_parallel` of parallel or antiparallel take
 /// Hayati's row, in which d is 0 and beta tilts the axis; coincident ones among them have a = theta
 /// = 0. Where the z axis of links[0] is the first axis, `root` is the identity. The last row ends
 /// in the origin of the last link that moves, turned about its axis only; the rest is `flange`.
@@ -53,7 +62,7 @@ struct JointChain {
 /// inertia, volume and centres are added up.
 /// \throw std::invalid_argument for what Arm refuses, an axis without direction, an origin that is
 ///        not rigid, a number of links other than joints + 1.
-Arm arm_from_chain(const JointChain& chain);
+Arm arm_from_chain(const JointChain& chain, const ChainOptions& options = {});
 
 /// The chain that moves as the arm does, `base` and `tool` left out. Every row is one joint (fixed
 /// ones stay). A link keeps its own frame where that stands on the axis of its joint, as in a

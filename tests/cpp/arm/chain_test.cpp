@@ -193,6 +193,23 @@ TEST(ArmFromChain, NearlyParallelAxesTakeHayatisRow) {
   }
 }
 
+TEST(ArmFromChain, GivesAPlainTableOnRequest) {
+  for (std::uint64_t seed = 0; seed < 300; ++seed) {
+    SCOPED_TRACE(seed);
+    JointChain chain = random_chain(seed);
+    const Arm arm = arm_from_chain(chain, {0.0});
+    double longest = 1.0;
+    for (const Joint& joint : arm.joints()) {
+      EXPECT_LE(std::abs(joint.row.beta), 1e-15);
+      longest = std::max({longest, std::abs(joint.row.d), std::abs(joint.row.a)});
+    }
+    expect_same_motion(chain, arm, 1e-13 * longest);
+  }
+  EXPECT_THROW(arm_from_chain(random_chain(0), {-1.0}), std::invalid_argument);
+  EXPECT_THROW(arm_from_chain(random_chain(0), {std::numeric_limits<double>::quiet_NaN()}),
+               std::invalid_argument);
+}
+
 TEST(ArmFromChain, FindsTheTableAMakerWouldWrite) {
   // The shoulder and elbow of a UR10e as its URDF has them.
   JointChain chain;
