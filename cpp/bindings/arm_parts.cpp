@@ -11,18 +11,9 @@
 #include "arrays.hpp"
 #include "bathyal/arm/chain.hpp"
 #include "bathyal/base/error.hpp"
-#include "bindings.hpp"
-#include "words.hpp"
 
 namespace bathyal::python {
 namespace {
-
-const Words<JointType>& type_words() {
-  static const Words<JointType> words{{"revolute", JointType::kRevolute},
-                                      {"prismatic", JointType::kPrismatic},
-                                      {"fixed", JointType::kFixed}};
-  return words;
-}
 
 // From Python -----------------------------------------------------------------------------------
 
@@ -245,6 +236,13 @@ py::dict chain_parts(const JointChain& chain) {
 }
 
 }  // namespace
+
+const Words<JointType>& type_words() {
+  static const Words<JointType> words{{"revolute", JointType::kRevolute},
+                                      {"prismatic", JointType::kPrismatic},
+                                      {"fixed", JointType::kFixed}};
+  return words;
+}
 
 py::dict arm_parts(const Arm& arm) {
   py::list joints, links;
