@@ -70,7 +70,7 @@ class Fields {
 
   py::list list(const char* key) {
     const py::object object = take(key);
-    if (object.is_none()) return {};
+    if (object.is_none()) return py::list();
     if (!py::isinstance<py::list>(object)) {
       throw_argument(name(key), "a list", py::repr(object).cast<std::string>());
     }
