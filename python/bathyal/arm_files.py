@@ -165,7 +165,7 @@ def write_arm(arm: Arm, path: PathLike, *, nominal: Arm | None = None) -> None:
 
 def _write_json(arm: Arm, path: PathLike) -> None:
     with replacing(path) as aside:
-        aside.write_text(json.dumps(_told(arm), indent=1, allow_nan=False), encoding="utf-8")
+        aside.write_text(_laid_out(_told(arm)) + "\n", encoding="utf-8")
 
 
 _WRITERS: dict[str, Callable[[Arm, PathLike], object]] = {
@@ -183,6 +183,18 @@ def _told(arm: Arm) -> dict[str, Any]:
         link["frames"] = [_renamed(frame, _FRAME_KEYS) for frame in link["frames"]]
     parts["links"] = [_renamed(link, _LINK_KEYS) for link in parts["links"]]
     return {"format": _FORMAT, "version": _VERSION, **_renamed(parts, _ARM_KEYS)}
+
+
+def _laid_out(value: Any, indent: str = "") -> str:
+    """JSON as a person would set it: a line for a key, and one for a row of numbers."""
+    deeper = indent + "  "
+    if isinstance(value, dict) and value:
+        lines = [f"{deeper}{json.dumps(key)}: {_laid_out(value[key], deeper)}" for key in value]
+        return "{\n" + ",\n".join(lines) + f"\n{indent}}}"
+    if isinstance(value, list) and any(isinstance(item, (dict, list)) for item in value):
+        lines = [deeper + _laid_out(item, deeper) for item in value]
+        return "[\n" + ",\n".join(lines) + f"\n{indent}]"
+    return json.dumps(value, allow_nan=False, ensure_ascii=False)
 
 
 def _renamed(parts: dict[str, Any], keys: dict[str, str]) -> dict[str, Any]:

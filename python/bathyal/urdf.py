@@ -243,6 +243,8 @@ def _joint(tree: _Tree, joint: Any, coordinates: dict[str, int]) -> dict[str, An
     lower, upper = _limits(joint)
     if leader is not joint:
         told["follows"] = leader.name
+        if multiplier == 0:
+            raise Error(f"joint {joint.name}: it mimics {leader.name} with multiplier 0")
         ends = sorted(multiplier * end + offset for end in _limits(leader))
         lower, upper = max(lower, ends[0]), min(upper, ends[1])
     return told | {
@@ -262,9 +264,8 @@ def _leader(tree: _Tree, joint: Any) -> tuple[Any, float, float]:
     multiplier, offset = 1.0, 0.0
     seen = {joint.name}
     while joint.mimic is not None:
-        multiplier, offset = multiplier * joint.mimic.multiplier, (
-            multiplier * joint.mimic.offset + offset
-        )
+        offset += multiplier * joint.mimic.offset
+        multiplier *= joint.mimic.multiplier
         follower, joint = joint, tree.joints.get(joint.mimic.joint)
         if joint is None:
             raise Error(f"joint {follower.name}: it mimics {follower.mimic.joint}, which is missing")

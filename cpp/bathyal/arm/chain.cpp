@@ -83,6 +83,11 @@ DhRow row_to(const Line& next, double nearly_parallel) {
   return sine < nearly_parallel || sine == 0.0 ? row_of_parallel(next) : row_of_normal(next);
 }
 
+/// Zeros without a sign, for tables that people read.
+DhRow unsigned_zeros(const DhRow& row) {
+  return {row.a + 0.0, row.alpha + 0.0, row.d + 0.0, row.theta + 0.0, row.beta + 0.0};
+}
+
 /// The row that ends the table: along and about the last axis only, to the frame of the last link.
 DhRow last_row(const Pose& frame) {
   const Eigen::Matrix3d turn = frame.linear() * rotation_with_z(frame.linear().row(2));
@@ -232,9 +237,9 @@ Arm arm_from_chain(const JointChain& chain, const ChainOptions& options) {
   for (std::size_t k = 0; k < count; ++k) {
     const Pose before_from_joint = before_from_link * moving.parent_from_joint[k];
     DhRow& row = moving.joints[k].row;
-    row = k + 1 < count
-              ? row_to(before_from_joint * axis_before(moving, k + 1), options.nearly_parallel)
-              : last_row(before_from_joint);
+    row = unsigned_zeros(k + 1 < count ? row_to(before_from_joint * axis_before(moving, k + 1),
+                                                options.nearly_parallel)
+                                       : last_row(before_from_joint));
     // What the row, rounded, does not tell stays in the link's frame: nothing adds up.
     const Pose row_from_before = row_pose(row, moving.joints[k].type, 0.0).inverse();
     before_from_link = row_from_before * before_from_joint;

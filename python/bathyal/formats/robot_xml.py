@@ -9,7 +9,6 @@ meshes, materials, transmissions) never reaches it.
 from __future__ import annotations
 
 import io
-import logging
 import math
 from collections.abc import Iterable
 from typing import Any
@@ -56,7 +55,6 @@ def _parsed(robot: Element) -> Any:
     # Imported late: it takes a second, and few sessions read a URDF.
     from yourdfpy import URDF, filename_handler_null  # type: ignore[import-untyped]
 
-    logging.getLogger("yourdfpy").addHandler(logging.NullHandler())
     return URDF.load(
         io.BytesIO(tostring(robot)),
         build_scene_graph=False,
