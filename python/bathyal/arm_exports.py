@@ -138,12 +138,12 @@ def _plain_rows(arm: Arm, name: str) -> tuple[Floats, Floats]:
     if not np.allclose(table.root, np.eye(4), rtol=0, atol=_NOTHING):
         raise ValueError(f"{name}: expected a first joint about z of the base, got another axis")
     rows = np.stack([table.theta, table.a, table.d, table.alpha], axis=1)
-    if np.any(np.abs(rows[:, 2]) > _LONGEST) or np.any(table.beta):
-        row = int(np.argmax(np.abs(rows[:, 2]) + 1e9 * (np.asarray(table.beta) != 0)))
+    if np.any(np.abs(rows[:, 2]) > _LONGEST):
+        sine = np.abs(np.sin(rows[:5, 3]))
+        row = int(np.argmin(np.where(sine > 0, sine, np.inf)))
         raise ValueError(
             f"{name}: expected axes that a table without beta tells to a nanometre, got axes"
-            f" {row + 1} and {row + 2} that are parallel but for"
-            f" {np.hypot(np.sin(rows[row, 3]), table.beta[row]):.1e} rad"
+            f" {row + 1} and {row + 2} that are parallel but for {sine[row]:.1e} rad"
         )
     behind = np.asarray(table.flange)
     last = _turned(np.arctan2(behind[2, 1], behind[2, 2]), 0, along=behind[0, 3])

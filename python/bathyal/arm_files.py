@@ -93,7 +93,7 @@ def read_arm(path: PathLike, **options: Any) -> Arm:
     >>> bathyal.read_arm(path)
     Arm("lever", 1 joint)
     """
-    if known_suffix(path, (".json", ".urdf"), "arm") == ".urdf":
+    if known_suffix(path, (".json", ".urdf"), "robot") == ".urdf":
         return arm_from_urdf(path, **options)
     if options:
         raise ValueError(f"{next(iter(options))}: expected only for a .urdf file, got one for .json")
@@ -154,7 +154,7 @@ def write_arm(arm: Arm, path: PathLike, *, nominal: Arm | None = None) -> None:
     >>> path.read_text().splitlines()[3:5]
     ['kinematics:', '  shoulder:']
     """
-    suffix = known_suffix(path, (*_WRITERS, ".conf"), "arm")
+    suffix = known_suffix(path, (*_WRITERS, ".conf"), "robot")
     if suffix == ".conf":
         write_ur_calibration(arm, path, nominal)
         return
