@@ -24,6 +24,7 @@ _COLUMNS = ("theta", "a", "d", "alpha")
 # A longer d loses a nanometre to rounding, several times over.
 _LONGEST = 1e5  # [m]
 _NOTHING = 1e-12  # [m, 1]
+_PARALLEL = 1e-15  # [rad] rounding
 
 
 def write_ros_kinematics(arm: Arm, path: PathLike, *, hash: str = "bathyal") -> None:
@@ -140,7 +141,7 @@ def _plain_rows(arm: Arm, name: str) -> tuple[Floats, Floats]:
     rows = np.stack([table.theta, table.a, table.d, table.alpha], axis=1)
     if np.any(np.abs(rows[:, 2]) > _LONGEST):
         sine = np.abs(np.sin(rows[:5, 3]))
-        row = int(np.argmin(np.where(sine > 0, sine, np.inf)))
+        row = int(np.argmin(np.where(sine > _PARALLEL, sine, np.inf)))
         raise ValueError(
             f"{name}: expected axes that a table without beta tells to a nanometre, got axes"
             f" {row + 1} and {row + 2} that are parallel but for {sine[row]:.1e} rad"

@@ -96,7 +96,8 @@ def read_arm(path: PathLike, **options: Any) -> Arm:
     if known_suffix(path, (".json", ".urdf"), "robot") == ".urdf":
         return arm_from_urdf(path, **options)
     if options:
-        raise ValueError(f"{next(iter(options))}: expected only for a .urdf file, got one for .json")
+        name = next(iter(options))
+        raise ValueError(f"{name}: expected only for a .urdf file, got one for .json")
     with opened(path) as (stream, size), reading(path, "arm"):
         if size > _MOST_BYTES:
             raise Error(f"expected at most {_MOST_BYTES >> 20} MB, got {size / 2**20:.0f} MB")

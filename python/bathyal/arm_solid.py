@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -108,14 +109,12 @@ def solid(at: Posture, size: float) -> list[Part]:
     parts = []
     for k, stroke in enumerate(at.strokes):
         colour = _LINK_COLOURS[k % 2] if k else _FOOT_COLOUR
-        for start, end in zip(stroke[:-1], stroke[1:], strict=True):
+        for start, end in pairwise(stroke):
             if np.linalg.norm(end - start) > _SHORTEST:
                 mesh = _capsule(start, end, _LINK_RADIUS * size)
                 parts.append(Part(f"link {k}" if k else "foot", colour, *mesh))
     half = _DRUM_LENGTH * size / 2
-    for name, (point, direction), slides in zip(
-        at.joint_names, at.axes, at.sliding, strict=True
-    ):
+    for name, (point, direction), slides in zip(at.joint_names, at.axes, at.sliding, strict=True):
         mesh = _prism(
             point - half * direction,
             point + half * direction,
@@ -129,7 +128,7 @@ def solid(at: Posture, size: float) -> list[Part]:
 def _on_axes(points: Floats, origin: Floats, direction: Floats) -> Floats:
     """The nearest point of each axis."""
     along = np.sum((points - origin) * direction, axis=1, keepdims=True)
-    return origin + along * direction
+    return np.asarray(origin + along * direction)
 
 
 def _rings(axis: Floats, sides: int) -> Floats:
@@ -138,11 +137,11 @@ def _rings(axis: Floats, sides: int) -> Floats:
     x = np.cross(axis, helper)
     x /= np.linalg.norm(x)
     angle = np.arange(sides)[:, None] * (2 * np.pi / sides)
-    return np.cos(angle) * x + np.sin(angle) * np.cross(axis, x)
+    return np.asarray(np.cos(angle) * x + np.sin(angle) * np.cross(axis, x))
 
 
 def _turned(profile: Floats, start: Floats, axis: Floats, sides: int) -> tuple[Floats, Indices]:
-    """A body of revolution: `profile` (K, 2) is distance along the axis and radius, closed by 0s."""
+    """A body of revolution: `profile` (K, 2) is the way along the axis and the radius there."""
     around = _rings(axis, sides)
     vertices = start + profile[:, None, :1] * axis + profile[:, None, 1:] * around
     k, i = np.meshgrid(np.arange(len(profile) - 1), np.arange(sides), indexing="ij")
@@ -161,11 +160,12 @@ def _capsule(start: Floats, end: Floats, radius: float) -> tuple[Floats, Indices
 
 def _prism(start: Floats, end: Floats, radius: float, sides: int) -> tuple[Floats, Indices]:
     length = float(np.linalg.norm(end - start))
-    closed = [[0, 0], [0, radius]], _side(length, radius), [[length, radius], [length, 0]]
-    return _turned(np.vstack(closed), start, (end - start) / length, sides)
+    end_caps = np.array([[0, 0], [0, radius], [length, radius], [length, 0]])
+    profile = np.vstack([end_caps[:2], _side(length, radius), end_caps[2:]])
+    return _turned(profile, start, (end - start) / length, sides)
 
 
 def _side(length: float, radius: float) -> Floats:
-    """Rings between the ends: painters sort faces by their middles, which must not lie far apart."""
+    """Rings between the ends: painters sort faces by their middles, which must lie close."""
     along = np.linspace(0, length, max(2, round(length / radius)) + 1)[1:-1]
     return np.column_stack([along, np.full(len(along), radius)])

@@ -11,7 +11,10 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
-from mpl_toolkits.mplot3d.art3d import Line3DCollection, Poly3DCollection
+from mpl_toolkits.mplot3d.art3d import (  # type: ignore[import-untyped]
+    Line3DCollection,
+    Poly3DCollection,
+)
 from numpy.typing import ArrayLike, NDArray
 
 from bathyal._core import Arm
@@ -118,7 +121,7 @@ def plot_arm(arm: Arm, q: ArrayLike | None = None, path: PathLike | None = None)
     size = size_of(postures)
     figure = Figure(figsize=_SIZE_IN, dpi=_DPI, facecolor="white")
     FigureCanvasAgg(figure)
-    axes = figure.add_axes((0.0, 0.02, 1.0, 0.92), projection="3d", computed_zorder=False)
+    axes: Any = figure.add_axes((0.0, 0.02, 1.0, 0.92), projection="3d", computed_zorder=False)
     axes.set_proj_type("persp", focal_length=0.6)
     axes.view_init(**_EYE)
     low, high = _box(postures, size)
@@ -128,7 +131,9 @@ def plot_arm(arm: Arm, q: ArrayLike | None = None, path: PathLike | None = None)
         _draw_solid(axes, solid(at, size), 1.0 if last else _FAINT, 3 if last else 1)
     at = postures[-1]
     axes.add_collection3d(
-        Line3DCollection(_axis_strokes(at, size), colors=_AXIS, linewidths=1.0, linestyles="--", zorder=2)
+        Line3DCollection(
+            _axis_strokes(at, size), colors=_AXIS, linewidths=1.0, linestyles="--", zorder=2
+        )
     )
     for pose in (at.base, at.tool):
         axes.add_collection3d(
@@ -147,8 +152,8 @@ def plot_arm(arm: Arm, q: ArrayLike | None = None, path: PathLike | None = None)
 def _postures(arm: Arm, q: ArrayLike | None) -> list[Posture]:
     poses = np.atleast_2d(resting_pose(arm) if q is None else np.asarray(q, float))
     if poses.ndim != 2 or poses.shape[1] != arm.size or len(poses) == 0:
-        shape = np.shape(q)
-        raise ValueError(f"q: expected shape ({arm.size},) or (N, {arm.size}), got {shape}")
+        expected = f"shape ({arm.size},) or (N, {arm.size}), N at least 1"
+        raise ValueError(f"q: expected {expected}, got {poses.shape}")
     if not np.isfinite(poses).all():
         raise ValueError("q: expected finite numbers, got nan or inf")
     every = np.unique(np.linspace(0, len(poses) - 1, min(len(poses), _MOST_POSES)).round())

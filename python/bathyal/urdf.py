@@ -128,7 +128,7 @@ class _Tree:
             raise Error("it has no links")
         roots = [link for link in self.links if link not in self.above]
         if len(roots) > 1:
-            raise Error(f"its links do not hang together: {_listed(roots)} have no joint above them")
+            raise Error(f"its links hang apart: {_listed(roots)} have no joint above them")
         reached = set(self.order(roots[0])) if roots else set()
         if len(reached) < len(self.links):
             lost = [link for link in self.links if link not in reached]
@@ -206,7 +206,9 @@ def _only_tip(tree: _Tree, first: str) -> str:
         tips = [link for link in tips if moving[link]] or tips
     if len(tips) == 1:
         return tips[0]
-    told = _listed([f"{tip!r} ({moving[tip]} joints)" for tip in sorted(tips, key=moving.get)])
+    told = _listed(
+        [f"{tip!r} ({moving[tip]} joints)" for tip in sorted(tips, key=lambda link: moving[link])]
+    )
     raise ValueError(f"tip: expected one of {told}, or any other link, got None")
 
 
@@ -268,7 +270,8 @@ def _leader(tree: _Tree, joint: Any) -> tuple[Any, float, float]:
         multiplier *= joint.mimic.multiplier
         follower, joint = joint, tree.joints.get(joint.mimic.joint)
         if joint is None:
-            raise Error(f"joint {follower.name}: it mimics {follower.mimic.joint}, which is missing")
+            missing = follower.mimic.joint
+            raise Error(f"joint {follower.name}: it mimics {missing}, which is missing")
         if _KINDS[joint.type] not in ("revolute", "prismatic"):
             raise Error(f"joint {follower.name}: it mimics {joint.name}, a {joint.type} joint")
         if joint.name in seen:

@@ -65,9 +65,7 @@ def rpy_of(turn: Pose) -> tuple[float, float, float]:
     yaw = np.arctan2(turn[1, 0], turn[0, 0])
     c, s = np.cos(yaw), np.sin(yaw)
     pitch = np.arctan2(-turn[2, 0], c * turn[0, 0] + s * turn[1, 0])
-    roll = np.arctan2(
-        s * turn[0, 2] - c * turn[1, 2], -s * turn[0, 1] + c * turn[1, 1]
-    )
+    roll = np.arctan2(s * turn[0, 2] - c * turn[1, 2], -s * turn[0, 1] + c * turn[1, 1])
     return float(roll), float(pitch), float(yaw)
 
 
@@ -184,10 +182,10 @@ class _Writer:
         SubElement(element, "child", link=child)
         if kind != "fixed":
             SubElement(element, "axis", xyz=_words(joint["axis"]))
-            limits = ("velocity", "effort")
-            if kind != "continuous":
-                limits = ("lower", "upper", *limits)
-            SubElement(element, "limit", {key: _text(joint[key]) for key in limits})
+            ends = () if kind == "continuous" else ("lower", "upper")
+            SubElement(
+                element, "limit", {key: _text(joint[key]) for key in (*ends, "velocity", "effort")}
+            )
         return element
 
 

@@ -8,6 +8,10 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+
+import bathyal
+from bathyal._core import arm_from_chain, arm_parts
+from bathyal.urdf_writer import rpy_of
 from urdf_cases import (
     DATA,
     LIMIT,
@@ -20,10 +24,6 @@ from urdf_cases import (
     two_joints,
     written,
 )
-
-import bathyal
-from bathyal._core import arm_from_chain, arm_parts
-from bathyal.urdf_writer import rpy_of
 
 pin = pytest.importorskip("pinocchio")
 
@@ -101,7 +101,9 @@ def test_masses_of_real_files_weigh_as_in_pinocchio(name: str) -> None:
         for told in arm_parts(arm)["joints"]:
             index = model.joints[model.getJointId(told["name"])].idx_v
             expected[told["coordinate"]] += told["multiplier"] * gravity[index]
-        np.testing.assert_allclose(arm.statics(q, gravity=(0, 0, -9.81)), expected, rtol=1e-9, atol=1e-9)
+        np.testing.assert_allclose(
+            arm.statics(q, gravity=(0, 0, -9.81)), expected, rtol=1e-9, atol=1e-9
+        )
 
 
 def test_a_joint_without_limits_matters_only_on_the_path() -> None:
@@ -264,7 +266,9 @@ def test_tip_may_be_any_link_or_joint(tmp_path: Path) -> None:
         [0.5 * math.sin(0.3) + 0.5 * math.sin(-0.2), 0,
          0.5 + 0.5 * math.cos(0.3) + 0.5 * math.cos(-0.2)]
     )  # fmt: skip
-    np.testing.assert_array_equal(read_text(tmp_path, text, tip="wrist").forward(q), hand.forward(q))
+    np.testing.assert_array_equal(
+        read_text(tmp_path, text, tip="wrist").forward(q), hand.forward(q)
+    )
     eye = read_text(tmp_path, text, tip="eye")
     assert eye.size == 1
     assert eye.forward(q[:1])[:3, 3] == pytest.approx(

@@ -4,9 +4,9 @@
 from pathlib import Path
 
 import pytest
-from urdf_cases import LIMIT, joint, links, read_text, robot, two_joints, written
 
 import bathyal
+from urdf_cases import LIMIT, joint, links, read_text, robot, two_joints, written
 
 INERTIAL = '<mass value="1"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/>'
 BOMB = (
@@ -241,8 +241,6 @@ def test_an_end_must_be_named_where_there_are_several(tmp_path: Path) -> None:
         ({"tip": "foot"}, "tip: expected a link behind moving joints, got 'foot'"),
     ],
 )
-def test_ends_that_are_not_there(
-    options: dict[str, str], message: str, tmp_path: Path
-) -> None:
+def test_ends_that_are_not_there(options: dict[str, str], message: str, tmp_path: Path) -> None:
     with pytest.raises(ValueError, match=message):
         read_text(tmp_path, two_joints(), **options)

@@ -80,7 +80,7 @@ DhRow row_of_parallel(const Line& next) {
 
 DhRow row_to(const Line& next, double nearly_parallel) {
   const double sine = next.direction.head<2>().norm();
-  return sine < nearly_parallel || sine == 0.0 ? row_of_parallel(next) : row_of_normal(next);
+  return sine < nearly_parallel || sine <= kRounding ? row_of_parallel(next) : row_of_normal(next);
 }
 
 /// Zeros without a sign, for tables that people read.

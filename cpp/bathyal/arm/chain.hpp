@@ -42,7 +42,7 @@ struct JointChain {
 
 struct ChainOptions {
   /// Neighbouring axes whose directions have a sine below this take Hayati's row [0 to 0.5]; 0
-  /// leaves that to axes that are parallel to the last digit: a plain table, whose d grows beyond
+  /// leaves that to axes that are parallel but for rounding: a plain table, whose d grows beyond
   /// measure with nearly parallel axes.
   double nearly_parallel = kNearlyParallel;
 
