@@ -152,7 +152,7 @@ def write_arm(arm: Arm, path: PathLike, *, nominal: Arm | None = None) -> None:
     >>> import bathyal, pathlib, tempfile
     >>> path = pathlib.Path(tempfile.mkdtemp()) / "kinematics.yaml"
     >>> bathyal.arms.ur10e().write(path)
-    >>> path.read_text().splitlines()[3:5]
+    >>> path.read_text().splitlines()[2:4]
     ['kinematics:', '  shoulder:']
     """
     suffix = known_suffix(path, (*_WRITERS, ".conf"), "robot")
