@@ -223,15 +223,17 @@ def test_mimic_joints_share_a_coordinate_and_its_limits(tmp_path: Path) -> None:
     text = robot(
         links("a", "b", "c", "d"),
         joint("lead", "a", "b"),
-        joint("half", "b", "c", more=LIMIT + '<mimic joint="lead" multiplier="-0.5"/>'),
+        joint(
+            "half", "b", "c", more=LIMIT + '<mimic joint="lead" multiplier="-0.5" offset="0.1"/>'
+        ),
         joint("last", "c", "d", more=LIMIT + '<mimic joint="half" multiplier="3" offset="0.5"/>'),
     )
     arm = read_text(tmp_path, text)
     assert arm.joint_names == ["lead"]
     values = joint_values(arm, np.array([0.4]))
-    assert values == pytest.approx({"lead": 0.4, "half": -0.2, "last": -0.1})
-    # last = -1.5 lead + 0.5 keeps within 2 only for lead from -1 on.
-    assert (arm.lower[0], arm.upper[0]) == (pytest.approx(-1.0), pytest.approx(5 / 3))
+    assert values == pytest.approx({"lead": 0.4, "half": -0.1, "last": 0.2})
+    # last = -1.5 lead + 0.8 keeps within 2 for less of the lead than its own limits.
+    assert (arm.lower[0], arm.upper[0]) == (pytest.approx(-0.8), pytest.approx(2.8 / 1.5))
 
 
 def test_continuous_joints_have_no_limits(tmp_path: Path) -> None:
