@@ -1,13 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Rays against Open3D and embreex, both on Embree: ``python benchmarks/python/rays.py``.
+"""Rays and nearest points against Open3D and embreex: ``python benchmarks/python/rays.py``.
 
-Peers, from PyPI (``pip install open3d-cpu embreex``), in the same run, on the same triangles and
-rays. Every call starts from numpy arrays in the peer's own precision (float32; ours float64) and
-ends with its result structs: Open3D computes ranges, numbers, normals and (u, v) in the call,
-embreex ranges, numbers, normals and (u, v), ours ranges, numbers and (u, v), the rest when first
-asked for; the last column asks for normals and points as well. embreex has no threads. Hits are
-compared before any time is printed: peers decide in float32, so a ray in 10 000 may differ at the
-border of a triangle or a shadow, and ranges by a centimetre.
+Peers, both on Embree, from PyPI (``pip install open3d-cpu embreex``), in the same run, on the same
+triangles and rays. Every call starts from numpy arrays in the peer's own precision (float32; ours
+float64) and ends with its result structs: Open3D computes ranges, numbers, normals and (u, v) in
+the call, embreex ranges, numbers, normals and (u, v), ours ranges, numbers and (u, v), the rest
+when first asked for; the last column asks for normals and points as well. embreex has no threads.
+Hits are compared before any time is printed: peers decide in float32, so a ray in 10 000 may differ
+at the border of a triangle or a shadow, and ranges by a centimetre. Of the nearest points, which
+embreex does not have, distances are compared: they may differ by float32's digits.
 """
 
 import argparse
@@ -27,6 +28,7 @@ from bathyal._core import simd_level
 
 WIDTH = 500.0  # of the seabed [m]
 RAYS = 500_000
+POINTS = 50_000
 
 
 def seabed(side, seed=7):
@@ -82,6 +84,19 @@ def random_rays(seed=5):
     origins = random.uniform((0.0, 0.0, -45.0), (WIDTH, WIDTH, -20.0), (RAYS, 3))
     directions = random.normal(size=(RAYS, 3))
     return origins, directions / np.linalg.norm(directions, axis=1)[:, None]
+
+
+def random_points(low, high, seed=11):
+    """Anywhere in the water between two depths."""
+    return np.random.default_rng(seed).uniform((0.0, 0.0, low), (WIDTH, WIDTH, high), (POINTS, 3))
+
+
+def hull_points(seed=13):
+    """Those of a hull, 2 000 a pose, that follows a track some metres above the bottom."""
+    hull = np.random.default_rng(seed).normal(size=(2000, 3))
+    hull *= np.array([2.0, 0.6, 0.5]) / np.linalg.norm(hull, axis=1)[:, None]
+    track = np.linspace((60.0, 30.0, -44.0), (430.0, 470.0, -42.0), POINTS // len(hull))
+    return (track[:, None] + hull).reshape(-1, 3)
 
 
 def open3d_scene(vertices, triangles, threads):
@@ -181,6 +196,37 @@ def cast_rows(scenes, count, rounds):
             )
 
 
+def nearest_rows(ours, by_open3d, count, rounds):
+    rows = []
+    for name, points in (
+        ("within 2 m of the bottom", random_points(-52.0, -48.0)),
+        ("5 to 25 m above it", random_points(-45.0, -25.0)),
+        ("a hull on its way", hull_points()),
+    ):
+        tensor = open3d.core.Tensor(points.astype(np.float32))
+        foot = by_open3d.compute_closest_points(tensor)["points"].numpy()
+        difference = np.linalg.norm(points - foot, axis=1) - ours.nearest(points).distance
+        worst = np.abs(difference).max()
+        if worst > 1e-3:
+            raise SystemExit(f"nearest, {name}: a distance is {worst} m off Open3D's")
+        for threads in (1, 2):
+            times = interleaved(
+                rounds,
+                [
+                    lambda p=points, n=threads: ours.nearest(p, num_threads=n).distance,
+                    lambda t=tensor, n=threads: by_open3d.compute_closest_points(t, nthreads=n),
+                ],
+                threads,
+            )
+            ratio = statistics.median(times[:, 1] / times[:, 0])
+            rate = POINTS / np.median(times, axis=0) / 1e6
+            rows.append(
+                f"| {name} | {count:,} | {threads} | {ratio:.2f} × | {rate[0]:.2f} "
+                f"| {rate[1]:.2f} | {1e3 * worst:.3f} |"
+            )
+    return rows
+
+
 def build_rows(mesh, vertices, triangles, rounds):
     rows = []
     for threads in (1, 2):
@@ -203,13 +249,13 @@ def build_rows(mesh, vertices, triangles, rounds):
 
 
 def run(rounds):
-    print("## Rays\n")
+    print("## Rays and nearest points\n")
     print(
         "| rays | triangles | threads | ours / Open3D | ours / embreex | ours [Mray/s] "
         "| Open3D | embreex | ours with normals and points | same hits |"
     )
     print("|---|---|---|---|---|---|---|---|---|---|")
-    builds = []
+    nearest, builds = [], []
     for side in (317, 1001):
         vertices, triangles = seabed(side)
         mesh = bathyal.TriangleMesh(vertices, triangles)
@@ -217,7 +263,14 @@ def run(rounds):
         scenes = (bathyal.Scene(mesh), open3d_scene(vertices, triangles, 2), by_embreex)
         cast_rows(scenes, len(triangles), rounds)
         del keep_alive
+        nearest += nearest_rows(scenes[0], scenes[1], len(triangles), max(3, rounds // 3))
         builds += build_rows(mesh, vertices, triangles, max(3, rounds // 3))
+    print(
+        "\n| nearest points | triangles | threads | ours / Open3D | ours [M/s] | Open3D "
+        "| largest difference [mm] |"
+    )
+    print("|---|---|---|---|---|---|---|")
+    print("\n".join(nearest))
     print(
         "\n| build, triangles | threads | ours / Open3D | ours [ms] | Open3D [ms] "
         "| ours [B/triangle] |"
@@ -225,7 +278,8 @@ def run(rounds):
     print("|---|---|---|---|---|---|")
     print("\n".join(builds))
     print(
-        f"\nRates and times are medians of {rounds} interleaved rounds of {RAYS:,} rays, ratios "
+        f"\nRates and times are medians of {rounds} interleaved rounds of {RAYS:,} rays, "
+        f"nearest points and builds of {max(3, rounds // 3)} ({POINTS:,} points), ratios "
         "medians of each round's, above 1 where ours is faster. One thread: processor time; two: "
         "the wall clock. Open3D's build takes float32 arrays over and asks one ray. "
         f"SIMD level {simd_level()}; Open3D {open3d.__version__}, embreex {embreex.__version__}, "

@@ -33,7 +33,8 @@ Triangles triangles_argument(std::string_view name, const py::object& object);
 /// Three real numbers, finite.
 Vec3 vector_argument(std::string_view name, const py::object& object);
 
-/// (4, 4) real numbers; None is the identity.
+/// A rigid motion as (4, 4) real numbers, None as the identity; whether it is rigid is for the
+/// engine to say.
 Pose pose_argument(std::string_view name, const py::object& object);
 
 /// (N, columns) real numbers in row-major order, for tables wider than three.

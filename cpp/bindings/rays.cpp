@@ -8,15 +8,15 @@
 
 #include "arrays.hpp"
 #include "bathyal/base/error.hpp"
+#include "bathyal/base/page_array.hpp"
 #include "bathyal/base/parallel.hpp"
 #include "bathyal/scene/moller_trumbore.hpp"
-#include "bathyal/scene/page_array.hpp"
 #include "bindings.hpp"
 
 namespace bathyal::python {
 namespace {
 
-using HitArray = scene::PageArray<RayHit>;
+using HitArray = PageArray<RayHit>;
 
 /// Answers of Scene.cast. Range, mesh and triangle are columns of one array and cost nothing to
 /// look at; what is computed from the meshes is computed when it is first asked for, and kept.

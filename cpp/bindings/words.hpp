@@ -14,6 +14,7 @@ namespace bathyal::python {
 template <class Enum>
 using Words = std::vector<std::pair<std::string, Enum>>;
 
+/// \throw std::invalid_argument that lists the words for one that is not among them.
 template <class Enum>
 Enum word_argument(std::string_view name, const std::string& word, const Words<Enum>& words) {
   std::string expected;

@@ -9,7 +9,8 @@ import json
 import math
 import os
 import re
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -17,6 +18,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from bathyal._core import Error
+from bathyal.errors import argument_error
+from bathyal.files import PathLike
 
 _LENGTHS = {"m": 1.0, "cm": 0.01, "mm": 0.001, "km": 1000.0}
 _ANGLES = {"deg": math.pi / 180.0, "rad": 1.0}
@@ -27,7 +30,7 @@ _COLUMN = re.compile(r"^(?P<name>[a-z]+?)\s*(?:_(?P<a>\w+)|\[(?P<b>\w*)\]|\((?P<
 
 
 def read_aims(
-    path: str | os.PathLike[str], *, world_from_vehicle: ArrayLike | None = None
+    path: PathLike, *, world_from_vehicle: ArrayLike | None = None
 ) -> NDArray[np.float64]:
     """Read camera axes from a .csv (.txt, .tsv) or .json file.
 
@@ -44,7 +47,7 @@ def read_aims(
         JSON: a list of rows ``[px, py, pz, dx, dy, dz]`` or of
         ``{"point": [x, y, z], "direction": [x, y, z]}``, or an object that holds such a list as
         ``aims`` and beside it, as it likes, ``unit`` ("m", "cm", "mm", "km"), ``frame`` ("world" or
-        "vehicle") and ``world_from_vehicle`` (four rows of four).
+        "vehicle") and ``world_from_vehicle`` (four rows of four, [m]).
     world_from_vehicle : (4, 4) array, optional
         Pose of the vehicle [m]. Text aims stand in the vehicle's frame when it is given and in the
         world's otherwise; it takes the place of a pose in a JSON file. Aims whose file says
@@ -71,18 +74,32 @@ def read_aims(
     ...     bathyal.read_aims(file).round(6).tolist()
     [[1.0, 2.0, -0.5, 0.0, 0.0, -1.0]]
     """
+    return read_axes(path, world_from_vehicle=world_from_vehicle).axes
+
+
+@dataclass(frozen=True)
+class Axes:
+    """Camera axes (K, 6) in the world frame [m], and the vehicle's pose (4, 4) where it is known:
+    as given, else as the file says."""
+
+    axes: NDArray[np.float64]
+    world_from_vehicle: NDArray[np.float64] | None
+
+
+def read_axes(path: PathLike, *, world_from_vehicle: ArrayLike | None = None) -> Axes:
+    """As `read_aims`, with the pose beside the axes."""
     file = Path(path)
-    given = None if world_from_vehicle is None else _pose("world_from_vehicle", world_from_vehicle)
+    pose = None if world_from_vehicle is None else _pose("world_from_vehicle", world_from_vehicle)
     if file.suffix.lower() not in {".csv", ".txt", ".tsv", ".json"}:
-        raise ValueError(f"`path`: expected a .csv, .txt, .tsv or .json file, got {file.name}")
+        raise argument_error("path", "a .csv, .txt, .tsv or .json file", repr(os.fspath(path)))
     try:
         text = file.read_text(encoding="utf-8-sig")
     except UnicodeDecodeError as error:
         raise Error(f"{file}: expected text, got bytes that are not UTF-8") from error
     if file.suffix.lower() == ".json":
-        return _from_json(file, text, given)
+        return _from_json(file, text, pose)
     aims = _from_text(file, text)
-    return aims if given is None else _moved(aims, given)
+    return Axes(aims if pose is None else _moved(aims, pose), pose)
 
 
 # Text ---------------------------------------------------------------------------------------------
@@ -170,7 +187,7 @@ def _from_text(file: Path, text: str) -> NDArray[np.float64]:
 # JSON ---------------------------------------------------------------------------------------------
 
 
-def _from_json(file: Path, text: str, given: NDArray[np.float64] | None) -> NDArray[np.float64]:
+def _from_json(file: Path, text: str, pose: NDArray[np.float64] | None) -> Axes:
     try:
         content: Any = json.loads(text)
     except (json.JSONDecodeError, RecursionError) as error:
@@ -180,10 +197,19 @@ def _from_json(file: Path, text: str, given: NDArray[np.float64] | None) -> NDAr
     unit = settings.get("unit", "m")
     if unit not in _LENGTHS:
         raise Error(f"{file}: `unit`: expected one of {', '.join(_LENGTHS)}, got {unit!r}")
-    frame = settings.get("frame", "vehicle" if "world_from_vehicle" in settings else "world")
+    if pose is None and "world_from_vehicle" in settings:
+        try:
+            pose = _pose("world_from_vehicle", settings["world_from_vehicle"])
+        except ValueError as error:
+            raise Error(f"{file}: {error}") from error
+    frame = settings.get("frame", "world" if pose is None else "vehicle")
     if frame not in ("world", "vehicle"):
         raise Error(f'{file}: `frame`: expected "world" or "vehicle", got {frame!r}')
-
+    if frame == "vehicle" and pose is None:
+        raise Error(
+            f'{file}: `world_from_vehicle`: expected the vehicle\'s pose beside "frame": '
+            '"vehicle", got none'
+        )
     rows = settings.get("aims")
     if not isinstance(rows, list):
         raise Error(f"{file}: `aims`: expected a list, got {type(rows).__name__}")
@@ -191,21 +217,7 @@ def _from_json(file: Path, text: str, given: NDArray[np.float64] | None) -> NDAr
     table = table.reshape(-1, 6)
     table[:, :3] *= _LENGTHS[unit]
     aims = _checked(table, lambda row: f"{file}, aim {row}")
-    if "frame" not in settings and given is not None:
-        frame = "vehicle"
-    if frame == "world":
-        return aims
-    if given is None:
-        if "world_from_vehicle" not in settings:
-            raise Error(
-                f'{file}: `world_from_vehicle`: expected the vehicle\'s pose beside "frame": '
-                '"vehicle", got none'
-            )
-        try:
-            given = _pose("world_from_vehicle", settings["world_from_vehicle"])
-        except ValueError as error:
-            raise Error(f"{file}: {error}") from error
-    return _moved(aims, given)
+    return Axes(aims if frame == "world" or pose is None else _moved(aims, pose), pose)
 
 
 def _json_row(file: Path, index: int, row: Any) -> list[float]:
@@ -228,13 +240,13 @@ def _json_row(file: Path, index: int, row: Any) -> list[float]:
 # Both ---------------------------------------------------------------------------------------------
 
 
-def _checked(aims: NDArray[np.float64], where: Any) -> NDArray[np.float64]:
+def _checked(aims: NDArray[np.float64], where: Callable[[int], str]) -> NDArray[np.float64]:
     bad = np.flatnonzero(~np.isfinite(aims).all(axis=1))
     if bad.size:
-        raise Error(f"{where(bad[0])}: expected finite numbers, got {aims[bad[0]].tolist()}")
+        raise Error(f"{where(int(bad[0]))}: expected finite numbers, got {aims[bad[0]].tolist()}")
     still = np.flatnonzero(~aims[:, 3:].any(axis=1))
     if still.size:
-        raise Error(f"{where(still[0])}: expected a direction, got 0 0 0")
+        raise Error(f"{where(int(still[0]))}: expected a direction, got 0 0 0")
     return aims
 
 
@@ -242,9 +254,9 @@ def _pose(name: str, value: Any) -> NDArray[np.float64]:
     try:
         pose = np.asarray(value, dtype=float)
     except (TypeError, ValueError):
-        raise ValueError(f"`{name}`: expected a (4, 4) array, got {value!r}") from None
+        raise argument_error(name, "a (4, 4) array", repr(value)) from None
     if pose.shape != (4, 4):
-        raise ValueError(f"`{name}`: expected shape (4, 4), got shape {pose.shape}")
+        raise argument_error(name, "shape (4, 4)", f"shape {pose.shape}")
     rotation = pose[:3, :3]
     rigid = (
         np.isfinite(pose).all()
@@ -253,9 +265,8 @@ def _pose(name: str, value: Any) -> NDArray[np.float64]:
         and (pose[3] == [0, 0, 0, 1]).all()
     )
     if not rigid:
-        raise ValueError(
-            f"`{name}`: expected a rigid motion (right-handed rotation, last row 0 0 0 1), "
-            f"got {pose.tolist()}"
+        raise argument_error(
+            name, "a rigid motion (right-handed rotation, last row 0 0 0 1)", pose.tolist()
         )
     return pose
 

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from bathyal import _core
 from bathyal._core import PointCloud
+from bathyal.errors import argument_error
 from bathyal.files import PathLike, known_suffix, opened, reading
 from bathyal.formats.attributes import canonical_attributes, columns_of
 from bathyal.formats.bag import read_bag
@@ -90,10 +91,10 @@ def read_cloud(
     >>> bathyal.read_cloud(path, z="down").points.tolist()
     [[620153.873, 7246503.912, -51.987]]
     """
-    suffix = known_suffix(path, _READERS, "point")
+    suffix = known_suffix(path, (*_TEXT, *_GRIDS, *_READERS), "point")
     _check_keywords(suffix, columns, band, text)
     if z not in (None, "up", "down"):
-        raise ValueError(f'z: expected "up" or "down", got {z!r}')
+        raise argument_error("z", '"up" or "down"', repr(z))
     factors = _factors(scale)
     if suffix in _TEXT:
         with opened(path):
@@ -103,13 +104,15 @@ def read_cloud(
     else:
         soundings = _READERS[suffix](path)
     if soundings.depth and z is None:
-        raise ValueError(
-            f"z: expected to be told which way it grows, for the file calls it "
-            f'{soundings.depth!r}: "down" where depths are positive, "up" where they are negative'
+        raise argument_error(
+            "z",
+            f'"down" where depths are positive or "up" where they are negative, for the file '
+            f"calls it {soundings.depth!r}",
+            z,
         )
     if soundings.unit and scale is None:
-        raise ValueError(
-            f"scale: expected metres in one unit of the file, for it names {soundings.unit!r}"
+        raise argument_error(
+            "scale", f"metres in one unit of the file, for it names {soundings.unit!r}", scale
         )
     with reading(path, "point"):
         return PointCloud(
@@ -158,12 +161,13 @@ def _check_keywords(
 ) -> None:
     for name in (["columns"] if columns is not None else []) + list(text):
         if suffix not in _TEXT:
-            raise ValueError(f"{name}: expected for text files only, got it for {suffix}")
+            raise argument_error(name, "with text files only", f"it with {suffix}")
     if unknown := set(text) - _TEXT_KEYWORDS:
+        name = min(unknown)
         known = ", ".join(sorted(_TEXT_KEYWORDS))
-        raise ValueError(f"{min(unknown)}: expected a keyword of read_cloud or one of {known}")
+        raise argument_error(name, f"a keyword of read_cloud or one of {known}", repr(name))
     if band is not None and suffix not in _GRIDS:
-        raise ValueError(f"band: expected for GeoTIFF only, got it for {suffix}")
+        raise argument_error("band", "with GeoTIFF only", f"it with {suffix}")
 
 
 _TEXT_KEYWORDS = {
@@ -172,9 +176,12 @@ _TEXT_KEYWORDS = {
 
 
 def _factors(scale: float | Sequence[float] | None) -> NDArray[np.float64]:
-    factors = np.asarray(1.0 if scale is None else scale, np.float64)
+    try:
+        factors = np.asarray(1.0 if scale is None else scale, np.float64)
+    except (TypeError, ValueError):
+        factors = np.empty(0)
     if factors.shape not in ((), (3,)) or not np.all((factors > 0) & np.isfinite(factors)):
-        raise ValueError(f"scale: expected one or three finite numbers above 0, got {scale!r}")
+        raise argument_error("scale", "one or three finite numbers above 0", repr(scale))
     return np.broadcast_to(factors, (3,))
 
 
@@ -230,9 +237,8 @@ def _write_csv(cloud: PointCloud, path: PathLike) -> None:
     write_text(path, cloud, separator=",", notes=notes_of(cloud))
 
 
-_READERS: dict[str, Callable[..., Soundings]] = {
-    **dict.fromkeys(_TEXT, read_text),
-    **dict.fromkeys(_GRIDS, read_geotiff),
+# Of the formats that take no keyword of their own.
+_READERS: dict[str, Callable[[PathLike], Soundings]] = {
     ".bag": read_bag,
     ".las": read_las,
     ".laz": read_las,

@@ -15,10 +15,13 @@ Indices = NDArray[np.int32]
 
 
 def crop(mesh: TriangleMesh, low: Floats, high: Floats) -> tuple[Floats, Indices]:
-    """Vertices and triangles whose first corner lies between `low` and `high` ((2,), [m])."""
+    """Vertices and triangles that may reach between `low` and `high` ((2,), [m]): those that do not
+    lie wholly beyond one of its four sides."""
     vertices, triangles = np.asarray(mesh.vertices), np.asarray(mesh.triangles)
-    inside = np.all((vertices[:, :2] >= low) & (vertices[:, :2] <= high), axis=1)
-    return _compact(vertices, triangles[inside[triangles[:, 0]]])
+    x, y = vertices[:, 0], vertices[:, 1]
+    beyond = (x < low[0]) | (x > high[0]) << 1 | (y < low[1]) << 2 | (y > high[1]) << 3
+    a, b, c = beyond.astype(np.uint8)[triangles].T
+    return _compact(vertices, triangles[(a & b & c) == 0])
 
 
 def decimate(vertices: Floats, triangles: Indices, budget: int) -> tuple[Floats, Indices]:

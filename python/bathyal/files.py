@@ -6,7 +6,9 @@ from __future__ import annotations
 import importlib
 import os
 import secrets
+import shutil
 import stat
+import tempfile
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -14,6 +16,7 @@ from types import ModuleType
 from typing import Any, BinaryIO
 
 from bathyal._core import Error
+from bathyal.errors import argument_error
 
 PathLike = str | os.PathLike[str]
 
@@ -83,6 +86,37 @@ def _make_aside(target: Path, name: str) -> Path:
 
 
 @contextmanager
+def filling(folder: PathLike) -> Iterator[Path]:
+    """Write several files aside and move them into `folder` only when all went well.
+
+    Parameters
+    ----------
+    folder : path
+        Made where it is missing; other files in it are left alone.
+
+    Yields
+    ------
+    pathlib.Path
+        A hidden folder inside `folder` to write to. When the block ends its files move up; when the
+        block raises, or is interrupted, it is removed, and `folder` too if it was not there.
+    """
+    folder = Path(folder)
+    made = not folder.exists()
+    folder.mkdir(parents=True, exist_ok=True)
+    aside = Path(tempfile.mkdtemp(prefix=".plan-", dir=folder))
+    try:
+        yield aside
+        for file in sorted(aside.iterdir()):
+            os.replace(file, folder / file.name)
+    except BaseException:
+        shutil.rmtree(aside, ignore_errors=True)
+        if made and not any(folder.iterdir()):
+            folder.rmdir()
+        raise
+    shutil.rmtree(aside)
+
+
+@contextmanager
 def reading(path: PathLike, format_name: str) -> Iterator[None]:
     """Tell whatever goes wrong inside as an `Error` that names the file and the reason.
 
@@ -142,5 +176,5 @@ def known_suffix(path: PathLike, known: Iterable[str], thing: str) -> str:
     suffix = Path(path).suffix.lower()
     if suffix not in known:
         names = " ".join(sorted(known))
-        raise ValueError(f"path: expected a {thing} file ({names}), got {os.fspath(path)!r}")
+        raise argument_error("path", f"a {thing} file ({names})", repr(os.fspath(path)))
     return suffix

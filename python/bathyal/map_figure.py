@@ -16,7 +16,7 @@ from matplotlib.ticker import FuncFormatter, MaxNLocator
 
 from bathyal.palette import DEPTH, GAP, INK, PALE, segment_colour
 from bathyal.relief import Floats, Relief, bounds, exaggeration, height_image, shade
-from bathyal.stations import runs, spread
+from bathyal.stations import axis_ends, runs, spread
 from bathyal.window import Window
 
 if TYPE_CHECKING:
@@ -171,9 +171,7 @@ def _add_colour_bar(axes: Axes, bar_axes: Axes, norm: Normalize, stretch: float)
 def _draw_aims(axes: Axes, aims: Floats, path: ToolPath) -> None:
     targets = path.targets
     hit = np.isfinite(targets.point).all(axis=1)
-    reach = np.median(targets.range[hit]) if hit.any() else 1.0
-    unit = aims[:, 3:] / np.linalg.norm(aims[:, 3:], axis=1, keepdims=True)
-    end = np.where(hit[:, None], targets.point, aims[:, :3] + reach * unit)
+    end = axis_ends(aims, path)
     label = {True: "camera axis", False: "camera axis without target"}
     for is_hit, line, colour in ((True, "-", PALE), (False, ":", GAP)):
         rows = np.flatnonzero(hit == is_hit)

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bathyal._core import Error, TriangleMesh
+from bathyal.errors import argument_error
 from bathyal.files import PathLike, known_suffix, reading
 from bathyal.formats.attributes import canonical_attributes, columns_of
 from bathyal.formats.collada import read_collada
@@ -80,9 +81,9 @@ def read_mesh(path: PathLike, *, scale: float | None = None, up: str | None = No
     """
     read = _READERS[known_suffix(path, _READERS, "mesh")]
     if scale is not None and not 0 < scale < np.inf:
-        raise ValueError(f"scale: expected a finite number above 0, got {scale}")
+        raise argument_error("scale", "a finite number above 0", scale)
     if up is not None and up not in _Z_UP_FROM:
-        raise ValueError(f'up: expected "x", "y" or "z", got {up!r}')
+        raise argument_error("up", '"x", "y" or "z"', repr(up))
     surface = read(path)
     unit = surface.unit if scale is None else scale
     turn = _Z_UP_FROM[surface.up if up is None else up]

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from bathyal.errors import argument_error
 from bathyal.files import replacing
 from bathyal.vtp import write_vtp
 
@@ -87,7 +88,7 @@ def write_path(path: ToolPath, filename: str | os.PathLike[str], **provenance: A
     """
     suffix = Path(filename).suffix.lower()
     if suffix not in _WRITERS:
-        raise ValueError(f"`filename`: expected a .csv, .json or .vtp file, got {filename}")
+        raise argument_error("filename", "a .csv, .json or .vtp file", os.fspath(filename))
     _WRITERS[suffix](path, filename, provenance)
 
 

@@ -46,6 +46,8 @@ def draw(axes: Axes, surface: Scene | Plane, path: ToolPath) -> None:
     )  # fmt: skip
     axes.ticklabel_format(useOffset=False, style="plain")
     axes.yaxis.set_major_locator(MaxNLocator(6))
+    ticks = np.asarray(MaxNLocator(8).tick_values(0.0, stations.end[-1]))
+    axes.set_xticks(ticks[(ticks >= 0) & (ticks <= stations.end[-1])])  # nothing lies beyond
     for side in ("top", "right"):
         axes.spines[side].set_visible(False)
     axes.legend(

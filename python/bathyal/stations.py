@@ -56,11 +56,13 @@ def unroll(path: ToolPath) -> Stations:
     surface, segment = np.asarray(path.surface), np.asarray(path.segment)
     segments, first, counts = np.unique(segment, return_index=True, return_counts=True)
     last = first + counts - 1
-    start = surface[first]
-    span = (surface[last] - start) * [1.0, 1.0, 0.0]
+    start, finish = surface[first], surface[last]
+    joined = np.flatnonzero(~np.asarray(path.gap, bool)[last[:-1]])
+    finish[joined] = start[joined + 1]  # the target between two segments is the next one's sample
+    span = (finish - start) * [1.0, 1.0, 0.0]
     length = np.linalg.norm(span, axis=1)
     along = np.divide(span, length[:, None], out=np.zeros_like(span), where=length[:, None] > 0)
-    between = np.linalg.norm((start[1:] - surface[last[:-1]])[:, :2], axis=1)
+    between = np.linalg.norm((start[1:] - finish[:-1])[:, :2], axis=1)
     begin = np.concatenate([[0.0], np.cumsum(length[:-1] + between)])
 
     of_point = np.searchsorted(segments, segment)
@@ -111,3 +113,13 @@ def spread(points: Floats, count: int) -> NDArray[np.int64]:
     wanted = np.linspace(0.0, travelled[-1], max(count, 1))
     rows: NDArray[np.int64] = np.searchsorted(travelled, wanted)
     return np.unique(np.clip(rows, 0, len(points) - 1)).astype(np.int64)
+
+
+def axis_ends(aims: Floats, path: ToolPath) -> Floats:
+    """Where camera axes (K, 6) are drawn to [m]: their targets, or for those without one as far as
+    the others reach."""
+    targets = path.targets
+    hit = np.isfinite(targets.point).all(axis=1)
+    reach = float(np.median(targets.range[hit])) if hit.any() else 1.0
+    unit = aims[:, 3:] / np.linalg.norm(aims[:, 3:], axis=1, keepdims=True)
+    return np.where(hit[:, None], targets.point, aims[:, :3] + reach * unit)

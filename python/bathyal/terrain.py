@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 
 from bathyal import _core
 from bathyal._core import Error, PointCloud, SheetReport, TriangleMesh
+from bathyal.errors import argument_error
 
 
 class SheetWarning(UserWarning):
@@ -82,7 +83,7 @@ def triangulate(
         return mesh
     if method == "greedy":
         return _triangulate_greedy(cloud, **options)
-    raise ValueError(f'`method`: expected "delaunay" or "greedy", got {method!r}')
+    raise argument_error("method", '"delaunay" or "greedy"', repr(method))
 
 
 def _triangulate_greedy(cloud: PointCloud | ArrayLike, **options: Any) -> TriangleMesh:

@@ -7,9 +7,8 @@ coordinates that would be steps of half a metre.
 
 from __future__ import annotations
 
-import html
-import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
+from itertools import product
 from typing import Any
 
 import numpy as np
@@ -17,21 +16,26 @@ import plotly.graph_objects as go  # type: ignore[import-untyped]
 from numpy.typing import NDArray
 
 from bathyal._core import Plane, PointCloud, Scene, ToolPath, TriangleMesh
-from bathyal.decimation import crop, decimate
-from bathyal.files import replacing
-from bathyal.palette import DEPTH, GAP, INK, SEGMENTS
+from bathyal.decimation import Indices, crop, decimate
+from bathyal.palette import INK
 from bathyal.relief import bounds
-from bathyal.stations import runs, spread
-from bathyal.window import surroundings
-
-Floats = NDArray[np.float64]
+from bathyal.stations import axis_ends
+from bathyal.traces import (
+    ARROW,
+    Floats,
+    aim_traces,
+    bottom_trace,
+    depth_scale,
+    local,
+    path_traces,
+)
+from bathyal.window import surroundings, view_window
 
 # Triangles and points a browser still turns smoothly, and a page of less than ten megabytes.
 TRIANGLE_BUDGET = 90_000
 POINT_BUDGET = 120_000
-_APPROACH_ARROWS = 120
-_ARROW = 0.035  # length of an approach arrow, as a share of the picture's size
 _STRETCHES = (1, 2, 5, 10, 20, 50)
+_ROOM = 1.1  # about the box, for the numbers on its axes
 
 
 def show_mesh(mesh: TriangleMesh) -> go.Figure:
@@ -42,7 +46,7 @@ def show_mesh(mesh: TriangleMesh) -> go.Figure:
         np.asarray(mesh.vertices), np.asarray(mesh.triangles), TRIANGLE_BUDGET
     )
     note = _triangle_note(len(triangles), len(mesh.triangles))
-    return _figure([_bottom_trace(vertices, triangles, origin)], low, high, origin, note)
+    return _figure([bottom_trace(vertices, triangles, origin)], low, high, origin, note)
 
 
 def show_cloud(cloud: PointCloud) -> go.Figure:
@@ -53,10 +57,10 @@ def show_cloud(cloud: PointCloud) -> go.Figure:
     shown = points[::every]
     low, high = _box(points)
     origin = _origin(low, high)
-    x, y, z = _local(shown, origin)
+    x, y, z = local(shown, origin)
     trace = go.Scatter3d(
         x=x, y=y, z=z, mode="markers", name="soundings",
-        marker={"size": 1.6, "color": z, "colorscale": _depth_scale()},
+        marker={"size": 1.6, "color": z, "colorscale": depth_scale()},
     )  # fmt: skip
     note = f"{len(points):,} soundings" + (f", one in {every} shown" if every > 1 else "")
     return _figure([trace], low, high, origin, note)
@@ -68,7 +72,7 @@ def show_path(path: ToolPath) -> go.Figure:
     size = float(np.max(high - low))
     low, high = _with_room(low, high, path, np.zeros((0, 6)))
     origin = _origin(low, high)
-    return _figure(_path_traces(path, origin, size), low, high, origin, "")
+    return _figure(path_traces(path, origin, size), low, high, origin, "")
 
 
 def show_plan(surface: Scene | Plane, aims: NDArray[Any], path: ToolPath) -> go.Figure:
@@ -77,92 +81,39 @@ def show_plan(surface: Scene | Plane, aims: NDArray[Any], path: ToolPath) -> go.
     Parameters
     ----------
     surface : Scene or Plane
-        What the path was planned on. Around the path it is shown in full or, above
-        `TRIANGLE_BUDGET` triangles, decimated; the title says which.
+        What the path was planned on. Of a survey much wider than the path only its surroundings
+        are shown; above `TRIANGLE_BUDGET` triangles they are decimated. The title says so.
     aims : (K, 6) array
         In the frame of the surface [m].
     path : ToolPath
     """
     aims = np.asarray(aims, float).reshape(-1, 6)
-    near = surroundings(path, aims)
-    traces, notes, boxes = [], [], [path.surface, path.position, path.targets.point]
-    if isinstance(surface, Plane):
-        vertices, triangles = _plane_patch(surface, *near)
-        parts = [(vertices, triangles)]
-        notes.append("the bottom is a plane")
-    else:
-        budget = TRIANGLE_BUDGET // len(surface.meshes)
-        cropped = [crop(mesh, *near) for mesh in surface.meshes]
-        total = sum(len(mesh.triangles) for mesh in surface.meshes)
-        parts = [decimate(*part, budget) for part in cropped if len(part[1])]
-        around = sum(len(part[1]) for part in cropped)
-        notes.append(_triangle_note(sum(len(part[1]) for part in parts), around, total))
-    boxes += [part[0] for part in parts]
-    low, high = _box(np.vstack(boxes))
+    parts, note = _bottom_parts(surface, aims, path)
+    vertices = [part[0] for part in parts]
+    low, high = _box(np.vstack([path.surface, path.position, path.targets.point, *vertices]))
     size = float(np.max(high - low))
     low, high = _with_room(low, high, path, aims)
     origin = _origin(low, high)
-    heights = [part[0][:, 2] for part in parts] or [np.zeros(1)]
-    limits = tuple(np.quantile(np.concatenate(heights), [0.002, 0.998]) - origin[2])
-    traces = [_bottom_trace(*part, origin, limits) for part in parts]
-    traces += _aim_traces(aims, path, origin)
-    traces += _path_traces(path, origin, size)
-    return _figure(traces, low, high, origin, "; ".join(notes))
+    heights = np.concatenate([[], *(corners[:, 2] for corners in vertices)])
+    limits = tuple(np.quantile(heights, [0.002, 0.998]) - origin[2]) if len(heights) else None
+    traces = [bottom_trace(*part, origin, limits) for part in parts]
+    traces += aim_traces(aims, path, origin)
+    traces += path_traces(path, origin, size)
+    return _figure(traces, low, high, origin, note)
 
 
-def write_html(
-    figure: go.Figure,
-    path: str | os.PathLike[str],
-    *,
-    title: str = "",
-    facts: Mapping[str, str] | None = None,
-    warnings: Sequence[str] = (),
-) -> None:
-    """Save a figure as one page that needs no network: the drawing code is inside.
-
-    The same bytes for the same figure; the whole file or none of it.
-    """
-    drawing = figure.to_html(
-        full_html=False, include_plotlyjs=True, div_id="plan", default_height="100%",
-        config={"displaylogo": False, "responsive": True},
-    )  # fmt: skip
-    listed = "".join(
-        f"<span><b>{html.escape(name)}</b> {html.escape(value)}</span>"
-        for name, value in (facts or {}).items()
-    )
-    warned = "".join(f"<p>{html.escape(warning)}</p>" for warning in warnings)
-    page = _PAGE.format(
-        title=html.escape(title), facts=listed, warnings=warned, drawing=drawing, ink=INK, red=GAP
-    )
-    with replacing(path) as aside:
-        aside.write_text(page, encoding="utf-8")
-
-
-_PAGE = """<!DOCTYPE html>
-<html lang="en">
-<head>
-<meta charset="utf-8">
-<meta name="viewport" content="width=device-width, initial-scale=1">
-<title>{title}</title>
-<style>
-html, body {{ height: 100%; margin: 0; font: 14px/1.4 system-ui, "DejaVu Sans", sans-serif;
-  color: {ink}; }}
-body {{ display: flex; flex-direction: column; }}
-header {{ padding: 10px 18px 6px; border-bottom: 1px solid #ddd; }}
-h1 {{ font-size: 18px; margin: 0 0 4px; }}
-header span {{ margin-right: 18px; white-space: nowrap; }}
-header b {{ font-weight: 500; opacity: 0.65; }}
-header p {{ margin: 2px 0; color: {red}; }}
-main {{ flex: 1; min-height: 300px; }}
-main > div {{ height: 100%; }}
-</style>
-</head>
-<body>
-<header><h1>{title}</h1>{facts}{warnings}</header>
-<main>{drawing}</main>
-</body>
-</html>
-"""
+def _bottom_parts(
+    surface: Scene | Plane, aims: Floats, path: ToolPath
+) -> tuple[list[tuple[Floats, Indices]], str]:
+    """Vertices and triangles of each mesh as it is shown, and a note of how much that is."""
+    if isinstance(surface, Plane):
+        return [_plane_patch(surface, *surroundings(path, aims))], "the bottom is a plane"
+    corners = view_window(surface, aims, path)
+    cropped = [crop(mesh, *corners) for mesh in surface.meshes]
+    budget = TRIANGLE_BUDGET // len(surface.meshes)
+    parts = [decimate(*part, budget) for part in cropped if len(part[1])]
+    shown, around = (sum(len(part[1]) for part in some) for some in (parts, cropped))
+    return parts, _triangle_note(shown, around, sum(len(mesh.triangles) for mesh in surface.meshes))
 
 
 def _figure(
@@ -183,7 +134,7 @@ def _figure(
         f"{name}axis": {
             "title": {"text": _axis_title(name, offset)}, "range": [a - offset, b - offset],
             "backgroundcolor": "#f3f3f1", "gridcolor": "#dddddd", "zerolinecolor": "#dddddd",
-            "nticks": 3 if name == "z" else 7,
+            "nticks": 7 if name != "z" else 3 if size[2] > max(size) / 8 else 2,
         }
         for name, offset, a, b in zip("xyz", origin, low, high, strict=True)
     }  # fmt: skip
@@ -192,7 +143,7 @@ def _figure(
         scene={
             "aspectmode": "manual",
             "aspectratio": _aspect(size, 1),
-            "camera": {"eye": {"x": -0.75, "y": -1.15, "z": 0.85}},
+            "camera": {"eye": _eye(_aspect(size, 1))},
             **axes,
         },
         margin={"l": 0, "r": 0, "t": 36, "b": 0},
@@ -215,6 +166,23 @@ def _aspect(size: Floats, stretch: float) -> dict[str, float]:
     return dict(zip("xyz", map(float, scaled), strict=True))
 
 
+def _eye(aspect: dict[str, float]) -> dict[str, float]:
+    """Where plotly's camera stands so that it sees the whole box, from the south-west above.
+
+    It looks at the box's middle with an angle of 45° from bottom to top; the page is at least a
+    third wider than high.
+    """
+    back = np.array([-0.75, -1.15, 0.85])
+    back /= np.linalg.norm(back)
+    right = np.cross([0.0, 0.0, 1.0], back)
+    right /= np.linalg.norm(right)
+    half = np.array([aspect[name] for name in "xyz"]) / 2
+    corners = half * np.array(list(product((-1, 1), repeat=3)))
+    off_axis = np.maximum(np.abs(corners @ np.cross(back, right)), np.abs(corners @ right) * 3 / 4)
+    distance = np.max(corners @ back + off_axis / np.tan(np.radians(45 / 2)))
+    return dict(zip("xyz", map(float, _ROOM * distance * back), strict=True))
+
+
 def _axis_title(name: str, offset: float) -> str:
     if offset == 0:
         return f"{name} [m]"
@@ -227,10 +195,6 @@ def _origin(low: Floats, high: Floats) -> Floats:
     return np.where(np.abs(middle) < 1000, 0.0, np.floor(middle))
 
 
-def _local(points: Floats, origin: Floats) -> NDArray[np.float32]:
-    return (np.asarray(points) - origin).astype(np.float32).T
-
-
 def _box(points: Floats) -> tuple[Floats, Floats]:
     finite = points[np.isfinite(points).all(axis=1)]
     if len(finite) == 0:
@@ -241,19 +205,15 @@ def _box(points: Floats) -> tuple[Floats, Floats]:
 def _with_room(
     low: Floats, high: Floats, path: ToolPath, aims: NDArray[Any]
 ) -> tuple[Floats, Floats]:
-    """Corners that hold the arrows too, and the cameras as far as half the picture's size up."""
+    """Corners that hold the arrows too, and the camera axes as far as half the picture's size up
+    and a fifth of it beside."""
     size = float(np.max(high - low))
-    tips = np.asarray(path.position) + np.asarray(path.approach) * _ARROW * size
-    cameras = aims[np.isfinite(aims).all(axis=1), :3]
-    inside = cameras[
-        np.all((cameras >= low) & (cameras <= high), axis=1, where=[True, True, False])
-    ]
+    tips = np.asarray(path.position) + np.asarray(path.approach) * ARROW * size
+    seen = np.vstack([aims[:, :3], axis_ends(aims, path)]) if len(aims) else tips
+    beside = np.abs(seen - (low + high) / 2)[:, :2] - (high - low)[:2] / 2
+    inside = seen[np.all(beside <= size / 5, axis=1)]
     inside = np.column_stack([inside[:, :2], np.minimum(inside[:, 2], high[2] + size / 2)])
     return _box(np.vstack([low, high, tips, inside]))
-
-
-def _depth_scale() -> list[list[Any]]:
-    return [[k / (len(DEPTH) - 1), colour] for k, colour in enumerate(DEPTH)]
 
 
 def _triangle_note(shown: int, around: int, total: int | None = None) -> str:
@@ -265,144 +225,7 @@ def _triangle_note(shown: int, around: int, total: int | None = None) -> str:
     return note
 
 
-def _bottom_trace(
-    vertices: Floats,
-    triangles: NDArray[np.int32],
-    origin: Floats,
-    limits: tuple[float, float] | None = None,
-) -> go.Mesh3d:
-    x, y, z = _local(vertices, origin)
-    i, j, k = triangles.T
-    low, high = limits or (None, None)
-    return go.Mesh3d(
-        x=x, y=y, z=z, i=i, j=j, k=k, intensity=z, colorscale=_depth_scale(), cmin=low, cmax=high,
-        name="bottom", showlegend=True, hoverinfo="skip",
-        colorbar={"title": {"text": "z [m]"}, "len": 0.6, "thickness": 14},
-        # Much ambient light: plotly lights faces that look at the viewer hardly at all.
-        lighting={"ambient": 0.85, "diffuse": 0.45, "specular": 0.05, "roughness": 0.9},
-        flatshading=True, lightposition={"x": 20000, "y": 20000, "z": 30000},
-    )  # fmt: skip
-
-
-def _plane_patch(plane: Plane, low: Floats, high: Floats) -> tuple[Floats, NDArray[np.int32]]:
+def _plane_patch(plane: Plane, low: Floats, high: Floats) -> tuple[Floats, Indices]:
     corners = np.array([[low[0], low[1]], [high[0], low[1]], [high[0], high[1]], [low[0], high[1]]])
     height = (plane.offset - corners @ plane.normal[:2]) / plane.normal[2]
     return np.column_stack([corners, height]), np.array([[0, 1, 2], [0, 2, 3]], np.int32)
-
-
-def _aim_traces(aims: NDArray[Any], path: ToolPath, origin: Floats) -> list[go.Scatter3d]:
-    targets = path.targets
-    hit = np.isfinite(targets.point).all(axis=1)
-    reach = float(np.median(targets.range[hit])) if hit.any() else 1.0
-    unit = aims[:, 3:] / np.linalg.norm(aims[:, 3:], axis=1, keepdims=True)
-    end = np.where(hit[:, None], targets.point, aims[:, :3] + reach * unit)
-    traces = []
-    for rows, colour, dash, name in (
-        (hit, "#555555", "solid", "camera axis"),
-        (~hit, GAP, "dot", "camera axis without target"),
-    ):
-        if rows.any():
-            points = _joined(aims[rows, :3], end[rows])
-            traces.append(_line(points, origin, colour, 2.5, name, dash=dash))
-            x, y, z = _local(aims[rows, :3], origin)
-            traces.append(
-                go.Scatter3d(
-                    x=x, y=y, z=z, mode="markers", name="camera", showlegend=bool(rows is hit),
-                    marker={"size": 4, "symbol": "square", "color": colour},
-                    text=[f"camera {k}: {targets.status[k]}" for k in np.flatnonzero(rows)],
-                    hoverinfo="text",
-                )
-            )  # fmt: skip
-    return traces
-
-
-def _path_traces(path: ToolPath, origin: Floats, size: float) -> list[go.Scatter3d]:
-    position, approach = np.asarray(path.position), np.asarray(path.approach)
-    traces = _segment_traces(path, origin)
-    gap = np.flatnonzero(path.gap)
-    if len(gap):
-        points = _joined(position[gap], position[gap + 1])
-        traces.append(_line(points, origin, GAP, 5, "gap: no bottom known", dash="dash"))
-    rows = spread(position, _APPROACH_ARROWS)
-    tips = position[rows] + approach[rows] * _ARROW * size
-    traces.append(_line(_joined(position[rows], tips), origin, INK, 2, "approach a_j"))
-    if not np.array_equal(path.position, path.surface):
-        feet = _joined(path.surface[rows], position[rows])
-        traces.append(_line(feet, origin, "#888888", 1.5, "standoff"))
-    traces.append(_target_trace(path, origin))
-    return traces
-
-
-def _segment_traces(path: ToolPath, origin: Floats) -> list[go.Scatter3d]:
-    """One trace a colour; each stretch ends with a row of NaN, which plotly does not draw over."""
-    segment = np.asarray(path.segment)
-    table = np.column_stack(
-        [
-            np.arange(len(segment)), segment, path.position, path.approach, path.travel,
-            path.arc_length, path.time,
-        ]
-    )  # fmt: skip
-    nothing = np.full((1, table.shape[1]), np.nan)
-    pieces: dict[int, list[Floats]] = {}
-    for begin, end in runs(path):
-        colour = int(segment[begin]) % len(SEGMENTS)
-        pieces.setdefault(colour, []).extend([table[begin : end + 1], nothing])
-    traces = []
-    for number, (colour, parts) in enumerate(sorted(pieces.items())):
-        rows = np.vstack(parts)
-        x, y, z = _local(rows[:, 2:5], origin)
-        traces.append(
-            go.Scatter3d(
-                x=x, y=y, z=z, mode="lines+markers", name="tool path, by segment",
-                legendgroup="path", showlegend=number == 0,
-                line={"color": SEGMENTS[colour], "width": 6},
-                marker={"color": SEGMENTS[colour], "size": 2},
-                customdata=rows, hovertemplate=_HOVER,
-            )
-        )  # fmt: skip
-    return traces
-
-
-_HOVER = (
-    "<b>T<sub>%{customdata[0]:.0f}</sub></b>, from target %{customdata[1]:.0f}<br>"
-    "T (%{customdata[2]:.3f}, %{customdata[3]:.3f}, %{customdata[4]:.3f}) m<br>"
-    "a (%{customdata[5]:.3f}, %{customdata[6]:.3f}, %{customdata[7]:.3f})<br>"
-    "n (%{customdata[8]:.3f}, %{customdata[9]:.3f}, %{customdata[10]:.3f})<br>"
-    "%{customdata[11]:.2f} m along, after %{customdata[12]:.1f} s<extra></extra>"
-)
-
-
-def _target_trace(path: ToolPath, origin: Floats) -> go.Scatter3d:
-    targets = path.targets
-    rows = np.flatnonzero(np.isfinite(targets.point).all(axis=1))
-    x, y, z = _local(targets.point[rows], origin)
-    told = [
-        f"A{row}: {targets.status[row]}<br>"
-        + "({:.3f}, {:.3f}, {:.3f}) m".format(*targets.point[row])
-        + f"<br>range {targets.range[row]:.2f} m, "
-        f"incidence {np.degrees(targets.incidence[row]):.0f}°"
-        for row in rows
-    ]
-    return go.Scatter3d(
-        x=x, y=y, z=z, mode="markers+text", name="target A_i", text=[str(row) for row in rows],
-        textposition="top center", textfont={"size": 14, "color": INK}, hovertext=told,
-        hoverinfo="text",
-        marker={"size": 6, "color": "white", "line": {"color": INK, "width": 2}},
-    )  # fmt: skip
-
-
-def _line(
-    points: Floats, origin: Floats, colour: str, width: float, name: str, dash: str = "solid"
-) -> go.Scatter3d:
-    x, y, z = _local(points, origin)
-    return go.Scatter3d(
-        x=x, y=y, z=z, mode="lines", name=name, hoverinfo="skip",
-        line={"color": colour, "width": width, "dash": dash},
-    )  # fmt: skip
-
-
-def _joined(begin: Floats, end: Floats) -> Floats:
-    """Separate strokes from each `begin` to its `end` as one line with breaks."""
-    joined = np.full((3 * len(begin), 3), np.nan)
-    joined[0::3], joined[1::3] = begin, end
-    return joined

@@ -12,6 +12,7 @@ from xml.sax.saxutils import quoteattr
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from bathyal.errors import argument_error
 from bathyal.files import PathLike, replacing
 from bathyal.formats.cells import Cells, cells_of
 from bathyal.formats.polydata import PolyData
@@ -77,10 +78,10 @@ def write_vtp(
     'EPSG:32602'
     """
     if encoding not in ("raw", "base64"):
-        raise ValueError(f'encoding: expected "raw" or "base64", got {encoding!r}')
+        raise argument_error("encoding", '"raw" or "base64"', repr(encoding))
     table = np.asarray(points, np.float64)
     if table.ndim != 2 or table.shape[1] != 3:
-        raise ValueError(f"points: expected shape (N, 3), got {table.shape}")
+        raise argument_error("points", "shape (N, 3)", f"shape {table.shape}")
     cells = {
         name: _checked_cells(key, lists, len(table))
         for name, key, lists in (
@@ -122,10 +123,8 @@ def _checked_cells(key: str, lists: Any, point_count: int) -> Cells:
     if len(cells.connectivity):
         low, high = int(cells.connectivity.min()), int(cells.connectivity.max())
         if low < 0 or high >= point_count:
-            raise ValueError(
-                f"{key}: expected rows of points from 0 to {point_count - 1}, "
-                f"got {low if low < 0 else high}"
-            )
+            expected = f"rows of points from 0 to {point_count - 1}"
+            raise argument_error(key, expected, low if low < 0 else high)
     return cells
 
 
@@ -139,11 +138,11 @@ def _rows(
         if array.dtype == bool:
             array = array.astype(np.uint8)
         if array.dtype.kind != "U" and array.dtype.newbyteorder("<") not in _NAMES:
-            raise ValueError(f"{key}[{name!r}]: expected numbers or texts, got {array.dtype}")
+            raise argument_error(f"{key}[{name!r}]", "numbers or texts", array.dtype)
         if array.ndim > 2 or (array.ndim == 2 and array.dtype.kind == "U"):
-            raise ValueError(f"{key}[{name!r}]: expected shape (n,) or (n, k), got {array.shape}")
+            raise argument_error(f"{key}[{name!r}]", "shape (n,) or (n, k)", f"shape {array.shape}")
         if count is not None and len(array) != count:
-            raise ValueError(f"{key}[{name!r}]: expected {count} rows, got {len(array)}")
+            raise argument_error(f"{key}[{name!r}]", f"{count} rows", len(array))
         arrays[name] = array
     return arrays
 

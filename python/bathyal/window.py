@@ -43,6 +43,13 @@ def surroundings(path: ToolPath, aims: Floats) -> tuple[Floats, Floats]:
     return low - margin, high + margin
 
 
+def view_window(surface: Scene, aims: Floats, path: ToolPath) -> tuple[Floats, Floats]:
+    """Corners (2,) of what a view shows: the whole survey, or the path's surroundings, as a map."""
+    low, high = (corner[:2] for corner in bounds(surface))
+    near = surroundings(path, aims)
+    return (low, high) if _shown_whole(low, high, *near) else near
+
+
 def map_window(surface: Scene | Plane, aims: Floats, path: ToolPath, aspect: float) -> Window:
     """The whole survey where the path can be seen on it, the path's surroundings otherwise;
     `aspect` is the width of the map over its height."""
@@ -50,10 +57,14 @@ def map_window(surface: Scene | Plane, aims: Floats, path: ToolPath, aspect: flo
     near_low, near_high = surroundings(path, aims)
     if np.any(high <= low):  # a plane, or a scene without a triangle
         return Window(*_shaped(near_low, near_high, aspect), whole=True)
-    if np.max(high - low) <= _WHOLE_UP_TO * np.max(near_high - near_low):
+    if _shown_whole(low, high, near_low, near_high):
         margin = 0.02 * (high - low)
         return Window(*_shaped(low - margin, high + margin, aspect), whole=True)
     return Window(*_shaped(near_low, near_high, aspect), whole=False)
+
+
+def _shown_whole(low: Floats, high: Floats, near_low: Floats, near_high: Floats) -> bool:
+    return bool(np.max(high - low) <= _WHOLE_UP_TO * np.max(near_high - near_low))
 
 
 def _shaped(low: Floats, high: Floats, aspect: float) -> tuple[Floats, Floats]:

@@ -5,24 +5,35 @@
 #include <string>
 
 #include "bathyal/soundings/parse_number.hpp"
+#include "bathyal/soundings/plain_decimal.hpp"
 
-// What we take for a number has the value that the C library gives it, to the last bit.
-extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, std::size_t size) {
-  if (size == 0) return 0;
-  const char decimal = (data[0] & 1U) != 0 ? '.' : ',';
-  std::string text(reinterpret_cast<const char*>(data) + 1, size - 1);
-  const std::size_t length = text.size();
-  text.append(bathyal::kTextPadding, '\0');
-  double value = 0.0;
-  const char* const end = bathyal::parse_number(text.data(), decimal, value);
-  if (end == nullptr) return 0;
-  const auto taken = static_cast<std::size_t>(end - text.data());
-  if (taken == 0 || taken > length) std::abort();
-  text.resize(taken);
-  if (const std::size_t comma = text.find(decimal); comma != std::string::npos) text[comma] = '.';
+namespace {
+
+void check_value(std::string text, char decimal, double value) {
+  if (const std::size_t mark = text.find(decimal); mark != std::string::npos) text[mark] = '.';
   char* theirs = nullptr;
   const double expected = std::strtod(text.c_str(), &theirs);
   if (theirs != text.c_str() + text.size()) std::abort();
   if (std::bit_cast<std::uint64_t>(expected) != std::bit_cast<std::uint64_t>(value)) std::abort();
+}
+
+}  // namespace
+
+// What we take for a number has the value that the C library gives it, to the last bit; and what
+// we take for a plain decimal is a number.
+extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, std::size_t size) {
+  if (size == 0) return 0;
+  const char decimal = (data[0] & 1U) != 0 ? '.' : ',';
+  const std::string text(reinterpret_cast<const char*>(data) + 1, size - 1);
+  const std::string padded = text + ';' + std::string(bathyal::kTextPadding, '\0');
+  double value = 0.0;
+  if (bathyal::parse_plain_decimal(padded.data(), padded.data() + text.size(), decimal, value)) {
+    check_value(text, decimal, value);
+  }
+  const char* const end = bathyal::parse_number(padded.data(), decimal, value);
+  if (end == nullptr) return 0;
+  const auto taken = static_cast<std::size_t>(end - padded.data());
+  if (taken == 0 || taken > text.size()) std::abort();
+  check_value(text.substr(0, taken), decimal, value);
   return 0;
 }

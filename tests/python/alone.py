@@ -11,12 +11,14 @@ import re
 import resource
 import signal
 import traceback
+import warnings
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
 SECONDS = 60
 MEMORY = 2 << 30
+ARGUMENT = re.compile(r"`[^`]+`: expected .+, got .+", re.DOTALL)  # how a mistake is told
 
 
 @dataclass(frozen=True)
@@ -52,6 +54,8 @@ def judge(case: Case) -> str:
             return "".join(traceback.format_exception(error))
         if not re.search(case.says, str(error)):
             return f"the error does not say {case.says!r}: {error}"
+        if isinstance(error, ValueError) and not ARGUMENT.match(str(error)):
+            return f"the error does not name its argument, what it expected and got: {error}"
         return ""
     return f"no error, but {answer!r}" if case.errors else ""
 
@@ -81,3 +85,13 @@ def run_alone(case: Case, folder: Path) -> str:
     if not answer:
         return "ended without an answer"
     return str(pickle.loads(answer))
+
+
+def check(case: Case, folder: Path) -> None:
+    """Fail unless the case goes as it should and leaves no half-written file behind."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # of fork beside the pool's threads, which the child leaves
+        wrong = run_alone(case, folder)
+    assert not wrong, wrong
+    left_aside = [path.name for path in folder.rglob("*") if path.name.startswith(".")]
+    assert left_aside == []

@@ -14,6 +14,7 @@ import pytest
 import bathyal
 import scenes
 from bathyal import decimation, figures, map_figure, relief, stations, views
+from bathyal.page import write_html
 from bathyal.palette import GAP, INK, SEGMENTS
 from bathyal.window import map_window
 
@@ -229,9 +230,7 @@ def traces(figure) -> list[dict]:
 def test_page_needs_no_network(tmp_path):
     surface, axes, path = scenes.planned()
     file = tmp_path / "plan.html"
-    views.write_html(
-        views.show_plan(surface, axes, path), file, title="a <b>", warnings=path.warnings
-    )
+    write_html(views.show_plan(surface, axes, path), file, title="a <b>", warnings=path.warnings)
     page = file.read_text()
     for tag in re.findall(r"<(?:script|link|img|iframe)\b[^>]*>", page):
         assert not re.search(r"""(?:src|href)\s*=\s*["']?(?:https?:)?//""", tag)
@@ -312,3 +311,63 @@ def test_large_cloud_is_thinned_and_says_so():
     shown = bathyal.PointCloud(points).show()
     assert len(shown.data[0].x) <= views.POINT_BUDGET
     assert "one in 3 shown" in shown.layout.title.text
+
+
+def test_a_view_shows_a_small_survey_whole_and_of_a_large_one_what_lies_about_the_path():
+    surface, axes, path = scenes.planned()
+    whole = views.show_plan(surface, axes, path).layout.title.text
+    assert whole == f"{len(surface.meshes[0].triangles):,} triangles shown"
+    x, y = np.meshgrid(np.arange(-60, 80.0), np.arange(-60, 80.0))
+    wide = bathyal.Scene(bathyal.triangulate(np.c_[x.ravel(), y.ravel(), np.full(x.size, -30.0)]))
+    path = bathyal.plan_toolpath(wide, axes[:3], step=0.5)
+    figure = views.show_plan(wide, axes[:3], path)
+    assert "around the path (the survey has 38,642)" in figure.layout.title.text
+    bottom = next(trace for trace in traces(figure) if trace["type"] == "mesh3d")
+    edges = [numbers(bottom[axis]) for axis in "xy"]
+    for low, high in ((edge.min(), edge.max()) for edge in edges):  # a whole rectangle of cells
+        assert low > -40
+        assert high < 110
+    count = (np.ptp(edges[0]) + 1) * (np.ptp(edges[1]) + 1)
+    assert len(edges[0]) == count
+
+
+def test_the_camera_sees_the_whole_box():
+    for shape in ((20, 12, 1), (1, 1, 3), (4, 1, 1), (1, 4, 0.01)):
+        aspect = views._aspect(np.array(shape, float), 1)
+        eye = np.array([views._eye(aspect)[name] for name in "xyz"])
+        back = eye / np.linalg.norm(eye)
+        right = np.cross([0, 0, 1], back)
+        right /= np.linalg.norm(right)
+        half = np.array([aspect[name] for name in "xyz"]) / 2
+        for signs in np.ndindex(2, 2, 2):
+            corner = half * (2 * np.array(signs) - 1)
+            depth = (eye - corner) @ back
+            height = abs(corner @ np.cross(back, right)) / depth
+            width = abs(corner @ right) / depth
+            assert height < np.tan(np.radians(22.5))
+            assert width < 4 / 3 * np.tan(np.radians(22.5))
+
+
+def test_an_axis_that_misses_is_in_the_picture():
+    surface, axes, path = scenes.planned(miss=False)
+    axes = np.vstack([axes, [21.5, 6, -20, 0, 0, -1]])
+    path = bathyal.plan_toolpath(surface, axes, step=0.2)
+    figure = views.show_plan(surface, axes, path)
+    lost = next(t for t in traces(figure) if t["name"] == "camera axis without target")
+    x = numbers(lost["x"])
+    low, high = figure.layout.scene.xaxis.range
+    assert low <= x[:2].min() <= x[:2].max() == 21.5 <= high
+
+
+def test_the_section_goes_on_from_segment_to_segment_unless_a_gap_parts_them():
+    _, _, path = scenes.planned(hole=False, miss=False, step=0.7)
+    whole = stations.unroll(path)
+    np.testing.assert_array_equal(whole.end[:-1], whole.begin[1:])
+    known = path.targets.point[:, :2]
+    lengths = np.linalg.norm(np.diff(known, axis=0), axis=1)
+    np.testing.assert_allclose(whole.end - whole.begin, lengths, atol=1e-9)
+    axes = np.insert(scenes.aims(miss=False), 1, [60.0, 3, -20, 0, 0, -1], axis=0)
+    parted = stations.unroll(bathyal.plan_toolpath(scenes.bottom(hole=False), axes, step=0.7))
+    assert len(parted.begin) == 2
+    assert parted.begin[1] == pytest.approx(np.linalg.norm(known[1] - known[0]))
+    assert parted.end[0] == 0.0

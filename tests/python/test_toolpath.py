@@ -320,7 +320,7 @@ def test_a_gap_is_flagged_and_nothing_is_claimed_over_it():
     assert np.allclose(path.surface[[j, j + 1], 0], [2.0, 3.5])
     inside = (path.surface[:, 0] > 2.0 + 1e-9) & (path.surface[:, 0] < 3.5 - 1e-9)
     assert not inside.any()
-    assert path.warnings == ["segments that cross a gap: 0"]
+    assert path.warnings == ["segment 0 crosses a gap"]
 
 
 def test_a_path_over_utm_coordinates_keeps_millimetres():

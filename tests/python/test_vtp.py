@@ -92,17 +92,17 @@ def test_arrays_of_several_compressed_blocks(tmp_path):
 def test_refusals_of_the_writer(tmp_path):
     path = tmp_path / "a.vtp"
     points = np.zeros((3, 3))
-    with pytest.raises(ValueError, match="points: expected shape"):
+    with pytest.raises(ValueError, match="`points`: expected shape"):
         write_vtp(path, np.zeros((3, 2)))
-    with pytest.raises(ValueError, match="lines: expected rows of points from 0 to 2, got 3"):
+    with pytest.raises(ValueError, match="`lines`: expected rows of points from 0 to 2, got 3"):
         write_vtp(path, points, lines=[[0, 3]])
     with pytest.raises(ValueError, match="got -1"):
         write_vtp(path, points, polygons=[[0, 1, -1]])
-    with pytest.raises(ValueError, match=r"point_data\['a'\]: expected 3 rows, got 2"):
+    with pytest.raises(ValueError, match=r"`point_data\['a'\]`: expected 3 rows, got 2"):
         write_vtp(path, points, point_data={"a": [1.0, 2.0]})
-    with pytest.raises(ValueError, match="expected numbers or texts"):
+    with pytest.raises(ValueError, match="`: expected numbers or texts"):
         write_vtp(path, points, point_data={"a": np.array([1j, 2, 3])})
-    with pytest.raises(ValueError, match="encoding"):
+    with pytest.raises(ValueError, match="`encoding`: expected"):
         write_vtp(path, points, encoding="ascii")
     assert list(tmp_path.iterdir()) == []
 

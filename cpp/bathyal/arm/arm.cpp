@@ -5,7 +5,6 @@
 #include <cmath>
 #include <utility>
 
-#include "bathyal/arm/check_rigid.hpp"
 #include "bathyal/base/check.hpp"
 
 namespace bathyal {

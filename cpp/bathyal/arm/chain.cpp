@@ -6,7 +6,6 @@
 #include <limits>
 #include <utility>
 
-#include "bathyal/arm/check_rigid.hpp"
 #include "bathyal/arm/row_frames.hpp"
 #include "bathyal/base/check.hpp"
 

@@ -6,11 +6,9 @@
 #include <utility>
 #include <vector>
 
-namespace bathyal {
+#include "bathyal/base/large_pages.hpp"
 
-/// Whole pages straight from the system. \throw std::bad_alloc
-void* allocate_pages(std::size_t bytes);
-void free_pages(void* pages, std::size_t bytes) noexcept;
+namespace bathyal {
 
 /// For scratch arrays of a megabyte and more: pages that nobody has touched cost nothing, freed
 /// memory goes back to the system at once (the heap of a worker thread keeps it), and `resize`
@@ -23,8 +21,8 @@ struct PageAllocator {
   template <class U>
   PageAllocator(const PageAllocator<U>&) {}  // NOLINT(google-explicit-constructor)
 
-  T* allocate(std::size_t count) { return static_cast<T*>(allocate_pages(count * sizeof(T))); }
-  void deallocate(T* pages, std::size_t count) noexcept { free_pages(pages, count * sizeof(T)); }
+  T* allocate(std::size_t count) { return static_cast<T*>(map_pages(count * sizeof(T))); }
+  void deallocate(T* pages, std::size_t count) noexcept { unmap_pages(pages, count * sizeof(T)); }
 
   template <class U, class... Args>
   void construct(U* place, Args&&... args) {

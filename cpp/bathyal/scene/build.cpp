@@ -263,8 +263,8 @@ Scene::Hierarchy::Hierarchy(std::vector<TriangleMesh> given, int num_threads)
   const scene::BinaryTree tree =
       scene::build_binary_tree(scene::sort_into_cells(*this, num_threads), num_threads);
   const scene::Plan plan = scene::plan_wide_nodes(tree.nodes);
-  nodes = scene::PageArray<scene::WideNode>(plan.nodes.size());
-  blocks = scene::PageArray<scene::TriangleBlock>(plan.blocks.size());
+  nodes = PageArray<scene::WideNode>(plan.nodes.size());
+  blocks = PageArray<scene::TriangleBlock>(plan.blocks.size());
   parallel_for(plan.nodes.size(), 256, num_threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       scene::fill_node(*this, tree, plan.nodes[i], nodes[i]);

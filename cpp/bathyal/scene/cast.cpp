@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bathyal/scene/cast_kernel.hpp"
 
-#include <algorithm>
-
 #include "bathyal/base/parallel.hpp"
 #include "bathyal/base/simd.hpp"
 #include "bathyal/scene/hierarchy.hpp"
@@ -39,7 +37,7 @@ CastScene cast_scene(const Scene::Hierarchy& h) {
     scene.low[axis] = h.low[axis];
     scene.high[axis] = h.high[axis];
   }
-  scene.reach = std::max(h.low.cwiseAbs().maxCoeff(), h.high.cwiseAbs().maxCoeff());
+  scene.reach = h.reach();
   return scene;
 }
 

@@ -121,15 +121,20 @@ class Chainer {
 
   /// Walks from `end` through its segment and on until the line ends or comes back.
   Polyline walk(SegmentEnd end) {
-    Polyline line;
-    line.points.push_back(position(end));
-    while (end != kNone && !taken_[index(end / 2)]) {
-      const CutSegment& segment = segments_[index(end / 2)];
+    route_.clear();
+    for (; end != kNone && !taken_[index(end / 2)]; end = partner_[index(other_end(end))]) {
       taken_[index(end / 2)] = true;
-      line.points.push_back(position(other_end(end)));
-      line.mesh.push_back(segment.mesh);
-      line.triangle.push_back(segment.triangle);
-      end = partner_[index(other_end(end))];
+      route_.push_back(end);
+    }
+    Polyline line;
+    line.points.reserve(route_.size() + 1);
+    line.mesh.reserve(route_.size());
+    line.triangle.reserve(route_.size());
+    line.points.push_back(position(route_.front()));
+    for (const SegmentEnd from : route_) {
+      line.points.push_back(position(other_end(from)));
+      line.mesh.push_back(segments_[index(from / 2)].mesh);
+      line.triangle.push_back(segments_[index(from / 2)].triangle);
     }
     return line;
   }
@@ -189,6 +194,8 @@ class Chainer {
   Vec3 along_, normal_;
   std::vector<SegmentEnd> partner_;
   std::vector<char> taken_;
+  std::vector<SegmentEnd>
+      route_;  ///< segments of the line at hand, by the ends they are entered at
 };
 
 }  // namespace

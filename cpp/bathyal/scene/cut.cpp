@@ -15,8 +15,6 @@ constexpr unsigned kRight = 4;     // the same, on the right
 constexpr unsigned kSliver = 8;    // lies in the plane and has no width
 constexpr unsigned kCovered = 16;  // its longest edge, which its other two cover
 
-double reach(const Vec3& v) { return v.cwiseAbs().maxCoeff(); }
-
 /// Weyl's multiplier of the golden ratio spreads each word; the high half is the well mixed one.
 std::uint64_t mix(std::uint64_t hash, std::uint64_t value) {
   return (std::rotl(hash, 23) ^ value) * 0x9e3779b97f4a7c15U;
@@ -36,15 +34,14 @@ bool is_outline(unsigned evidence) {
 
 CutCollector::CutCollector(const Cutter& cutter, std::size_t expected) : cutter_(cutter) {
   points_.reserve(expected + 1);
-  point_mesh_.reserve(expected + 1);
+  meetings_.reserve(expected + 1);
   pieces_.reserve(expected);
   point_index_.reserve(expected);
-  piece_index_.reserve(expected);
 }
 
 template <class Same>
-std::int32_t CutCollector::Index::find_or_add(std::uint32_t hash, std::int32_t next,
-                                              const Same& same) {
+std::int32_t CutCollector::PointIndex::find_or_add(std::uint32_t hash, std::int32_t next,
+                                                   const Same& same) {
   if (2 * (used_ + 1) > slots_.size()) resize(std::max<std::size_t>(64, 4 * slots_.size()));
   const std::size_t mask = slots_.size() - 1;
   std::size_t i = hash & mask;
@@ -56,9 +53,9 @@ std::int32_t CutCollector::Index::find_or_add(std::uint32_t hash, std::int32_t n
   return next;
 }
 
-void CutCollector::Index::reserve(std::size_t count) { resize(std::bit_ceil(2 * count + 2)); }
+void CutCollector::PointIndex::reserve(std::size_t count) { resize(std::bit_ceil(2 * count + 2)); }
 
-void CutCollector::Index::resize(std::size_t slot_count) {
+void CutCollector::PointIndex::resize(std::size_t slot_count) {
   const auto old = std::move(slots_);
   slots_.assign(slot_count, {});
   const std::size_t mask = slots_.size() - 1;
@@ -76,11 +73,11 @@ std::int32_t CutCollector::point_number(const Vec3& point, std::int32_t mesh) {
   const auto next = static_cast<std::int32_t>(points_.size());
   const std::int32_t number = point_index_.find_or_add(fold(hash), next, [&](std::int32_t i) {
     const auto k = static_cast<std::size_t>(i);
-    return points_[k] == point && point_mesh_[k] == mesh;
+    return points_[k] == point && meetings_[k].mesh == mesh;
   });
   if (number == next) {
     points_.push_back(point);
-    point_mesh_.push_back(mesh);
+    meetings_.push_back({mesh, kNone, 0});
   }
   return number;
 }
@@ -94,20 +91,31 @@ void CutCollector::add_piece(Vec3 p, Vec3 q, unsigned evidence, std::int32_t mes
     if (p == q || !cutter_.clip(p, q)) return;
   }
   if (p == q) return;
-  std::int32_t low = point_number(p, mesh);
-  std::int32_t high = point_number(q, mesh);
-  if (low > high) std::swap(low, high);
-  const auto next = static_cast<std::int32_t>(pieces_.size());
-  const std::uint64_t hash =
-      mix(mix(0, static_cast<std::uint64_t>(low)), static_cast<std::uint64_t>(high));
-  const std::array ends{low, high};
-  const std::int32_t number = piece_index_.find_or_add(fold(hash), next, [&](std::int32_t i) {
-    return pieces_[static_cast<std::size_t>(i)].segment.ends == ends;
-  });
-  if (number == next) pieces_.push_back({{ends, mesh, triangle}, 0});
-  Piece& piece = pieces_[static_cast<std::size_t>(number)];
+  Piece& piece = piece_between(point_number(p, mesh), point_number(q, mesh), mesh, triangle);
   piece.evidence |= evidence;
   piece.segment.triangle = std::min(piece.segment.triangle, triangle);
+}
+
+CutCollector::Piece& CutCollector::piece_between(std::int32_t p, std::int32_t q, std::int32_t mesh,
+                                                 std::int32_t triangle) {
+  const std::array ends{std::min(p, q), std::max(p, q)};
+  std::array<Meeting*, 2> at{};
+  for (const std::size_t i : {0, 1}) at[i] = &meetings_[static_cast<std::size_t>(ends[i])];
+  // Looked for where fewer meet: at a hub of a flat fan there may be any number.
+  const std::size_t fewer = at[1]->pieces < at[0]->pieces ? 1 : 0;
+  for (std::int32_t k = at[fewer]->newest; k != kNone;) {
+    Piece& piece = pieces_[static_cast<std::size_t>(k)];
+    const auto [low, high] = piece.segment.ends;
+    if (low == ends[0] && high == ends[1]) return piece;
+    k = piece.older[low == ends[fewer] ? 0 : 1];
+  }
+  const auto number = static_cast<std::int32_t>(pieces_.size());
+  pieces_.push_back({{ends, mesh, triangle}, 0, {at[0]->newest, at[1]->newest}});
+  for (Meeting* meeting : at) {
+    meeting->newest = number;
+    ++meeting->pieces;
+  }
+  return pieces_.back();
 }
 
 void CutCollector::add_flat_triangle(const std::array<Vec3, 3>& corners, std::int32_t mesh,
@@ -145,15 +153,25 @@ void CutCollector::add(const std::array<Vec3, 3>& corners, std::int32_t mesh,
   if (above == 3 || below == 3) return;
   if (above == 0 && below == 0) return add_flat_triangle(corners, mesh, triangle);
 
-  // Cut points: the corners with p = 0 and the edges between corners of opposite sign. Any other
-  // triangle than these has two of them, or one where it only touches.
+  const auto cut = [&](std::size_t i, std::size_t j) {
+    return Cutter::cut_edge(corners[i], p[i], corners[j], p[j]);
+  };
+  if (above + below == 3) {  // nearly all: one corner is alone on its side
+    const bool side = above == 1;
+    const std::size_t alone = (p[0] > 0.0) == side ? 0 : (p[1] > 0.0) == side ? 1 : 2;
+    add_piece(cut(alone, (alone + 1) % 3), cut(alone, (alone + 2) % 3), kSurface, mesh, triangle);
+    return;
+  }
+
+  // Cut points: the corners with p = 0, and the edge between corners of opposite sign. Two of them,
+  // or one where the triangle only touches.
   std::array<Vec3, 2> ends;
   std::size_t count = 0;
   for (std::size_t i = 0; i < 3; ++i) {
     const std::size_t j = (i + 1) % 3;
     if (p[i] == 0.0) ends[count++] = corners[i];
     if ((p[i] < 0.0 && p[j] > 0.0) || (p[i] > 0.0 && p[j] < 0.0)) {
-      ends[count++] = cutter_.cut_edge(corners[i], p[i], corners[j], p[j]);
+      ends[count++] = cut(i, j);
     }
   }
   if (count == 2) add_piece(ends[0], ends[1], kSurface, mesh, triangle);

@@ -26,19 +26,28 @@ class CutCollector {
  private:
   struct Piece {
     CutSegment segment;
-    unsigned evidence = 0;  // what the triangles around it say
+    unsigned evidence = 0;                // what the triangles around it say
+    std::array<std::int32_t, 2> older{};  // the piece before it at each of its ends, or kNone
   };
 
-  void add_edge_in_plane(const Vec3& v0, const Vec3& v1, unsigned evidence, std::int32_t mesh,
-                         std::int32_t triangle);
+  /// A point where pieces meet, next to those in `points_`.
+  struct Meeting {
+    std::int32_t mesh;
+    std::int32_t newest;  // piece that ends here
+    std::int32_t pieces;  // how many do
+  };
+
+  static constexpr std::int32_t kNone = -1;
+
   void add_flat_triangle(const std::array<Vec3, 3>& corners, std::int32_t mesh,
                          std::int32_t triangle);
   void add_piece(Vec3 p, Vec3 q, unsigned evidence, std::int32_t mesh, std::int32_t triangle);
   std::int32_t point_number(const Vec3& point, std::int32_t mesh);
+  Piece& piece_between(std::int32_t p, std::int32_t q, std::int32_t mesh, std::int32_t triangle);
 
-  /// Numbers of keys seen before, by open addressing: a section holds thousands of points, and a
+  /// Numbers of points by their hash, in open addressing: a section holds thousands, and a
   /// node-based map would take longer than the cutting.
-  class Index {
+  class PointIndex {
    public:
     void reserve(std::size_t count);
 
@@ -52,7 +61,7 @@ class CutCollector {
 
     struct Slot {
       std::uint32_t hash = 0;
-      std::int32_t number = -1;
+      std::int32_t number = kNone;
     };
     std::vector<Slot> slots_;
     std::size_t used_ = 0;
@@ -60,9 +69,9 @@ class CutCollector {
 
   Cutter cutter_;
   std::vector<Vec3> points_;
-  std::vector<std::int32_t> point_mesh_;
+  std::vector<Meeting> meetings_;  // one a point
   std::vector<Piece> pieces_;
-  Index point_index_, piece_index_;
+  PointIndex point_index_;
 };
 
 }  // namespace bathyal::scene

@@ -11,16 +11,6 @@
 namespace bathyal::scene {
 namespace {
 
-constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
-
-// In units of ε · the largest coordinate: how far rounding moves a vertex that was meant to lie in
-// the plane (its own rounding, that of the plane, and that of p), and a point computed as a cut or
-// a ray's hit, which a steep triangle stretches.
-constexpr double kVertexRounding = 8.0;
-constexpr double kPointRounding = 256.0;
-
-double reach(const Vec3& v) { return v.cwiseAbs().maxCoeff(); }
-
 void check_vector(std::string_view name, const Vec3& v) {
   if (v.allFinite()) return;
   throw_argument(name, "three finite numbers",
@@ -28,10 +18,6 @@ void check_vector(std::string_view name, const Vec3& v) {
 }
 
 }  // namespace
-
-bool precedes(const Vec3& a, const Vec3& b) {
-  return std::make_tuple(a.x(), a.y(), a.z()) < std::make_tuple(b.x(), b.y(), b.z());
-}
 
 Cutter::Cutter(const Vec3& normal, const Vec3& anchor)
     : normal_(normal),
@@ -50,8 +36,8 @@ Cutter Cutter::between(const Vec3& start, const Vec3& end, const Vec3& up) {
   const Vec3 unit_up = up / up_length;
   const Vec3 normal = line.cross(unit_up);  // r of the paper
   const double horizontal = normal.stableNorm();
-  const double rounding = kEpsilon * std::max(reach(start), reach(end));
-  if (!(horizontal > kVertexRounding * (rounding + kEpsilon * line.stableNorm()))) {
+  const double largest = std::max(reach(start), reach(end));
+  if (!(horizontal > kVertexRounding * (largest + line.stableNorm()))) {
     throw_argument("b", "a point that is not above, below or at a along up",
                    "one " + to_text(horizontal) + " m beside it");
   }
@@ -60,40 +46,12 @@ Cutter Cutter::between(const Vec3& start, const Vec3& end, const Vec3& up) {
   cutter.end_ = end;
   cutter.length_ = cutter.along_.dot(line);
   cutter.along_sum_ = cutter.along_.lpNorm<1>();
-  cutter.anchor_reach_ = std::max(reach(start), reach(end));
+  cutter.anchor_reach_ = largest;
   return cutter;
 }
 
-double Cutter::height_slack(double reach) const {
-  return kVertexRounding * kEpsilon * normal_sum_ * std::max(reach, anchor_reach_);
-}
-
-double Cutter::along_slack(double reach) const {
-  return kVertexRounding * kEpsilon * along_sum_ * std::max(reach, anchor_reach_);
-}
-
-double Cutter::height(const Vec3& vertex) const {
-  const double p = normal_.dot(vertex - anchor_);
-  return std::abs(p) <= height_slack(reach(vertex)) ? 0.0 : p;
-}
-
-Vec3 Cutter::cut_edge(const Vec3& v0, double p0, const Vec3& v1, double p1) const {
-  if (precedes(v1, v0)) return cut_edge(v1, p1, v0, p0);
-  // t = r · (A − V0) / r · (V1 − V0). The paper prints |OA · r| over a normalised edge, which is
-  // wrong for half of all planes.
-  const double t = p0 / (p0 - p1);
-  return v0 + t * (v1 - v0);
-}
-
-bool Cutter::is_well_inside(const Vec3& point) const {
-  if (!has_strip()) return true;
-  const double s = along_.dot(point - anchor_);
-  const double margin = kPointRounding * kEpsilon * along_sum_ * anchor_reach_;
-  return s > margin && s < length_ - margin;
-}
-
 Vec3 Cutter::settle(const Vec3& point) const {
-  const double near = kPointRounding * kEpsilon * anchor_reach_;
+  const double near = kPointRounding * anchor_reach_;
   if (reach(point - anchor_) <= near) return anchor_;
   if (reach(point - end_) <= near) return end_;
   return point;

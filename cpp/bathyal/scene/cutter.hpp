@@ -1,12 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
 #include "bathyal/geometry/shared_array.hpp"
 
 namespace bathyal::scene {
 
 /// Order by x, then y, then z: in it every edge has a first end, whichever triangle asks.
-bool precedes(const Vec3& a, const Vec3& b);
+inline bool precedes(const Vec3& a, const Vec3& b) {
+  if (a.x() != b.x()) return a.x() < b.x();
+  return a.y() != b.y() ? a.y() < b.y() : a.z() < b.z();
+}
+
+/// Largest coordinate: what a point's rounding is a part of.
+inline double reach(const Vec3& point) { return point.cwiseAbs().maxCoeff(); }
 
 /// Where a section cuts: a plane and, between two points, the strip of it that is kept.
 class Cutter {
@@ -24,14 +34,25 @@ class Cutter {
   /// p = r · (V − A) in units of |normal|, a function of the vertex alone, so that all triangles
   /// around it judge it alike; exactly 0 for a vertex nearer to the plane than the rounding of its
   /// coordinates.
-  double height(const Vec3& vertex) const;
+  double height(const Vec3& vertex) const {
+    const double p = normal_.dot(vertex - anchor_);
+    return std::abs(p) <= height_slack(reach(vertex)) ? 0.0 : p;
+  }
 
   /// Where the edge from v0 (p = p0) to v1 (p1 of the other sign) meets the plane: the same bytes
   /// whichever triangle asks.
-  Vec3 cut_edge(const Vec3& v0, double p0, const Vec3& v1, double p1) const;
+  static Vec3 cut_edge(const Vec3& v0, double p0, const Vec3& v1, double p1) {
+    if (precedes(v1, v0)) return cut_between(v1, p1, v0, p0);
+    return cut_between(v0, p0, v1, p1);
+  }
 
   /// Whether neither `settle` nor `clip` would touch a segment between this point and another such.
-  bool is_well_inside(const Vec3& point) const;
+  bool is_well_inside(const Vec3& point) const {
+    if (!has_strip()) return true;
+    const double s = along_.dot(point - anchor_);
+    const double margin = kPointRounding * along_sum_ * anchor_reach_;
+    return s > margin && s < length_ - margin;
+  }
 
   /// `point`, or the strip's own start or end where it is that point to rounding.
   /// \pre has_strip()
@@ -51,10 +72,26 @@ class Cutter {
 
   /// |p| (and |along · (x − anchor)|) below which a point with coordinates up to `reach` [m] may be
   /// taken for one that lies on the plane (or on an end of the strip).
-  double height_slack(double reach) const;
-  double along_slack(double reach) const;
+  double height_slack(double reach) const {
+    return kVertexRounding * normal_sum_ * std::max(reach, anchor_reach_);
+  }
+  double along_slack(double reach) const {
+    return kVertexRounding * along_sum_ * std::max(reach, anchor_reach_);
+  }
 
  private:
+  // As parts of the largest coordinate: how far rounding moves a vertex that was meant to lie in
+  // the plane (its own rounding, that of the plane, and that of p), and a point computed as a cut
+  // or a ray's hit, which a steep triangle stretches.
+  static constexpr double kVertexRounding = 8.0 * std::numeric_limits<double>::epsilon();
+  static constexpr double kPointRounding = 256.0 * std::numeric_limits<double>::epsilon();
+
+  static Vec3 cut_between(const Vec3& v0, double p0, const Vec3& v1, double p1) {
+    // t = r · (A − V0) / r · (V1 − V0). The paper prints |OA · r| over a normalised edge, which is
+    // wrong for half of all planes.
+    const double t = p0 / (p0 - p1);
+    return v0 + t * (v1 - v0);
+  }
   double position(const Vec3& point) const;
 
   Vec3 normal_, anchor_;

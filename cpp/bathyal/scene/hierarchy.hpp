@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <span>
 #include <vector>
 
+#include "bathyal/base/page_array.hpp"
 #include "bathyal/scene/nodes.hpp"
-#include "bathyal/scene/page_array.hpp"
 #include "bathyal/scene/scene.hpp"
 #include "bathyal/scene/winding.hpp"
 
 namespace bathyal {
 
 /// The bounding volume hierarchy of a scene: eight boxes a node, one block of up to eight triangles
-/// a leaf. `nodes()[0]` is the root; there is no node when there is no triangle. A node comes
+/// a leaf. `nodes[0]` is the root; there is no node when there is no triangle. A node comes
 /// before its children, so a loop from the last node to the first sees children before parents, and
 /// every block belongs to exactly one lane of one node. The same bytes for any number of threads.
 ///
@@ -30,16 +31,27 @@ struct Scene::Hierarchy {
     return scene::name_of(arrays.data(), static_cast<std::int32_t>(arrays.size()), primitive);
   }
 
-  /// The triangle's three corners in the world [m], as the mesh has them.
-  std::array<Vec3, 3> corners(std::uint32_t primitive) const {
-    const auto [mesh, triangle] = name(primitive);
-    const scene::MeshArrays& m = arrays[static_cast<std::size_t>(mesh)];
-    const std::int32_t* index = m.triangles + 3 * std::int64_t{triangle};
-    const auto corner = [&](int c) {
-      return Vec3(Eigen::Map<const Vec3>(m.vertices + 3 * std::int64_t{index[c]}));
-    };
-    return {corner(0), corner(1), corner(2)};
+  /// The triangle's row in its mesh, and the vertices that it counts.
+  struct Row {
+    const double* vertices;
+    const std::int32_t* index;
+
+    const double* corner(int c) const { return vertices + 3 * std::int64_t{index[c]}; }
+  };
+  Row row(const scene::PrimitiveName& name) const {
+    const scene::MeshArrays& mesh = arrays[static_cast<std::size_t>(name.mesh)];
+    return {mesh.vertices, mesh.triangles + 3 * std::int64_t{name.triangle}};
   }
+  Row row(std::uint32_t primitive) const { return row(name(primitive)); }
+
+  /// The triangle's three corners in the world [m], as the mesh has them.
+  static std::array<Vec3, 3> corners(const Row& row) {
+    return {Vec3(row.corner(0)), Vec3(row.corner(1)), Vec3(row.corner(2))};
+  }
+  std::array<Vec3, 3> corners(std::uint32_t primitive) const { return corners(row(primitive)); }
+
+  /// Largest coordinate of any triangle in the local frame [m].
+  double reach() const { return std::max(low.cwiseAbs().maxCoeff(), high.cwiseAbs().maxCoeff()); }
 
   std::size_t memory() const { return nodes.bytes() + blocks.bytes() + clusters.bytes(); }
 
@@ -49,8 +61,8 @@ struct Scene::Hierarchy {
   Vec3 origin = Vec3::Zero();  ///< of the local frame, in the world: whole metres
   Vec3 low = Vec3::Zero();     ///< box of all triangles in the local frame, exact up to double
   Vec3 high = Vec3::Zero();
-  scene::PageArray<scene::WideNode> nodes;
-  scene::PageArray<scene::TriangleBlock> blocks;
+  PageArray<scene::WideNode> nodes;
+  PageArray<scene::TriangleBlock> blocks;
   scene::Clusters clusters;  ///< for winding numbers; made when first asked for
 };
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "bathyal/scene/packet.hpp"
+#include "bathyal/scene/prefetch.hpp"
 
 // Rays of a packet that have parted, walked in turns: a step of one ray asks memory for what its
 // next step needs and lets the other rays go first. Rays without order wait for memory more than
@@ -25,13 +26,6 @@ struct Walker {
   Stack stack;
 };
 
-template <class T>
-inline void ask_for(const T* p) {
-  constexpr std::size_t kLine = 64;
-  const char* first = reinterpret_cast<const char*>(p);
-  for (std::size_t at = 0; at < sizeof(T); at += kLine) __builtin_prefetch(first + at);
-}
-
 /// Takes the next place from the ray's stack.
 inline void advance(const CastScene& scene, Walker& ray) {
   while (ray.stack.size > 0) {
@@ -41,11 +35,11 @@ inline void advance(const CastScene& scene, Walker& ray) {
     const WideNode& node = scene.nodes[place / kWidth];
     ray.child = node.child[place % kWidth];
     if (ray.child >= 0) {
-      ask_for(scene.nodes + ray.child);
+      prefetch(scene.nodes[ray.child]);
       ray.step = Step::kNode;
     } else {
       ray.edge = node.edge[place % kWidth];
-      ask_for(scene.blocks + ~ray.child);
+      prefetch(scene.blocks[~ray.child]);
       ray.step = Step::kBlock;
     }
     return;
@@ -66,9 +60,7 @@ inline void take_step(const CastScene& scene, Walker& ray) {
       ray.met = candidates<Simd>(ray.cull, block, ray.edge);
       if (ray.met == 0) return advance(scene, ray);
       for (unsigned rest = ray.met; rest != 0; rest &= rest - 1) {
-        const std::int32_t* index = indices_of(scene, block.primitive[__builtin_ctz(rest)]).index;
-        __builtin_prefetch(index);
-        __builtin_prefetch(index + 2);
+        prefetch_three(indices_of(scene, block.primitive[__builtin_ctz(rest)]).index);
       }
       ray.step = Step::kIndices;
       return;
@@ -77,10 +69,7 @@ inline void take_step(const CastScene& scene, Walker& ray) {
       for (unsigned rest = ray.met; rest != 0; rest &= rest - 1) {
         const double* corner[3];
         corners_of(scene, scene.blocks[~ray.child].primitive[__builtin_ctz(rest)], corner);
-        for (const double* p : corner) {
-          __builtin_prefetch(p);
-          __builtin_prefetch(p + 2);
-        }
+        for (const double* p : corner) prefetch_three(p);
       }
       ray.step = Step::kCorners;
       return;

@@ -3,12 +3,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <tuple>
 #include <vector>
 
 #include "bathyal/base/parallel.hpp"
 #include "bathyal/scene/cutter.hpp"
 #include "bathyal/scene/hierarchy.hpp"
+#include "bathyal/scene/nearness.hpp"
+#include "bathyal/scene/prefetch.hpp"
 
 namespace bathyal {
 namespace scene {
@@ -75,73 +78,109 @@ ClosestPoint closest_point(const std::array<Vec3, 3>& corners, const Vec3& query
 
 namespace {
 
-/// Squared distance from `q` to a lane's box; infinite for an empty lane.
-double squared_distance_to_box(const WideNode& node, int lane, const Vec3& q) {
-  double sum = 0.0;
-  for (int axis = 0; axis < 3; ++axis) {
-    const double low = node.low[axis][lane];
-    const double high = node.high[axis][lane];
-    const double d = std::max({low - q[axis], q[axis] - high, 0.0});
-    sum += d * d;
-  }
-  return sum;
-}
-
-double square(double x) { return x * x; }
-double reach(const Vec3& v) { return v.cwiseAbs().maxCoeff(); }
-
+/// A node, or ~block, that may hold something nearer.
 struct Waiting {
-  double squared_distance;
+  float bound;
   std::int32_t item;
 };
 
-/// Depth first, nearest child first; whatever may still hold an equal distance is looked at, since
-/// the lowest number wins a tie.
-NearestPoint find_nearest(const Scene::Hierarchy& hierarchy, const Vec3& query) {
-  NearestPoint nearest;
-  if (hierarchy.nodes.empty()) return nearest;
-  const Vec3 local = query - hierarchy.origin;
-  // How far rounding may carry a closest point out of the box that its triangle lies in.
-  const double rounding =
-      16.0 * std::numeric_limits<double>::epsilon() * (reach(query) + reach(hierarchy.origin));
-  ClosestPoint best{std::numeric_limits<double>::infinity(), {}, 0.0, 0.0};
-  std::uint32_t best_primitive = kNoPrimitive;
-  double limit = best.squared_distance;  // a box beyond it holds nothing as near as the best
-  std::array<Waiting, kStackSize> stack;
-  std::size_t depth = 0;
-  stack[depth++] = {0.0, 0};
-  while (depth > 0) {
-    const Waiting top = stack[--depth];
-    if (top.squared_distance > limit) continue;
-    if (top.item < 0) {
-      for (const std::uint32_t primitive :
-           hierarchy.blocks[static_cast<std::size_t>(~top.item)].primitive) {
-        if (primitive == kNoPrimitive) break;
-        const ClosestPoint found = closest_point(hierarchy.corners(primitive), query);
-        if (std::tie(found.squared_distance, primitive) <
-            std::tie(best.squared_distance, best_primitive)) {
-          best = found;
-          best_primitive = primitive;
-          limit = square(std::sqrt(best.squared_distance) + rounding);
-        }
+/// One query's way through the hierarchy, depth first, nearest child first. Whatever may still hold
+/// an equal distance is looked at, since the lowest number wins a tie.
+class NearestWalk {
+ public:
+  NearestWalk(const Scene::Hierarchy& hierarchy, const Vec3& query)
+      : hierarchy_(hierarchy),
+        query_(query),
+        nearness_(hierarchy, query - hierarchy.origin),
+        rounding_(16.0 * std::numeric_limits<double>::epsilon() *
+                  (reach(query) + reach(hierarchy.origin))) {}
+
+  NearestPoint run() {
+    if (hierarchy_.nodes.empty()) return {};
+    stack_[depth_++] = {0.0F, 0};
+    while (depth_ > 0) {
+      const Waiting top = stack_[--depth_];
+      if (top.bound > limit_) continue;
+      if (top.item < 0) {
+        look_at(hierarchy_.blocks[static_cast<std::size_t>(~top.item)]);
+      } else {
+        open(hierarchy_.nodes[static_cast<std::size_t>(top.item)]);
       }
-      continue;
     }
-    const WideNode& node = hierarchy.nodes[static_cast<std::size_t>(top.item)];
-    const std::size_t first = depth;
-    for (int lane = 0; lane < kWidth; ++lane) {
-      if (node.child[lane] == kNoChild) continue;
-      const double d = squared_distance_to_box(node, lane, local);
-      if (d <= limit) stack[depth++] = {d, node.child[lane]};
-    }
-    std::sort(
-        stack.begin() + static_cast<std::ptrdiff_t>(first),
-        stack.begin() + static_cast<std::ptrdiff_t>(depth),
-        [](const Waiting& a, const Waiting& b) { return a.squared_distance > b.squared_distance; });
+    const PrimitiveName name = hierarchy_.name(primitive_);
+    return {
+        std::sqrt(best_.squared_distance), name.mesh, name.triangle, best_.u, best_.v, best_.point};
   }
-  const PrimitiveName name = hierarchy.name(best_primitive);
-  return {std::sqrt(best.squared_distance), name.mesh, name.triangle, best.u, best.v, best.point};
-}
+
+ private:
+  /// Pushes the children that may hold something nearer, the nearest on top.
+  void open(const WideNode& node) {
+    LaneDistances bounds;
+    nearness_.bound(node, bounds);
+    const std::size_t first = depth_;
+    for (std::size_t lane = 0; lane < kWidth; ++lane) {
+      const std::int32_t child = node.child[lane];
+      if (bounds[lane] > limit_ || child == kNoChild) continue;
+      if (child < 0) {
+        prefetch(hierarchy_.blocks[static_cast<std::size_t>(~child)]);
+      } else {
+        prefetch(hierarchy_.nodes[static_cast<std::size_t>(child)]);
+      }
+      std::size_t at = depth_++;
+      for (; at > first && stack_[at - 1].bound < bounds[lane]; --at) stack_[at] = stack_[at - 1];
+      stack_[at] = {bounds[lane], child};
+    }
+  }
+
+  /// Measures the block's triangles, the one with the least bound first.
+  void look_at(const TriangleBlock& block) {
+    struct Candidate {
+      float bound;
+      std::uint32_t primitive;
+    };
+    LaneDistances bounds;
+    nearness_.bound(block, bounds);
+    std::array<Candidate, kWidth> candidates;
+    std::size_t count = 0;
+    for (std::size_t lane = 0; lane < kWidth; ++lane) {
+      const std::uint32_t primitive = block.primitive[lane];
+      if (primitive == kNoPrimitive) break;
+      if (bounds[lane] > limit_) continue;
+      prefetch_three(hierarchy_.row(primitive).index);
+      std::size_t at = count++;
+      for (; at > 0 && candidates[at - 1].bound > bounds[lane]; --at) {
+        candidates[at] = candidates[at - 1];
+      }
+      candidates[at] = {bounds[lane], primitive};
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      const Scene::Hierarchy::Row row = hierarchy_.row(candidates[i].primitive);
+      for (int c = 0; c < 3; ++c) prefetch_three(row.corner(c));
+    }
+    for (std::size_t i = 0; i < count && candidates[i].bound <= limit_; ++i) {
+      measure(candidates[i].primitive);
+    }
+  }
+
+  void measure(std::uint32_t primitive) {
+    const ClosestPoint found = closest_point(hierarchy_.corners(primitive), query_);
+    if (std::tie(found.squared_distance, primitive) >= std::tie(best_.squared_distance, primitive_))
+      return;
+    best_ = found;
+    primitive_ = primitive;
+    limit_ = nearness_.limit(std::sqrt(found.squared_distance) + rounding_);
+  }
+
+  const Scene::Hierarchy& hierarchy_;
+  Vec3 query_;
+  Nearness nearness_;
+  double rounding_;  ///< how far it may carry a closest point out of its triangle's box [m]
+  ClosestPoint best_{std::numeric_limits<double>::infinity(), {}, 0.0, 0.0};
+  std::uint32_t primitive_ = kNoPrimitive;
+  float limit_ = std::numeric_limits<float>::infinity();
+  std::array<Waiting, kStackSize> stack_;
+  std::size_t depth_ = 0;
+};
 
 }  // namespace
 }  // namespace scene
@@ -156,7 +195,8 @@ std::vector<NearestPoint> Scene::nearest(PointView points, int num_threads) cons
   constexpr std::size_t kGrain = 256;
   parallel_for(found.size(), kGrain, num_threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      found[i] = scene::find_nearest(*hierarchy_, points.row(static_cast<Index>(i)).transpose());
+      found[i] =
+          scene::NearestWalk(*hierarchy_, points.row(static_cast<Index>(i)).transpose()).run();
     }
   });
   return found;

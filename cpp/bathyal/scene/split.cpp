@@ -5,11 +5,13 @@
 #include <limits>
 #include <utility>
 
+#include "bathyal/scene/nodes.hpp"
+
 namespace bathyal::scene {
 namespace {
 
 constexpr int kBins = 16;
-constexpr std::uint32_t kBlock = 8;
+constexpr std::uint32_t kBlock = kWidth;
 constexpr float kInf = std::numeric_limits<float>::infinity();
 
 /// Items [first, first + count), their box, and the box of their (doubled) middles.

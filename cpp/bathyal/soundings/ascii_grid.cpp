@@ -30,7 +30,7 @@ struct GridHeader {
 };
 
 /// Numbers of one part, and how many of them are values.
-struct GridPart {
+struct alignas(kPartAlignment) GridPart {
   GrowingArray<double> numbers;
   std::size_t values = 0;
   Index lines = 0;

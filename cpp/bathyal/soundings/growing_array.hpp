@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <sys/mman.h>
-
 #include <cstdlib>
 #include <limits>
 #include <memory>
 #include <new>
 #include <type_traits>
 #include <utility>
+
+#include "bathyal/base/large_pages.hpp"
 
 namespace bathyal {
 
@@ -50,14 +50,10 @@ class GrowingArray {
   /// megabytes: faulting small pages in one by one costs half as much as parsing what fills them.
   /// A guess that is too high costs no memory, one that is refused or too low costs time only.
   void expect(std::size_t count) {
-    constexpr std::size_t kLargePage = std::size_t{1} << 21U;
     if (data_ != nullptr || count < kLargePage / sizeof(Scalar)) return;
-    if (count > std::numeric_limits<std::ptrdiff_t>::max() / sizeof(Scalar) - kLargePage) return;
-    const std::size_t bytes = (count * sizeof(Scalar) + kLargePage - 1) / kLargePage * kLargePage;
-    data_ = static_cast<Scalar*>(std::aligned_alloc(kLargePage, bytes));
-    if (data_ == nullptr) return;
-    capacity_ = bytes / sizeof(Scalar);
-    madvise(data_, bytes, MADV_HUGEPAGE);
+    if (count > kLargest) return;
+    data_ = static_cast<Scalar*>(allocate_large(count * sizeof(Scalar)));
+    if (data_ != nullptr) capacity_ = count;
   }
 
   void push_back(Scalar value) {
@@ -75,10 +71,12 @@ class GrowingArray {
   }
 
  private:
+  static constexpr std::size_t kLargest =
+      std::numeric_limits<std::ptrdiff_t>::max() / sizeof(Scalar);
+
   void grow(std::size_t count) {
-    const std::size_t largest = std::numeric_limits<std::ptrdiff_t>::max() / sizeof(Scalar);
-    if (count > largest - size_) throw std::bad_alloc();
-    const std::size_t doubled = capacity_ > largest / 2 ? largest : 2 * capacity_;
+    if (count > kLargest - size_) throw std::bad_alloc();
+    const std::size_t doubled = capacity_ > kLargest / 2 ? kLargest : 2 * capacity_;
     reallocate(doubled > size_ + count ? doubled : size_ + count);
   }
 

@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
-#include <cstring>
+
+#include "bathyal/soundings/digits.hpp"
+#include "bathyal/soundings/round_decimal.hpp"
 
 namespace bathyal {
 
-/// Bytes that must be readable behind any text given to parse_number: it loads eight at a time.
-inline constexpr std::size_t kTextPadding = 16;
+/// Bytes that must be readable behind any text that is parsed: digits are loaded eight at a time,
+/// and the ends of fields are looked for in 64 bytes at once.
+inline constexpr std::size_t kTextPadding = 64;
 
 namespace number {
 
@@ -21,40 +25,12 @@ struct Decimal {
 /// digits · 10^exponent, correctly rounded, for any text [begin, end) that is a decimal number.
 double slow_value(const char* begin, const char* end, char decimal);
 
-/// digits / 10^power, correctly rounded, for 0 < digits and power from 1 to 27.
-double divide_exactly(std::uint64_t digits, int power);
-
-/// Number of leading digits (0 to 8) among the eight bytes at `p`, and their values, one a byte.
-inline int leading_digits(const char* p, std::uint64_t& values) {
-  std::uint64_t bytes = 0;
-  std::memcpy(&bytes, p, 8);
-  values = bytes ^ 0x3030303030303030U;
-  // 0x76 carries a value of ten or more into the byte's top bit; what that does to later bytes
-  // does not matter, because only the first one that is no digit is asked for.
-  const std::uint64_t other = ((values + 0x7676767676767676U) | values) & 0x8080808080808080U;
-  return other == 0 ? 8 : __builtin_ctzll(other) >> 3;
-}
-
-/// The number that the first `count` (1 to 8) digit values make.
-inline std::uint64_t join_digits(std::uint64_t values, int count) {
-  values <<= 64 - 8 * count;  // right-aligned: what is missing in front becomes zeros
-  values = (values * 10 + (values >> 8)) & 0x00ff00ff00ff00ffU;
-  values = (values * 100 + (values >> 16)) & 0x0000ffff0000ffffU;
-  return (values * 10000 + (values >> 32)) & 0xffffffffU;
-}
-
-inline constexpr std::uint64_t kPowersOfTen[] = {1,      10,      100,      1000,     10000,
-                                                 100000, 1000000, 10000000, 100000000};
-inline constexpr double kExactPowers[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
-                                          1e8,  1e9,  1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
-                                          1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
-
 inline const char* read_digits(const char* p, Decimal& number) {
   while (true) {
-    std::uint64_t values = 0;
-    const int count = leading_digits(p, values);
+    const std::uint64_t values = load_digits(p);
+    const int count = count_digits(values);
     if (count == 0) return p;
-    number.digits = number.digits * kPowersOfTen[count] + join_digits(values, count);
+    number.digits = number.digits * kPowersOfTen[count] + join_digits(align_digits(values, count));
     number.count += count;
     p += count;
     if (count < 8) return p;
@@ -111,8 +87,8 @@ inline const char* parse_number(const char* begin, char decimal, double& value) 
       magnitude *= number::kExactPowers[number.exponent];
     }
   } else if (number.count <= 19 && number.digits != 0 && number.exponent < 0 &&
-             number.exponent >= -27) {
-    magnitude = number::divide_exactly(number.digits, -number.exponent);
+             number.exponent >= -number::kMostFives) {
+    magnitude = number::divide(number.digits, -number.exponent);
   } else {
     magnitude = number::slow_value(unsigned_begin, p, decimal);
   }

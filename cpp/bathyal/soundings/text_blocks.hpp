@@ -14,6 +14,11 @@ namespace bathyal {
 /// Longest line, or longest run without a blank where blanks are what counts [bytes].
 inline constexpr std::size_t kLongestPiece = std::size_t{1} << 20U;
 
+/// Alignment of what a part of a block is parsed to: its counters change with every number, and a
+/// cache line (or the pair of them that is fetched together) that two threads write costs more than
+/// the second thread gains [bytes].
+inline constexpr std::size_t kPartAlignment = 128;
+
 /// Where a text may be cut between two threads.
 enum class TextCut { kLine, kBlank };
 
@@ -55,8 +60,10 @@ class TextBlocks {
   /// Lets the front of the block in hand fall away (a header that has been dealt with).
   void skip(std::size_t bytes);
 
-  static constexpr std::size_t kBlock = std::size_t{4} << 20U;
-  static constexpr std::size_t kPart = std::size_t{256} << 10U;
+  /// Two of them and what they are parsed to stay in a core's cache; less would make the threads
+  /// wait for one another more often.
+  static constexpr std::size_t kBlock = std::size_t{2} << 20U;
+  static constexpr std::size_t kPart = std::size_t{128} << 10U;
 
  private:
   struct Buffer {

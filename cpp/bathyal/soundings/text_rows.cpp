@@ -4,47 +4,60 @@
 #include <algorithm>
 
 #include "bathyal/soundings/byte_source.hpp"
+#include "bathyal/soundings/field_ends.hpp"
 #include "bathyal/soundings/parse_number.hpp"
+#include "bathyal/soundings/plain_decimal.hpp"
 #include "bathyal/soundings/text_blocks.hpp"
 
 namespace bathyal {
 namespace {
 
-/// The plain row, as nearly all are: numbers, separators and blanks, nothing else. Returns where
-/// the next line begins, or nullptr for anything that split_fields must look at.
+/// Whether a comment could be taken for a number.
+bool numbers_may_be_comments(const TextFormat& format) {
+  const std::string_view bytes = "+-.,0123456789";
+  return std::any_of(bytes.begin(), bytes.end(),
+                     [&](char c) { return format.may_comment[static_cast<unsigned char>(c)]; });
+}
+
+bool is_line_end(char c) { return c == '\n' || c == '\r'; }
+
+static_assert(kTextPadding >= kFieldBlock);
+
+/// Plain rows, as nearly all are: numbers, separators and blanks, nothing else.
 template <bool kBlankSeparated>
-class PlainRow {
+class PlainRows {
  public:
-  explicit PlainRow(const TextFormat& format)
-      : separator_(format.separator),
+  PlainRows(const char* text, const TextFormat& format)
+      : ends_(text, format.separator),
         tab_(format.separator == '\t' ? ' ' : '\t'),
         decimal_(format.decimal),
+        any_(!numbers_may_be_comments(format)),
         slots_(format.slot),
         may_comment_(format.may_comment) {}
 
-  const char* operator()(const char* p, double* row) const {
-    bool first = true;
-    for (const Index slot : slots_) {
-      if (!first) {
-        if constexpr (kBlankSeparated) {
-          if (*p != ' ' && *p != '\t') return nullptr;
-        } else {
-          p = skip_blanks(p);
-          if (*p != separator_) return nullptr;
-          ++p;
-        }
-      }
-      first = false;
-      p = skip_blanks(p);
-      p = slot >= 0 ? parse_number(p, decimal_, row[slot]) : skip_text(p);
-      if (p == nullptr) return nullptr;
+  /// Reads the row at `line` and returns where the next line begins, or nullptr for anything that
+  /// read_line must look at; then `seek` says where to go on.
+  const char* read(const char* line, double* row) {
+    if (!any_) return nullptr;
+    const char* begin = line;
+    const char* end = line;
+    for (std::size_t i = 0; i < slots_.size(); ++i, begin = end + 1) {
+      if (i > 0 && is_line_end(*end)) return nullptr;  // fewer columns than there should be
+      end = ends_.next();
+      const Index slot = slots_[i];
+      const bool plain = slot >= 0 ? read_number(begin, end, row[slot]) : is_plain_text(begin, end);
+      if (!plain) return nullptr;
     }
-    p = skip_blanks(p);
-    if (!kBlankSeparated && *p == separator_) p = skip_blanks(p + 1);
-    if (*p == '\n') return p + 1;
-    if (*p == '\r') return p[1] == '\n' ? p + 2 : p + 1;
-    return nullptr;
+    if (!is_line_end(*end)) {  // a separator, or blanks, at the end of the line
+      begin = skip_blanks(begin);
+      end = ends_.next();
+      if (begin != end || !is_line_end(*end)) return nullptr;
+    }
+    if (*end == '\r' && end[1] == '\n') end = ends_.next();
+    return end + 1;
   }
+
+  void seek(const char* line) { ends_.seek(line); }
 
  private:
   const char* skip_blanks(const char* p) const {
@@ -52,22 +65,27 @@ class PlainRow {
     return p;
   }
 
-  /// A field of a column that is not wanted; not where it could be a comment, quoted or missing.
-  const char* skip_text(const char* p) const {
-    const char* const begin = p;
-    for (;; ++p) {
-      const char c = *p;
-      if (c == '"' || c == '\'' || c == '\0' || may_comment_[static_cast<unsigned char>(c)]) {
-        return nullptr;
-      }
-      if (c == '\n' || c == '\r' || c == separator_ || (kBlankSeparated && c == '\t')) break;
-    }
-    return p == begin ? nullptr : p;
+  bool read_number(const char* begin, const char* end, double& value) const {
+    if (parse_plain_decimal(begin, end, decimal_, value)) return true;
+    begin = skip_blanks(begin);
+    if (parse_plain_decimal(begin, end, decimal_, value)) return true;
+    const char* const number_end = parse_number(begin, decimal_, value);
+    return number_end != nullptr && skip_blanks(number_end) == end;
   }
 
-  char separator_;
+  /// A field of a column that is not wanted; not where it could be a comment, quoted or missing.
+  bool is_plain_text(const char* begin, const char* end) const {
+    begin = skip_blanks(begin);
+    return begin < end && std::none_of(begin, end, [&](char c) {
+             const auto byte = static_cast<unsigned char>(c);
+             return byte < 0x20 || c == '"' || c == '\'' || may_comment_[byte];
+           });
+  }
+
+  FieldEnds<kBlankSeparated> ends_;
   char tab_;
   char decimal_;
+  bool any_;  ///< whether any row may be read without looking for comments
   const std::vector<Index>& slots_;
   const std::array<bool, 256>& may_comment_;
 };
@@ -120,17 +138,18 @@ std::optional<std::string> read_line(std::string_view line, const TextFormat& fo
 template <bool kBlankSeparated>
 void parse_rows_with(std::string_view text, std::size_t offset, const TextFormat& format,
                      TextRows& rows) {
-  const PlainRow<kBlankSeparated> plain_row(format);
+  PlainRows<kBlankSeparated> plain_rows(text.data(), format);
   const auto width = static_cast<std::size_t>(format.chosen);
   const char* const end = text.data() + text.size();
   for (const char* p = text.data(); p < end; ++rows.lines) {
     double* const row = rows.values.room_for(width);
-    const char* next = plain_row(p, row);
+    const char* next = plain_rows.read(p, row);
     bool is_row = true;
     if (next == nullptr) {
       std::string_view rest(p, static_cast<std::size_t>(end - p));
       const std::string_view line = take_line(rest);
       next = rest.data();
+      plain_rows.seek(next);
       if (line.size() <= kLongestPiece) rows.failure = read_line(line, format, row, is_row);
     }
     if (static_cast<std::size_t>(next - p) > kLongestPiece + 2) {

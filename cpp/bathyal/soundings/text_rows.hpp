@@ -6,13 +6,14 @@
 #include <string_view>
 
 #include "bathyal/soundings/growing_array.hpp"
+#include "bathyal/soundings/text_blocks.hpp"
 #include "bathyal/soundings/text_format.hpp"
 
 namespace bathyal {
 
 /// What a part of the text gave: rows of `TextFormat::chosen` numbers, up to the first line that
 /// could not be read.
-struct TextRows {
+struct alignas(kPartAlignment) TextRows {
   GrowingArray<double> values;
   Index lines = 0;                     ///< lines ended, the one with the failure not counted
   std::optional<std::string> failure;  ///< why the line behind them could not be read

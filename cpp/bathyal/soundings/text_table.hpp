@@ -52,7 +52,7 @@ struct TextTable {
 /// Reads numbers in columns (.xyz .txt .csv .asc), or an ESRI ASCII grid, which it knows by its
 /// first word and turns into x, y, z of every cell that has a value (ascii_grid.hpp).
 ///
-/// The file is read in blocks of 4 MiB, which are parsed in parallel; above the result no more than
+/// The file is read in blocks of 2 MiB, which are parsed in parallel; above the result no more than
 /// some 20 MB are held, whatever the file. Lines may end in LF, CRLF or CR; a byte order mark,
 /// blank lines, quotes around a field, a plus sign and one separator at the end of a line are
 /// allowed; nan and inf are numbers. Values are correctly rounded. The result does not depend on

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bathyal/toolpath/route.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <iterator>
 
@@ -81,23 +82,29 @@ void set_facet_normals(Route& route, const Surface& surface, const Vec3& up) {
   }
 }
 
-/// "3, 8, 9 and 12 more"
+/// "3", "3 and 8", "3, 8 and 9"; of many the first ten and how many there are.
 std::string list_text(const std::vector<std::size_t>& numbers) {
   constexpr std::size_t kShown = 10;
-  std::string text;
-  for (std::size_t k = 0; k < numbers.size() && k < kShown; ++k) {
-    text += (k > 0 ? ", " : "") + std::to_string(numbers[k]);
+  const std::size_t count = numbers.size(), shown = std::min(count, kShown);
+  std::string text = std::to_string(numbers[0]);
+  for (std::size_t k = 1; k < shown; ++k) {
+    text += (k + 1 < count ? ", " : " and ") + std::to_string(numbers[k]);
   }
-  if (numbers.size() > kShown) text += " and " + std::to_string(numbers.size() - kShown) + " more";
-  return text;
+  return count > kShown ? text + ", … (" + std::to_string(count) + " in all)" : text;
 }
 
-void warn(Route& route, const std::string& what, const std::vector<std::size_t>& where) {
-  if (!where.empty()) route.warnings.push_back(what + ": " + list_text(where));
+/// "aim 6 has no target" or "aims 3 and 6 have no target": what is told of `noun` in one and in
+/// several.
+void warn(Route& route, const std::string& noun, const std::vector<std::size_t>& numbers,
+          const std::string& one, const std::string& several) {
+  if (numbers.empty()) return;
+  const bool is_one = numbers.size() == 1;
+  route.warnings.push_back(noun + (is_one ? " " : "s ") + list_text(numbers) + " " +
+                           (is_one ? one : several));
 }
 
 void warn_of_targets(Route& route, const Targets& targets) {
-  const auto rows_where = [&](const auto& condition) {
+  const auto aims_where = [&](const auto& condition) {
     std::vector<std::size_t> rows;
     for (std::size_t i = 0; i < targets.size(); ++i) {
       if (condition(i)) rows.push_back(i);
@@ -107,14 +114,17 @@ void warn_of_targets(Route& route, const Targets& targets) {
   const auto beneath = [&](std::size_t i) { return targets.incidence[i] > std::numbers::pi / 2; };
   for (const auto status :
        {TargetStatus::kMiss, TargetStatus::kParallel, TargetStatus::kBehind, TargetStatus::kHole}) {
-    warn(route, "aims without a target (" + std::string(to_text(status)) + "), left out",
-         rows_where([&](std::size_t i) { return targets.status[i] == status; }));
+    const std::string no_target = "no target (" + std::string(to_text(status)) + ")";
+    warn(route, "aim", aims_where([&](std::size_t i) { return targets.status[i] == status; }),
+         "has " + no_target + " and is left out", "have " + no_target + " and are left out");
   }
-  warn(route, "aims that graze the bottom (used)", rows_where([&](std::size_t i) {
+  warn(route, "aim", aims_where([&](std::size_t i) {
          return targets.status[i] == TargetStatus::kGrazing && !beneath(i);
-       }));
-  warn(route, "aims that strike the bottom from beneath (used): camera below it or mesh inside out",
-       rows_where(beneath));
+       }),
+       "grazes the bottom and is used", "graze the bottom and are used");
+  const std::string why = " used: the camera is below it or the mesh is inside out";
+  warn(route, "aim", aims_where(beneath), "strikes the bottom from beneath and is" + why,
+       "strike the bottom from beneath and are" + why);
 }
 
 }  // namespace
@@ -145,9 +155,11 @@ Route join_targets(const Surface& surface, const Targets& targets, const Vec3& u
     if (legs[k].detour) detours.push_back(pairs[k].a);
     append(route, std::move(legs[k]), static_cast<std::int32_t>(pairs[k].a));
   }
-  warn(route, "segments between targets that coincide, without length", coincident);
-  warn(route, "segments that cross a gap", gaps);
-  warn(route, "segments that leave the stretch between their targets, round an overhang", detours);
+  warn(route, "segment", coincident, "has no length: its targets coincide",
+       "have no length: their targets coincide");
+  warn(route, "segment", gaps, "crosses a gap", "cross gaps");
+  warn(route, "segment", detours, "leaves the stretch between its targets, round an overhang",
+       "leave the stretch between their targets, round overhangs");
   set_facet_normals(route, surface, up);
   return route;
 }

@@ -63,16 +63,14 @@ void stand_off(ToolPath& path, double standoff) {
 }
 
 void warn_of_flags(ToolPath& path) {
-  const auto crossings = std::count(path.crossing.begin(), path.crossing.end(), true);
-  const auto contacts = std::count(path.contact.begin(), path.contact.end(), true);
-  if (crossings > 0) {
-    path.warnings.push_back("samples where the stood-off path turns back or crosses itself: " +
-                            std::to_string(crossings));
-  }
-  if (contacts > 0) {
-    path.warnings.push_back("samples where the tool's body meets ground: " +
-                            std::to_string(contacts));
-  }
+  const auto warn = [&](const std::string& what, const std::vector<bool>& flags) {
+    const auto count = std::count(flags.begin(), flags.end(), true);
+    if (count == 0) return;
+    path.warnings.push_back(what + " at " + std::to_string(count) +
+                            (count == 1 ? " sample" : " samples"));
+  };
+  warn("the stood-off path turns back or crosses itself", path.crossing);
+  warn("the tool's body meets ground", path.contact);
 }
 
 }  // namespace

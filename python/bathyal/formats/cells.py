@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bathyal._core import Error
+from bathyal.errors import argument_error
 
 Integers = NDArray[np.int64]
 
@@ -77,5 +78,5 @@ def cells_of(lists: Any) -> Cells:
         sizes = np.array([len(row) for row in rows], np.int64)
         flat = np.concatenate(rows)
     if flat.size and flat.dtype.kind not in "iu":
-        raise ValueError(f"cells: expected whole numbers, got dtype {flat.dtype}")
+        raise argument_error("cells", "whole numbers", f"dtype {flat.dtype}")
     return Cells(np.ascontiguousarray(flat, np.int64), np.cumsum(sizes))

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from bathyal._core import Error
+from bathyal.errors import argument_error
 from bathyal.files import PathLike, need, opened, reading
 from bathyal.formats.soundings import (
     Soundings,
@@ -41,7 +42,7 @@ def read_geotiff(path: PathLike, band: int | None) -> Soundings:
             if band is None or 1 <= band <= grid.count:
                 return _pixels(grid, band or 1, names)
             count = grid.count
-    raise ValueError(f"band: expected a number from 1 to {count}, got {band}")
+    raise argument_error("band", f"a number from 1 to {count}", band)
 
 
 def _pixels(grid: Any, band: int, names: list[str]) -> Soundings:

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bathyal._core import Error
+from bathyal.errors import argument_error
 from bathyal.files import PathLike, opened, reading, replacing
 from bathyal.formats.attributes import BYTE_ATTRIBUTES, canonical_attributes
 from bathyal.formats.cells import Cells
@@ -101,7 +102,7 @@ def write_ply(
     ]
     for name, values in attributes.items():
         if name in ("x", "y", "z"):
-            raise ValueError(f"attributes[{name!r}]: expected a name other than a coordinate's")
+            raise argument_error("attributes", "names other than those of coordinates", repr(name))
         columns.append((quote(name, safe="/()[]+:"), _stored_type(name, values), values))
     header.append(f"element vertex {len(points)}")
     words = {"<f8": "double", "u1": "uchar"}

@@ -14,6 +14,7 @@ import numpy as np
 
 from bathyal import _core
 from bathyal._core import Error, PointCloud
+from bathyal.errors import argument_error
 from bathyal.files import PathLike, opened, replacing
 from bathyal.formats.soundings import Soundings, is_metre
 
@@ -179,14 +180,14 @@ def _chosen(columns: Columns, names: list[str]) -> dict[str, int | str]:
     """The columns that the caller names, as name → column, x, y, z first."""
     if isinstance(columns, Mapping):
         if not {"x", "y", "z"} <= set(columns):
-            raise ValueError(f"columns: expected x, y and z among the names, got {list(columns)}")
+            raise argument_error("columns", "x, y and z among the names", list(columns))
         axes: dict[str, int | str] = {axis: columns[axis] for axis in "xyz"}
         return {**axes, **{name: c for name, c in columns.items() if name not in axes}}
     if isinstance(columns, str) or len(columns) < 3:
-        raise ValueError(f"columns: expected at least three, x, y and z, got {columns!r}")
+        raise argument_error("columns", "at least three, x, y and z", repr(columns))
     extra = {_name_of(c, names) or f"column_{c}": c for c in columns[3:]}
     if len(extra) != len(columns) - 3:
-        raise ValueError(f"columns: expected every attribute once, got {columns!r}")
+        raise argument_error("columns", "every attribute once", repr(columns))
     return {"x": columns[0], "y": columns[1], "z": columns[2], **extra}
 
 
@@ -200,7 +201,7 @@ def write_text(
     """
     if clash := {"x", "y", "z"} & set(cloud.attributes):
         name = min(clash)
-        raise ValueError(f"attributes[{name!r}]: expected a name other than a coordinate's")
+        raise argument_error("attributes", "names other than those of coordinates", repr(name))
     names = ["x", "y", "z", *(quote(name, safe="/()[]+:") for name in cloud.attributes)]
     lines = ["# metres, z up", *(f"# {k} {' '.join(text.split())}" for k, text in notes.items())]
     lines.append(("# " if separator == " " else "") + separator.join(names))

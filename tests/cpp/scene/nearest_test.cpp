@@ -79,33 +79,50 @@ TEST(Nearest, BoxBySubtraction) {
   }
 }
 
+/// Whether the answers are those of every triangle in turn, to the last bit.
+void expect_exact(const Scene& scene, const PointMatrix& points) {
+  const auto found = scene.nearest(view(points));
+  for (Index i = 0; i < points.rows(); ++i) {
+    const Vec3 q = points.row(i);
+    double best = std::numeric_limits<double>::infinity();
+    std::pair<std::int32_t, std::int32_t> who;
+    for (std::int32_t m = 0; m < static_cast<std::int32_t>(scene.meshes().size()); ++m) {
+      const TriangleMesh& each = scene.meshes()[static_cast<std::size_t>(m)];
+      for (std::int32_t t = 0; t < each.triangle_count(); ++t) {
+        const double d =
+            scene::closest_point({each.corner(t, 0), each.corner(t, 1), each.corner(t, 2)}, q)
+                .squared_distance;
+        if (d < best) {
+          best = d;
+          who = {m, t};
+        }
+      }
+    }
+    const NearestPoint& one = found[static_cast<std::size_t>(i)];
+    ASSERT_EQ(one.distance, std::sqrt(best)) << q.transpose();
+    ASSERT_EQ(std::pair(one.mesh, one.triangle), who) << q.transpose();
+  }
+}
+
 TEST(Nearest, SameAsEveryTriangleInTurn) {
   for (const Vec3& offset : {Vec3(0, 0, 0), Vec3(512345.25, 7212345.5, -52.0)}) {
     const TriangleMesh mesh = test::seabed(40, 30, offset);
-    const Scene scene({test::one_triangle(offset + Vec3(0, 0, 60)), mesh});
-    const PointMatrix points =
-        random_points(200, offset + Vec3(-20, -20, -20), offset + Vec3(60, 50, 40), 3);
-    const auto found = scene.nearest(view(points));
-    for (Index i = 0; i < points.rows(); ++i) {
-      const Vec3 q = points.row(i);
-      double best = std::numeric_limits<double>::infinity();
-      std::pair<std::int32_t, std::int32_t> who;
-      for (std::int32_t m = 0; m < 2; ++m) {
-        const TriangleMesh& each = scene.meshes()[static_cast<std::size_t>(m)];
-        for (std::int32_t t = 0; t < each.triangle_count(); ++t) {
-          const double d =
-              scene::closest_point({each.corner(t, 0), each.corner(t, 1), each.corner(t, 2)}, q)
-                  .squared_distance;
-          if (d < best) {
-            best = d;
-            who = {m, t};
-          }
-        }
-      }
-      const NearestPoint& one = found[static_cast<std::size_t>(i)];
-      EXPECT_EQ(one.distance, std::sqrt(best));
-      EXPECT_EQ(std::pair(one.mesh, one.triangle), who);
-    }
+    expect_exact(Scene({test::one_triangle(offset + Vec3(0, 0, 60)), mesh}),
+                 random_points(200, offset + Vec3(-20, -20, -20), offset + Vec3(60, 50, 40), 3));
+  }
+}
+
+// What the floats of the sieve cannot hold must not rule anything out.
+TEST(Nearest, SameAsEveryTriangleFromFarAwayAndAtEveryScale) {
+  const TriangleMesh seabed = test::seabed(20, 15);
+  for (const double far : {1e3, 1e6, 1e9, 1e10, 1e12, 1e18, 1e20, 1e30, 1e40, 1e140}) {
+    expect_exact(Scene({seabed}), random_points(40, {-far, -far, -far}, {far, far, far}, 5));
+  }
+  for (const double scale : {1e-30, 1e-18, 1e-9, 1e-3, 1e6, 1e10}) {
+    const Scene scene(
+        {TriangleMesh(PointMatrix(scale * seabed.vertices()), seabed.shared_triangles())});
+    expect_exact(scene, random_points(40, {-5 * scale, -5 * scale, -5 * scale},
+                                      {25 * scale, 20 * scale, 5 * scale}, 6));
   }
 }
 

@@ -200,7 +200,7 @@ std::string long_text(int rows, const std::string& end) {
 }
 
 TEST(TextTable, IsTheSameForAnyNumberOfThreadsAndAcrossBlocks) {
-  constexpr int kRows = 700000;  // some 12 MB: three blocks
+  constexpr int kRows = 700000;  // some 12 MB: six blocks
   for (const char* end : {"\n", "\r\n", "\r"}) {
     const std::string text = long_text(kRows, end);
     for (const int threads : {1, 3, 8}) {

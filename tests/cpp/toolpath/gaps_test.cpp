@@ -47,7 +47,7 @@ TEST(Gaps, AHoleBetweenTargetsIsCrossedStraightAndFlagged) {
     EXPECT_NEAR(gaps[1].first, 8, 1e-9);
     EXPECT_NEAR(gaps[1].second, 9, 1e-9);
     EXPECT_FALSE(path.gap.back());
-    EXPECT_TRUE(warned(path, "cross a gap: 0"));
+    EXPECT_TRUE(warned(path, "segment 0 crosses a gap"));
     for (const Vec3& p : path.surface) EXPECT_NEAR(p.z(), 0.1 * p.x(), 1e-9);
   }
 }
@@ -101,12 +101,28 @@ TEST(Gaps, AMissedAimMakesAGapAndIsToldOf) {
   EXPECT_EQ(path.segment[j + 1], 4);
   EXPECT_EQ(std::count(path.gap.begin(), path.gap.end(), true), 1);
   EXPECT_NEAR(path.surface.back().x(), 8, 1e-12);
-  EXPECT_TRUE(warned(path, "left out: 0, 3, 6"));
+  EXPECT_TRUE(warned(path, "aims 0, 3 and 6 have no target (miss) and are left out"));
   EXPECT_EQ(path.targets.size(), 7U);
 
   ToolPathOptions strict;
   strict.missed = MissedAims::kRefuse;
   EXPECT_THROW(plan_toolpath(scene, aims, strict), std::invalid_argument);
+}
+
+TEST(Gaps, OfManyMissedAimsTheFirstTenAreNamedAndAllCounted) {
+  const Scene scene = scene_of(grid(kFlat, 0, 10, 10, 0, 4, 4));
+  const auto missed = [&](int count) {
+    std::vector<Eigen::Vector2d> places{{1, 1}};
+    for (int i = 0; i < count; ++i) places.push_back({20.0 + i, 1});
+    return plan_toolpath(scene, down(places)).warnings.at(0);
+  };
+  EXPECT_EQ(missed(1), "aim 1 has no target (miss) and is left out");
+  EXPECT_EQ(missed(2), "aims 1 and 2 have no target (miss) and are left out");
+  EXPECT_EQ(missed(10),
+            "aims 1, 2, 3, 4, 5, 6, 7, 8, 9 and 10 have no target (miss) and are left out");
+  EXPECT_EQ(missed(12),
+            "aims 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, … (12 in all) have no target (miss) and are left "
+            "out");
 }
 
 TEST(Gaps, AimsThatGrazeOrComeFromBeneathAreUsedAndToldOf) {
@@ -116,11 +132,11 @@ TEST(Gaps, AimsThatGrazeOrComeFromBeneathAreUsedAndToldOf) {
   const Aims aims = rows(
       {axis({1, 1, 9}, {0, 0, -1}), axis({0, 1, -4}, {3, 0, -1}), axis({5, 1, -9}, {0, 0, 1})});
   const ToolPath path = plan_toolpath(scene, aims, options);
-  EXPECT_TRUE(warned(path, "graze the bottom (used): 1"));
-  EXPECT_TRUE(warned(path, "from beneath (used): camera below it or mesh inside out: 2"));
+  EXPECT_TRUE(warned(path, "aim 1 grazes the bottom and is used"));
+  EXPECT_TRUE(warned(path, "aim 2 strikes the bottom from beneath and is used"));
   EXPECT_NEAR(path.arc_length.back(), 4.0, 1e-12);
   options.targets.grazing_angle = std::numbers::pi;
-  EXPECT_TRUE(warned(plan_toolpath(scene, aims, options), "inside out: 2"));
+  EXPECT_TRUE(warned(plan_toolpath(scene, aims, options), "aim 2 strikes"));
 }
 
 TEST(Gaps, ALoneTargetBetweenMissedAimsKeepsItsSample) {

@@ -3,36 +3,32 @@
 
 #include <cstddef>
 #include <cstdlib>
+#include <limits>
 #include <memory>
 #include <new>
 #include <type_traits>
 
-#if defined(__linux__)
-#include <sys/mman.h>
-#endif
+#include "bathyal/base/large_pages.hpp"
 
-namespace bathyal::scene {
+namespace bathyal {
 
-/// A fixed number of plain values, not initialised, on large pages where the system has them: a
-/// walk down a big hierarchy touches memory all over, and with small pages it waits for the page
-/// table more than for the data.
+/// A fixed number of plain values that nothing sets, on large pages from 2 MB on: for arrays that
+/// threads fill together or that are read all over, such as a hierarchy. A small one costs no more
+/// than any other of the heap.
 template <class T>
 class PageArray {
   static_assert(std::is_trivially_copyable_v<T>);
+  static_assert(alignof(T) <= 64);
 
  public:
   PageArray() = default;
 
+  /// \throw std::bad_alloc
   explicit PageArray(std::size_t size) : size_(size) {
     if (size == 0) return;
-    const std::size_t alignment = bytes() >= kLargePage ? kLargePage : kCacheLine;
-    const std::size_t rounded = (bytes() + alignment - 1) / alignment * alignment;
-    data_.reset(static_cast<T*>(std::aligned_alloc(alignment, rounded)));
+    if (size > std::numeric_limits<std::ptrdiff_t>::max() / sizeof(T)) throw std::bad_alloc();
+    data_.reset(static_cast<T*>(allocate_large(bytes())));
     if (!data_) throw std::bad_alloc();
-#if defined(__linux__)
-    // A hint: where it is refused, the pages are small and everything still works.
-    if (alignment == kLargePage) madvise(data_.get(), rounded, MADV_HUGEPAGE);
-#endif
   }
 
   std::size_t size() const { return size_; }
@@ -46,10 +42,6 @@ class PageArray {
   const T* end() const { return data() + size_; }
 
  private:
-  static constexpr std::size_t kLargePage = std::size_t{1} << 21U;
-  static constexpr std::size_t kCacheLine = 64;
-  static_assert(alignof(T) <= kCacheLine);
-
   struct Free {
     void operator()(T* p) const { std::free(p); }
   };
@@ -58,4 +50,4 @@ class PageArray {
   std::size_t size_ = 0;
 };
 
-}  // namespace bathyal::scene
+}  // namespace bathyal

@@ -1,0 +1,55 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The command line: bathyal plan · triangulate · info · survey."""
+
+from __future__ import annotations
+
+from importlib.metadata import version
+from typing import Annotated
+
+import typer
+
+from bathyal.cli.groups import spread
+from bathyal.cli.info import info
+from bathyal.cli.plan import plan
+from bathyal.cli.survey import survey
+from bathyal.cli.talk import Commands
+from bathyal.cli.triangulate import triangulate
+
+_EXIT_CODES = (
+    "Exit codes: 0 done (warnings are told, they do not fail a job), 1 the job failed or a file is "
+    "broken, 2 wrong usage, 130 interrupted."
+)
+
+app = typer.Typer(
+    name="bathyal",
+    cls=Commands,
+    rich_markup_mode="rich",
+    add_completion=False,
+    pretty_exceptions_enable=False,
+    epilog=_EXIT_CODES,
+)
+for command in (plan, triangulate, info, survey):
+    app.command(epilog=_EXIT_CODES)(spread(command))
+
+
+@app.callback(invoke_without_command=True)
+def main(
+    context: typer.Context,
+    show_version: Annotated[bool, typer.Option("--version", help="Say the version.")] = False,
+    debug: Annotated[
+        bool, typer.Option("--debug", help="Show where in the program an error came from.")
+    ] = False,
+) -> None:
+    """From soundings and camera axes to an oriented tool path along the bottom.
+
+    [bold]Try it:[/]
+
+      bathyal survey survey.xyz --aims-out aims.csv
+
+      bathyal plan survey.xyz --aims aims.csv --out plan
+    """
+    if show_version:
+        typer.echo(f"bathyal {version('bathyal')}")
+        raise typer.Exit
+    if context.invoked_subcommand is None:
+        typer.echo(context.get_help())

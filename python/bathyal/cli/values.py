@@ -1,0 +1,84 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What is written on the command line, and what it becomes inside.
+
+No default stands here: an option that is not given is not handed on, and the engine's own default
+holds. The help reads that default from the engine's signature.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Callable
+from enum import Enum
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+
+def engine_default(function: Callable[..., Any], name: str, *, degrees: bool = False) -> str:
+    """The default of a keyword as the engine's signature says it, for a line of help."""
+    signature = (function.__doc__ or "").split("\n", 1)[0]
+    match = re.search(rf"\b{name}: [^=]*? = ([^,)]+)", signature)
+    if match is None:
+        raise LookupError(f"{function.__name__} has no keyword {name} with a default")
+    text = match[1].strip("'\"")
+    return f"{math.degrees(float(text)):.4g}" if degrees else text
+
+
+def default_note(function: Callable[..., Any], name: str, *, degrees: bool = False) -> str:
+    """The default as a line of help ends with it."""
+    return f"[dim]\\[default: {engine_default(function, name, degrees=degrees)}][/]"
+
+
+def given(**options: Any) -> dict[str, Any]:
+    """Keywords to hand on: the options that were given, a choice by its word."""
+    return {
+        name: value.value if isinstance(value, Enum) else value
+        for name, value in options.items()
+        if value is not None
+    }
+
+
+def radians(degrees: float | None) -> float | None:
+    """Degrees of the command line as the engine's radians; None stays None."""
+    return None if degrees is None else math.radians(degrees)
+
+
+def pose_matrix(values: tuple[float, ...] | None) -> NDArray[np.float64] | None:
+    """x y z [m] and roll, pitch, yaw [deg] as world_from_vehicle (4, 4).
+
+    The vehicle turns by yaw about z, then pitch about y (port), then roll about x: a positive pitch
+    is nose down.
+    """
+    if values is None:
+        return None
+    roll, pitch, yaw = np.radians(values[3:])
+    cr, sr, cp, sp = np.cos(roll), np.sin(roll), np.cos(pitch), np.sin(pitch)
+    cy, sy = np.cos(yaw), np.sin(yaw)
+    about_z = np.array([[cy, -sy, 0], [sy, cy, 0], [0, 0, 1]])
+    about_y = np.array([[cp, 0, sp], [0, 1, 0], [-sp, 0, cp]])
+    about_x = np.array([[1, 0, 0], [0, cr, -sr], [0, sr, cr]])
+    matrix = np.eye(4)
+    matrix[:3, :3] = about_z @ about_y @ about_x
+    matrix[:3, 3] = values[:3]
+    return matrix
+
+
+def column_list(text: str | None) -> list[int | str] | None:
+    """ "0,1,2" or "easting,northing,depth": columns by number or by name."""
+    if text is None:
+        return None
+    names = [part.strip() for part in text.split(",")]
+    return [int(name) if name.isdigit() else name for name in names]
+
+
+def length_or_none(text: str) -> float:
+    """A length [m], or infinity for "none"."""
+    if text.strip().lower() == "none":
+        return math.inf
+    try:
+        return float(text)
+    except ValueError:
+        raise ValueError(f'expected a length in metres or "none", got {text!r}') from None
