@@ -7,7 +7,7 @@ import numpy
 import numpy.typing
 import os
 import typing
-__all__: list[str] = ['CleanReport', 'CleanResult', 'Error', 'Hits', 'MeshReport', 'Nearest', 'Plane', 'PlaneFit', 'PointCloud', 'Polyline', 'Scene', 'SheetPatch', 'SheetReport', 'Targets', 'TextTable', 'ToolPath', 'TriangleMesh', 'clean_cloud', 'cover_polygon', 'find_sheets', 'find_targets', 'fit_plane', 'generate_survey', 'intersect_moller_trumbore', 'mesh_report', 'plan_toolpath', 'read_pcd', 'read_text_table', 'set_simd_level', 'simd_level', 'survey_height', 'triangulate', 'triangulate_delaunay', 'write_xyz']
+__all__: list[str] = ['Arm', 'CleanReport', 'CleanResult', 'DhTable', 'Error', 'Hits', 'Link', 'MeshReport', 'Nearest', 'Plane', 'PlaneFit', 'PointCloud', 'Polyline', 'Scene', 'SheetPatch', 'SheetReport', 'Targets', 'TextTable', 'ToolPath', 'TriangleMesh', 'arm_from_chain', 'arm_from_parts', 'arm_parts', 'chain_from_arm', 'clean_cloud', 'cover_polygon', 'find_sheets', 'find_targets', 'fit_plane', 'generate_survey', 'intersect_moller_trumbore', 'mesh_report', 'plan_toolpath', 'read_pcd', 'read_text_table', 'set_simd_level', 'simd_level', 'survey_height', 'triangulate', 'triangulate_delaunay', 'write_xyz']
 class Error(RuntimeError):
     """
     A broken file, a solver that failed or a part that is not installed.
@@ -1033,6 +1033,454 @@ class ToolPath:
         """
         What a person should know before the path is followed: list of str.
         """
+class Link:
+    """
+    What hangs on an arm behind one of its joints.
+    
+    Link 0 is the foot, before any joint; link k moves with joint k. All numbers but `frame` are told in
+    the link's own frame.
+    
+    Parameters
+    ----------
+    name : str
+    mass : float
+        [kg]; 0 is unknown.
+    center_of_mass : (3,) array
+        [m]
+    inertia : (3, 3) array, optional
+        About the centre of mass [kg m²].
+    volume : float
+        Displaced water [m³]; 0 is unknown.
+    center_of_buoyancy : (3,) array
+        [m]
+    frame : (4, 4) array, optional
+        row_from_link; the frame behind the joint's row itself unless given.
+    
+    Examples
+    --------
+    >>> import bathyal
+    >>> bathyal.Link("forearm", mass=2.5, center_of_mass=(-0.1, 0, 0), volume=1.2e-3)
+    Link("forearm", mass=2.5)
+    """
+    def __init__(self, name: str = '', *, mass: typing.SupportsFloat | typing.SupportsIndex = 0.0, center_of_mass: typing.Any = (0, 0, 0), inertia: typing.Any = None, volume: typing.SupportsFloat | typing.SupportsIndex = 0.0, center_of_buoyancy: typing.Any = (0, 0, 0), frame: typing.Any = None) -> None:
+        ...
+    def __repr__(self) -> str:
+        ...
+    @property
+    def center_of_buoyancy(self) -> numpy.ndarray:
+        """
+        (3,) in the link's frame [m].
+        """
+    @property
+    def center_of_mass(self) -> numpy.ndarray:
+        """
+        (3,) in the link's frame [m].
+        """
+    @property
+    def frame(self) -> numpy.ndarray:
+        """
+        (4, 4) row_from_link: the link's frame, seen from the frame behind its row.
+        """
+    @property
+    def inertia(self) -> numpy.ndarray:
+        """
+        (3, 3) about the centre of mass, along the link's axes [kg m²].
+        """
+    @property
+    def mass(self) -> float:
+        """
+        [kg]; 0 is unknown.
+        """
+    @property
+    def name(self) -> str:
+        ...
+    @property
+    def volume(self) -> float:
+        """
+        Displaced [m³]; 0 is unknown.
+        """
+class DhTable:
+    """
+    The Denavit-Hartenberg table of an arm.
+    
+    base_from_flange = root · row 1 · … · row m · flange, where a row is
+    Rz(theta) Tz(d) Tx(a) Rx(alpha) Ry(beta) in the standard convention and
+    Tx(a) Rx(alpha) Ry(beta) Rz(theta) Tz(d) in the modified one.
+    """
+    def __len__(self) -> int:
+        ...
+    def __repr__(self) -> str:
+        ...
+    @property
+    def a(self) -> numpy.ndarray:
+        """
+        (m,) [m]
+        """
+    @property
+    def alpha(self) -> numpy.ndarray:
+        """
+        (m,) [rad]
+        """
+    @property
+    def beta(self) -> numpy.ndarray:
+        """
+        (m,) [rad]; Hayati and Mirmirani's angle.
+        """
+    @property
+    def convention(self) -> str:
+        """
+        "standard" or "modified".
+        """
+    @property
+    def d(self) -> numpy.ndarray:
+        """
+        (m,) [m]; a sliding joint adds its value.
+        """
+    @property
+    def flange(self) -> numpy.ndarray:
+        """
+        (4, 4) behind the last row.
+        """
+    @property
+    def joint_types(self) -> list[str]:
+        """
+        One word a row: "revolute", "prismatic" or "fixed".
+        """
+    @property
+    def root(self) -> numpy.ndarray:
+        """
+        (4, 4) before the first row.
+        """
+    @property
+    def theta(self) -> numpy.ndarray:
+        """
+        (m,) [rad]; a turning joint adds its value.
+        """
+class Arm:
+    """
+    A serial arm: its geometry, limits, masses and volumes.
+    
+    Made by ``Arm.from_dh`` and the functions of ``bathyal.arms``. world_from_tool = base · arm · tool:
+    `base` (world_from_base) and `tool` (flange_from_tool) are yours to set and the identity until then;
+    all else stays as it was made. Metres and radians.
+    
+    Examples
+    --------
+    >>> import bathyal
+    >>> arm = bathyal.Arm.from_dh(a=[0.5, 0.4], alpha=[0, 0], d=[0, 0], theta=[0, 0])
+    >>> arm
+    Arm(2 joints)
+    >>> arm.forward([0.0, 0.0])[:3, 3].round(6)
+    array([0.9, 0. , 0. ])
+    """
+    @staticmethod
+    def from_dh(a: typing.Any, alpha: typing.Any, d: typing.Any, theta: typing.Any, *, beta: typing.Any = None, joint_types: collections.abc.Sequence[str] | None = None, convention: str = 'standard', lower: typing.Any = None, upper: typing.Any = None, velocity: typing.Any = None, effort: typing.Any = None, names: collections.abc.Sequence[str] = [], links: collections.abc.Sequence[Link] = [], root: typing.Any = None, flange: typing.Any = None, base: typing.Any = None, tool: typing.Any = None, name: str = '', source: str = '') -> Arm:
+        """
+        An arm from its Denavit-Hartenberg table.
+        
+        Parameters
+        ----------
+        a, alpha, d, theta : (m,) arrays
+            One value a row [m], [rad]. A turning joint adds its value to theta, a sliding one to d.
+        beta : (m,) array, optional
+            Hayati and Mirmirani's fifth angle (1985), for neighbouring axes that are nearly parallel [rad].
+        joint_types : list of str, optional
+            "revolute" (all, unless given), "prismatic" or "fixed".
+        convention : str
+            "standard", a row is Rz(theta) Tz(d) Tx(a) Rx(alpha) Ry(beta); or "modified" (Craig), a row is
+            Tx(a) Rx(alpha) Ry(beta) Rz(theta) Tz(d).
+        lower, upper, velocity, effort : (m,) arrays, optional
+            Limits of each row's joint; infinite unless given. A turning joint without limits wraps.
+        names : list of str, optional
+            Of the rows; "joint_1" and so on unless given.
+        links : list of Link, optional
+            m + 1 of them, the foot first.
+        root, flange, base, tool : (4, 4) arrays, optional
+            What lies before the first row and behind the last, as part of the arm; and the user's
+            world_from_base and flange_from_tool.
+        name, source : str
+            Of the arm, and where its numbers come from.
+        
+        Raises
+        ------
+        ValueError
+            For columns of unequal length, a value that is not finite, crossed limits, no moving joint.
+        
+        Examples
+        --------
+        >>> import bathyal, math
+        >>> arm = bathyal.Arm.from_dh(a=[0, 0.3], alpha=[math.pi / 2, 0], d=[0.2, 0], theta=[0, 0],
+        ...                           lower=[-1, -2], upper=[1, 2], name="small")
+        >>> arm.size, arm.joint_names
+        (2, ['joint_1', 'joint_2'])
+        >>> arm.within_limits([[0, 0], [0, 3]])
+        array([ True, False])
+        """
+    @staticmethod
+    def from_urdf(path: typing.Any, *, tip: typing.Any = None, root: typing.Any = None, name: typing.Any = None) -> Arm:
+        """
+        An arm from one path of a URDF's tree (bathyal.urdf.arm_from_urdf).
+        """
+    def __copy__(self) -> Arm:
+        ...
+    def __deepcopy__(self, memo: dict) -> Arm:
+        ...
+    def __getstate__(self) -> dict:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def __setstate__(self, arg0: dict) -> None:
+        ...
+    def copy(self) -> Arm:
+        """
+        An arm of its own, base and tool too.
+        """
+    def forward(self, q: typing.Any, *, links: bool = False, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> numpy.ndarray:
+        """
+        Poses of the tool in the world.
+        
+        Parameters
+        ----------
+        q : (N, n) or (n,) array
+            Joint angles [rad] or [m]. Values beyond the limits are taken: a measured pose may lie there.
+        links : bool
+            Poses of every link instead, in the order of `link_names`.
+        num_threads : int
+            0 is all.
+        
+        Returns
+        -------
+        (N, 4, 4) or (4, 4) array; with `links` (N, L, 4, 4) or (L, 4, 4)
+            world_from_tool, world_from_link.
+        
+        Examples
+        --------
+        >>> import bathyal
+        >>> arm = bathyal.arms.ur10e()
+        >>> arm.forward([[0, 0, 0, 0, 0, 0]])[0, :3, 3].round(4)
+        array([-1.1842, -0.2906,  0.0609])
+        """
+    def jacobian(self, q: typing.Any, *, frame: str = 'world', num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> numpy.ndarray:
+        """
+        Geometric Jacobians at the tool centre point.
+        
+        Parameters
+        ----------
+        q : (N, n) or (n,) array
+            [rad] or [m]
+        frame : str
+            Axes along which the velocities are told: "world" or "tool".
+        num_threads : int
+            0 is all.
+        
+        Returns
+        -------
+        (N, 6, n) or (6, n) array
+            Rows of the linear velocity [m/s] above those of the angular velocity [rad/s].
+        
+        Examples
+        --------
+        >>> import bathyal
+        >>> bathyal.arms.panda().jacobian([0, 0, 0, -1.5, 0, 1.5, 0]).shape
+        (6, 7)
+        """
+    def manipulability(self, q: typing.Any, *, kind: str = 'yoshikawa', part: str = 'all', num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> typing.Any:
+        """
+        How far poses are from a singularity.
+        
+        Parameters
+        ----------
+        q : (N, n) or (n,) array
+            [rad] or [m]
+        kind : str
+            "yoshikawa", √det(J Jᵀ) (Yoshikawa 1985); "smallest" singular value; "inverse_condition",
+            smallest over largest: 0 singular, 1 isotropic.
+        part : str
+            Which rows count: "all" (which mixes metres and radians), "linear" or "angular".
+        num_threads : int
+            0 is all.
+        
+        Returns
+        -------
+        (N,) array or float
+            With fewer joints than rows, of the singular values that there are.
+        
+        Examples
+        --------
+        >>> import bathyal
+        >>> arm = bathyal.Arm.from_dh(a=[0.5, 0.4], alpha=[0, 0], d=[0, 0], theta=[0, 0])
+        >>> round(arm.manipulability([0.3, 1.5707963], part="linear"), 6)
+        0.2
+        """
+    def plot(self, q: typing.Any = None, path: typing.Any = None) -> typing.Any:
+        """
+        A picture, written to `path` too (bathyal.arm_views.plot_arm).
+        """
+    def save(self, path: typing.Any) -> None:
+        """
+        Write all of it to a .json file, for bathyal.read_arm (bathyal.arm_files.save_arm).
+        """
+    def show(self, q: typing.Any = None) -> typing.Any:
+        """
+        An interactive figure (bathyal.arm_views.show_arm).
+        """
+    def statics(self, q: typing.Any, wrench: typing.Any = None, *, frame: str = 'world', gravity: typing.Any = (0.0, 0.0, -9.80665), water_density: typing.SupportsFloat | typing.SupportsIndex = 1025.0, payload: typing.SupportsFloat | typing.SupportsIndex = 0.0, payload_center: typing.Any = (0, 0, 0), payload_volume: typing.SupportsFloat | typing.SupportsIndex = 0.0, payload_center_of_buoyancy: typing.Any = None, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> numpy.ndarray:
+        """
+        Joint torques that hold the arm still.
+        
+        The drives carry Jᵀ · wrench, the weight of every link and of the payload, less the buoyancy of the
+        volumes told. Masses and volumes are those of `links`; unknown ones are 0.
+        
+        Parameters
+        ----------
+        q : (N, n) or (n,) array
+            [rad] or [m]
+        wrench : (6,) or (N, 6) array, optional
+            Force and moment that the tool exerts on its surroundings at the tool centre point [N, N m].
+        frame : str
+            Axes along which the wrench is told: "world" or "tool".
+        gravity : (3,) array
+            In the arm's base frame [m/s²]: turn it with the vehicle.
+        water_density : float
+            [kg/m³]; 0 in air.
+        payload, payload_volume : float
+            Mass [kg] and displaced volume [m³] carried by the tool.
+        payload_center, payload_center_of_buoyancy : (3,) array
+            In the tool's frame [m]; the second is as the first unless given.
+        num_threads : int
+            0 is all.
+        
+        Returns
+        -------
+        (N, n) or (n,) array
+            [N m], of sliding joints [N], positive along the coordinate.
+        
+        Examples
+        --------
+        >>> import bathyal
+        >>> arm = bathyal.Arm.from_dh(a=[0.5], alpha=[1.5707963267948966], d=[0], theta=[0],
+        ...                           root=[[1, 0, 0, 0], [0, 0, -1, 0], [0, 1, 0, 0], [0, 0, 0, 1]])
+        >>> arm.statics([0.0], payload=2.0).round(3)
+        array([9.807])
+        """
+    def to_dh(self, *, convention: str = 'standard') -> DhTable:
+        """
+        The Denavit-Hartenberg table, without base and tool.
+        
+        Parameters
+        ----------
+        convention : str
+            "standard" or "modified". In the modified convention a root that is no more than
+            Tx(a) Rx(alpha) Ry(beta) becomes part of the first row; any other stays `root`.
+        
+        Returns
+        -------
+        DhTable
+            .a .alpha .d .theta .beta (m,), .joint_types, .root .flange (4, 4)
+        
+        Examples
+        --------
+        >>> import bathyal
+        >>> bathyal.arms.ur10e().to_dh().a.round(4)
+        array([ 0.    , -0.6127, -0.5715,  0.    ,  0.    ,  0.    ])
+        """
+    def to_urdf(self, path: typing.Any = None) -> str:
+        """
+        The arm as the text of a URDF, written to `path` too (bathyal.urdf_writer.urdf_of_arm).
+        """
+    def within_limits(self, q: typing.Any) -> typing.Any:
+        """
+        Whether each pose q (N, n) keeps the limits: (N,) bool; one pose (n,) gives one.
+        """
+    def write(self, path: typing.Any, *, nominal: typing.Any = None) -> None:
+        """
+        Write a .json, .urdf, .yaml or .conf file (bathyal.arm_files.write_arm).
+        """
+    @property
+    def base(self) -> numpy.ndarray:
+        """
+        (4, 4) world_from_base; may be set, None is the identity.
+        """
+    @base.setter
+    def base(self, arg1: typing.Any) -> None:
+        ...
+    @property
+    def effort(self) -> numpy.ndarray:
+        """
+        (n,) greatest torque [N m] or force [N] of that joint.
+        """
+    @property
+    def joint_names(self) -> list[str]:
+        """
+        One name a coordinate: of the joint that leads it, in the arm or beside it.
+        """
+    @property
+    def joint_types(self) -> list[str]:
+        """
+        One word a coordinate, "revolute" or "prismatic".
+        """
+    @property
+    def link_names(self) -> list[str]:
+        """
+        One name a link, the foot first: the order of forward(q, links=True).
+        """
+    @property
+    def links(self) -> list[Link]:
+        """
+        The Links, the foot first: a list.
+        """
+    @property
+    def lower(self) -> numpy.ndarray:
+        """
+        (n,) lower limits [rad] or [m], −inf where there is none.
+        """
+    @property
+    def name(self) -> str:
+        ...
+    @property
+    def size(self) -> int:
+        """
+        Number of coordinates n, the width of every q.
+        """
+    @property
+    def source(self) -> str:
+        """
+        Where the numbers come from.
+        """
+    @property
+    def tool(self) -> numpy.ndarray:
+        """
+        (4, 4) flange_from_tool; may be set, None is the identity.
+        """
+    @tool.setter
+    def tool(self, arg1: typing.Any) -> None:
+        ...
+    @property
+    def upper(self) -> numpy.ndarray:
+        """
+        (n,) upper limits [rad] or [m], inf where there is none.
+        """
+    @property
+    def velocity(self) -> numpy.ndarray:
+        """
+        (n,) greatest speed of the joint that leads each coordinate [rad/s] or [m/s].
+        """
+def arm_from_chain(chain: dict, *, nearly_parallel: typing.SupportsFloat | typing.SupportsIndex = 0.1) -> Arm:
+    """
+    The Arm of joint origins, axes and links: what a URDF tells.
+    """
+def arm_from_parts(parts: dict) -> Arm:
+    """
+    The Arm of such a dict.
+    """
+def arm_parts(arm: Arm) -> dict:
+    """
+    Everything an Arm is made of.
+    """
+def chain_from_arm(arm: Arm) -> dict:
+    """
+    Joint origins, axes and links of an Arm; the last joint is the flange's.
+    """
 def clean_cloud(cloud: typing.Any, *, same_place: str = 'keep', spike_sigma: typing.SupportsFloat | typing.SupportsIndex = 0.0, spike_height: typing.SupportsFloat | typing.SupportsIndex = 0.1, spike_neighbours: typing.SupportsInt | typing.SupportsIndex = 16, outlier_sigma: typing.SupportsFloat | typing.SupportsIndex = 0.0, outlier_neighbours: typing.SupportsInt | typing.SupportsIndex = 12, voxel: typing.SupportsFloat | typing.SupportsIndex = 0.0, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> CleanResult:
     """
     Drop what is no sounding and, where asked, what is too much or out of line; say how many and why.

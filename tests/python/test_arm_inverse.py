@@ -120,7 +120,7 @@ def test_reports_of_failure() -> None:
         (np.zeros((2, 2)), {"task": "position"}, r"\(N, 3\)"),
         (2 * np.eye(4), {}, "rigid"),
         (np.diag([1, 1, -1, 1.0]), {}, "rigid"),
-        (np.full((4, 4), np.nan), {}, "nan or inf in row 0"),
+        (np.full((4, 4), np.nan), {}, "poses in row 0.*finite"),
         (None, {}, "poses"),
         (np.eye(4), {"start": np.zeros(5)}, "start"),
         (np.eye(4), {"start": np.zeros((2, 6))}, "start"),

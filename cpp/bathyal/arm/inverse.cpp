@@ -33,18 +33,9 @@ std::vector<PlainPose> plain_targets(std::span<const double> targets) {
   for (std::size_t row = 0; row < result.size(); ++row) {
     const Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>> matrix(targets.data() +
                                                                                 16 * row);
-    if (!matrix.allFinite()) {
-      throw_argument("poses", "finite numbers", "nan or inf" + in_row(row));
-    }
     Pose pose;
     pose.matrix() = matrix;
-    const Eigen::Matrix3d rotation = pose.linear();
-    const double error = (rotation * rotation.transpose() - Eigen::Matrix3d::Identity()).norm();
-    if (error > 1e-6 || rotation.determinant() < 0.0 ||
-        matrix.row(3) != Eigen::RowVector4d(0, 0, 0, 1)) {
-      throw_argument("poses", "rigid motions: a right-handed rotation, last row 0 0 0 1",
-                     "another matrix" + in_row(row));
-    }
+    check_rigid("poses" + in_row(row), pose);
     result[row] = arm::plain(pose);
   }
   return result;
