@@ -1,0 +1,623 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bathyal/identify/identify_arm.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "bathyal/base/check.hpp"
+#include "bathyal/identify/examine.hpp"
+#include "bathyal/identify/gauge.hpp"
+#include "bathyal/identify/start.hpp"
+
+namespace bathyal {
+namespace {
+
+/// A scale that is held, but softly enough for the arithmetic.
+constexpr double kHeldScale = 1e-7;
+constexpr double kLeastNoise = 1e-9;  ///< [m] or [rad]; exact data have no scale of their own
+constexpr int kMostRounds = 12;
+constexpr double kNoiseSettled = 1e-4;  ///< relative
+constexpr double kTrustSettled = 1e-4;
+constexpr double kMedianOfNorm = 1.5381722544550522;  ///< of a normal 3-vector of unit std
+/// A column's share in an unseen direction from which it counts as part of it.
+constexpr double kUnseenShare = 1e-4;
+
+bool is_length(const Place& place) { return place.part == Part::kD || place.part == Part::kA; }
+bool is_angle(const Place& place) {
+  return place.part == Part::kTheta || place.part == Part::kAlpha || place.part == Part::kBeta;
+}
+bool is_row(const Place& place) { return place.part <= Part::kBeta; }
+
+double root_mean(double sum, double count) { return count > 0.0 ? std::sqrt(sum / count) : 0.0; }
+
+/// One identification: what is set up stands in the constructor, what is found in `run`.
+class Search {
+ public:
+  Search(const Arm& arm, const Measurement& measurement, const IdentifyOptions& options);
+  ArmFit run();
+
+ private:
+  ColumnChoice choice() const;
+  void make_start();
+  void name_fixed();
+  void set_priors();
+  void settle_frames();
+  void hold_scale(double std);
+  void solve(const LeastSquaresOptions& options);
+  void solve_with_noise();
+  void solve_with_trust();
+  bool update_noise();
+  double robust_noise(const Eigen::VectorXd& norms) const;
+  Eigen::VectorXd norms(const Eigen::VectorXd& x) const;
+  void return_unseen();
+  void prune();
+
+  struct Knowledge {
+    RankReport data;             ///< all columns, data only, equal noise
+    Eigen::MatrixXd unseen;      ///< (free, k) by the data
+    Eigen::MatrixXd blind;       ///< (free, k) by data and priors
+    Eigen::MatrixXd jacobian;    ///< (rows, free) whitened, exact touches
+    Eigen::MatrixXd covariance;  ///< (free, free) scaled
+  };
+  Knowledge learn() const;
+  RowMatrix exact_joints() const;
+
+  void report_fit(const Knowledge& knowledge, ArmFit& fit) const;
+  void report_parameters(const Knowledge& knowledge, ArmFit& fit) const;
+  void report_scale(ArmFit& fit) const;
+  void report_before(ArmFit& fit) const;
+  std::vector<double> group_rms(const Eigen::Matrix3Xd& deviations) const;
+
+  const Arm& arm_;
+  const Measurement& m_;
+  const IdentifyOptions& options_;
+  bool base_free_ = false;
+  bool held_scale_ = false;
+  ArmColumns columns_;
+  std::vector<GaugeColumn> gauge_;
+  std::vector<int> fixed_;
+  std::vector<int> pruned_;
+  std::optional<ArmSystem> system_;
+  Eigen::VectorXd x_;
+  std::vector<double> history_;
+  bool converged_ = true;
+};
+
+Search::Search(const Arm& arm, const Measurement& measurement, const IdentifyOptions& options)
+    : arm_(arm),
+      m_(measurement),
+      options_(options),
+      base_free_(options.base == BaseChoice::kFree ||
+                 (options.base == BaseChoice::kAuto && measurement.tracked)),
+      columns_{arm, {}, {}, {}, {}, {}} {
+  if (base_free_ && !m_.in_world()) {
+    throw_argument("base", "\"fixed\" or \"auto\" for touches of points that nobody told",
+                   "\"free\"");
+  }
+}
+
+ArmFit Search::run() {
+  make_start();
+  name_fixed();
+  gauge_ = find_gauge(columns_, m_, choice(), m_.in_world() && !base_free_, fixed_);
+  set_priors();
+  system_.emplace(columns_, m_, options_.criterion, options_.pair_weights, options_.num_threads);
+  settle_frames();
+
+  ArmFit fit(arm_);
+  report_before(fit);
+  solve_with_noise();
+  if (options_.loss != Loss::kSquare) solve_with_trust();
+  return_unseen();
+  if (options_.prune_sigma) prune();
+
+  const Knowledge knowledge = learn();
+  report_fit(knowledge, fit);
+  report_parameters(knowledge, fit);
+  report_scale(fit);
+  examine(m_, *system_, arm_, fit);
+  return fit;
+}
+
+ColumnChoice Search::choice() const {
+  return {options_.parametrization, options_.parallel_angle, base_free_};
+}
+
+void Search::make_start() {
+  const bool given =
+      options_.tool_start == ToolStart::kArm ||
+      (options_.tool_start == ToolStart::kAuto && arm_.tool().translation() != Vec3::Zero());
+  Start start = find_start(arm_, m_, given, base_free_);
+  columns_ = make_columns(arm_, m_, std::move(start.bases), std::move(start.tools),
+                          std::move(start.planes), choice());
+  x_ = columns_.nominal();
+}
+
+void Search::name_fixed() {
+  for (const std::string& name : options_.fixed) {
+    const int column = find_column(columns_.columns, name);
+    if (column < 0) throw_argument("fixed", "names of parameters, as \"d_1\"", name);
+    fixed_.push_back(column);
+  }
+}
+
+void Search::set_priors() {
+  for (std::size_t i = 0; i < columns_.columns.size(); ++i) {
+    Column& column = columns_.columns[i];
+    if (options_.length_prior && is_length(columns_.places[i])) {
+      column.prior_std = *options_.length_prior;
+    }
+    if (options_.angle_prior && is_angle(columns_.places[i])) {
+      column.prior_std = *options_.angle_prior;
+    }
+  }
+  for (const auto& [name, std] : options_.priors) {
+    const int column = find_column(columns_.columns, name);
+    if (column < 0) throw_argument("priors", "names of parameters, as \"d_1\"", name);
+    columns_.columns[column].prior_std = std;
+  }
+}
+
+/// Bases, tools of tracked poses and planes for the nominal rows: what a user who identifies
+/// nothing would find, and the frames about which turns are then told.
+void Search::settle_frames() {
+  std::vector<int> frames;
+  for (int i = 0; i < static_cast<int>(columns_.places.size()); ++i) {
+    const bool tool =
+        columns_.places[i].part == Part::kToolShift || columns_.places[i].part == Part::kToolTurn;
+    const bool wanted = !is_row(columns_.places[i]) && (m_.tracked || !tool);
+    if (wanted && std::find(fixed_.begin(), fixed_.end(), i) == fixed_.end()) frames.push_back(i);
+  }
+  system_->set_free(frames);
+  if (!frames.empty()) {
+    system_->set_use_priors(false);
+    x_ =
+        system_->values(solve_least_squares(*system_, Eigen::VectorXd::Zero(system_->columns())).y);
+    ArmState state = state_at(columns_, x_);
+    const ArmColumns settled =
+        make_columns(arm_, m_, std::move(state.bases), std::move(state.tools),
+                     std::move(state.planes), choice());
+    for (std::size_t i = 0; i < columns_.columns.size(); ++i) {
+      columns_.columns[i].nominal = settled.columns[i].nominal;
+    }
+    columns_.bases = settled.bases;
+    columns_.tools = settled.tools;
+    columns_.planes = settled.planes;
+    x_ = columns_.nominal();
+  }
+
+  std::vector<int> free;
+  for (int i = 0; i < static_cast<int>(columns_.columns.size()); ++i) {
+    const bool gauge = std::any_of(gauge_.begin(), gauge_.end(),
+                                   [i](const GaugeColumn& g) { return g.column == i; });
+    if (!gauge && std::find(fixed_.begin(), fixed_.end(), i) == fixed_.end()) free.push_back(i);
+  }
+  system_->set_free(free);
+  Noise noise;
+  const double spread =
+      std::sqrt(system_->deviations(x_).squaredNorm() / static_cast<double>(3 * m_.rows()));
+  noise.position = options_.noise.value_or(std::max(spread, kLeastNoise));
+  if (m_.has_rotation()) {
+    const double turned =
+        std::sqrt(system_->turns(x_).squaredNorm() / static_cast<double>(3 * m_.rows()));
+    noise.rotation = options_.rotation_noise.value_or(std::max(turned, kLeastNoise));
+  }
+  system_->set_noise(noise, x_);
+}
+
+/// Σ L (x - L) / Σ L² = 0 over the rows' lengths L: no arm of another size. Where the lengths are
+/// all zero there is nothing to hold it by, and nothing but the tool that could shrink.
+void Search::hold_scale(double std) {
+  LinearRow row{Eigen::VectorXd::Zero(x_.size()), std};
+  for (Index i = 0; i < x_.size(); ++i) {
+    if (is_length(columns_.places[i])) row.coefficients[i] = columns_.columns[i].nominal;
+  }
+  const double square = row.coefficients.squaredNorm();
+  held_scale_ = square > 0.0;
+  if (held_scale_) row.coefficients /= square;
+  system_->set_linear_rows(held_scale_ ? std::vector<LinearRow>{row} : std::vector<LinearRow>{});
+}
+
+void Search::solve(const LeastSquaresOptions& options) {
+  const LeastSquaresResult result = solve_least_squares(*system_, system_->scaled(x_), options);
+  x_ = system_->values(result.y);
+  converged_ = result.converged;
+  const double unit = system_->noise().position * system_->noise().position;
+  for (std::size_t i = history_.empty() ? 0 : 1; i < result.history.size(); ++i) {
+    history_.push_back(result.history[i] * unit);
+  }
+}
+
+/// Without a length of their own, touches are first fitted at nominal size: the noise that the
+/// priors are then weighed against must not shrink with the arm.
+void Search::solve_with_noise() {
+  const LeastSquaresOptions options{.solver = options_.solver,
+                                    .max_iterations = options_.max_iterations};
+  const bool priors = std::any_of(columns_.columns.begin(), columns_.columns.end(),
+                                  [](const Column& c) { return c.prior_std != Column::kNoPrior; });
+  const bool size_by_priors = priors && !m_.tells_scale() && options_.length_prior;
+  if (!m_.tells_scale()) hold_scale(kHeldScale);
+  system_->set_use_priors(!size_by_priors);
+  solve(options);
+  for (int round = 0; round < kMostRounds && update_noise(); ++round) solve(options);
+  if (size_by_priors) {
+    system_->set_linear_rows({});
+    held_scale_ = false;
+    system_->set_use_priors(true);
+    solve(options);
+  }
+}
+
+/// Each kind of row by its own residuals: σ² = Σ r² / (rows - what the columns take of them).
+/// False when nothing changed that the solution depends on.
+bool Search::update_noise() {
+  if (options_.noise && (options_.rotation_noise || !m_.has_rotation())) return false;
+  const bool matters = m_.has_rotation() || system_->rows() > system_->position_rows() + 1 ||
+                       (system_->rows() > system_->position_rows() && !held_scale_);
+  const Knowledge knowledge = learn();
+  Noise noise = system_->noise();
+  const auto estimate = [&](const Eigen::Matrix3Xd& residuals, Index first, Index count,
+                            double rows, double old) {
+    double sum = 0.0;
+    for (Index i = 0; i < m_.rows(); ++i) {
+      sum += m_.weights[i] * system_->trust()[i] * residuals.col(i).squaredNorm();
+    }
+    const Eigen::MatrixXd block = knowledge.jacobian.middleRows(first, count);
+    const double taken = (block * knowledge.covariance).cwiseProduct(block).sum();
+    const double freedom = rows - taken;
+    return freedom > 0.5 ? std::max(std::sqrt(sum / freedom), kLeastNoise) : old;
+  };
+  if (!options_.noise) {
+    noise.position =
+        estimate(system_->deviations(x_), 0, 3 * m_.rows(), free_position_rows(m_), noise.position);
+  }
+  if (m_.has_rotation() && !options_.rotation_noise) {
+    noise.rotation = estimate(system_->turns(x_), 3 * m_.rows(), 3 * m_.rows(),
+                              static_cast<double>(3 * m_.rows()), noise.rotation);
+  }
+  const Noise old = system_->noise();
+  system_->set_noise(noise, x_);
+  return matters && (std::abs(noise.position / old.position - 1.0) > kNoiseSettled ||
+                     std::abs(noise.rotation / old.rotation - 1.0) > kNoiseSettled);
+}
+
+Eigen::VectorXd Search::norms(const Eigen::VectorXd& x) const {
+  Eigen::VectorXd out = system_->deviations(x).colwise().norm();
+  for (Index i = 0; i < out.size(); ++i) out[i] *= std::sqrt(m_.weights[i]);
+  return out;
+}
+
+double Search::robust_noise(const Eigen::VectorXd& norms) const {
+  std::vector<double> sorted(norms.begin(), norms.end());
+  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+  std::nth_element(sorted.begin(), middle, sorted.end());
+  const double taken = static_cast<double>(system_->columns());
+  const double rows = free_position_rows(m_);
+  const double share =
+      rows > taken ? std::sqrt(static_cast<double>(3 * m_.rows()) / (rows - taken)) : 1.0;
+  return std::max(*middle / kMedianOfNorm * share, kLeastNoise);
+}
+
+/// Iteratively reweighted least squares.
+void Search::solve_with_trust() {
+  const LeastSquaresOptions options{.solver = options_.solver,
+                                    .max_iterations = options_.max_iterations};
+  for (int round = 0; round < 5 * kMostRounds; ++round) {
+    const Eigen::VectorXd distance = norms(x_);
+    const double noise = options_.noise.value_or(robust_noise(distance));
+    const double width = options_.loss_width.value_or(3.0 * noise);
+    std::vector<double> trust = system_->trust();
+    double change = 0.0;
+    for (Index i = 0; i < distance.size(); ++i) {
+      const double ratio = distance[i] / width;
+      const double next = options_.loss == Loss::kHuber ? (ratio > 1.0 ? 1.0 / ratio : 1.0)
+                                                        : 1.0 / (1.0 + ratio * ratio);
+      change = std::max(change, std::abs(next - trust[i]));
+      trust[i] = next;
+    }
+    system_->set_trust(std::move(trust));
+    system_->set_noise({noise, system_->noise().rotation}, x_);
+    if (change < kTrustSettled) break;
+    solve(options);
+  }
+}
+
+/// Steps never go where nothing is seen, but the way may bend: what it gathered there is undone.
+void Search::return_unseen() {
+  const LeastSquaresOptions options{.solver = options_.solver,
+                                    .max_iterations = options_.max_iterations};
+  for (int round = 0; round < 2; ++round) {
+    const Knowledge knowledge = learn();
+    if (knowledge.blind.cols() == 0) return;
+    Eigen::VectorXd y = system_->scaled(x_);
+    y -= knowledge.blind * (knowledge.blind.transpose() * y);
+    x_ = system_->values(y);
+    solve(options);
+  }
+}
+
+/// One at a time, the one that is least of its std first.
+void Search::prune() {
+  const LeastSquaresOptions options{.solver = options_.solver,
+                                    .max_iterations = options_.max_iterations};
+  while (true) {
+    const Knowledge knowledge = learn();
+    const Eigen::VectorXd y = system_->scaled(x_);
+    Index least = -1;
+    double least_ratio = *options_.prune_sigma;
+    for (Index i = 0; i < y.size(); ++i) {
+      if (!is_row(columns_.places[system_->free()[i]])) continue;
+      const double std = std::sqrt(knowledge.covariance(i, i));
+      if (knowledge.unseen.row(i).norm() > kUnseenShare || std == 0.0) continue;
+      if (std::abs(y[i]) / std < least_ratio) {
+        least = i;
+        least_ratio = std::abs(y[i]) / std;
+      }
+    }
+    if (least < 0) return;
+    std::vector<int> free = system_->free();
+    const int column = free[least];
+    free.erase(free.begin() + least);
+    pruned_.push_back(column);
+    x_[column] = columns_.columns[column].nominal;
+    system_->set_free(std::move(free));
+    solve(options);
+    if (options_.loss == Loss::kSquare) update_noise();
+  }
+}
+
+/// The joint values nearest to those recorded at which every tip is where it should be.
+RowMatrix Search::exact_joints() const {
+  RowMatrix q = m_.q;
+  if (m_.tracked) return q;
+  constexpr int kMostSteps = 10;
+  constexpr double kFarTurn = 0.5;  // a pose that must move so much is left where it is
+  const Eigen::Matrix3Xd centers = system_->centroids(x_);
+  const TipWalk walk(columns_, x_, {});
+  RowFrames frames;
+  for (Index i = 0; i < q.rows(); ++i) {
+    Eigen::VectorXd joints = q.row(i).transpose();
+    for (int step = 0; step < kMostSteps; ++step) {
+      Vec3 tip;
+      const Eigen::Matrix3Xd jacobian =
+          walk.joint_jacobian(joints.data(), m_.tool[i], m_.station[i], frames, tip);
+      Vec3 miss;
+      if (m_.point[i] >= 0) {
+        miss = centers.col(m_.point[i]) - tip;
+      } else {
+        const PlaneGuess& plane = walk.state().planes[m_.plane[i]];
+        miss = (plane.offset - plane.normal.dot(tip - plane.center)) * plane.normal;
+      }
+      if (miss.norm() < 1e-14) break;
+      Eigen::Matrix3d square = jacobian * jacobian.transpose();
+      square.diagonal().array() += 1e-12 * square.trace();
+      joints += jacobian.transpose() * square.ldlt().solve(miss);
+    }
+    if ((joints - m_.q.row(i).transpose()).cwiseAbs().maxCoeff() < kFarTurn) {
+      q.row(i) = joints.transpose();
+    }
+  }
+  return q;
+}
+
+Search::Knowledge Search::learn() const {
+  Knowledge out;
+  ArmSystem exact = *system_;
+  exact.set_joints(exact_joints());
+  exact.set_criterion(Criterion::kCentroid, false);
+
+  // Rank: all columns, every row in millimetres and milliradians, and no prior.
+  ArmSystem equal = exact;
+  std::vector<int> all(columns_.columns.size());
+  for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<int>(i);
+  equal.set_free(all);
+  equal.set_equal_noise(1e-3);
+  equal.set_use_priors(false);
+  const std::vector<LinearRow> linear = equal.linear_rows();
+  equal.set_linear_rows({});
+  const auto jacobian_of = [this](const ArmSystem& system) {
+    Eigen::VectorXd residuals(system.rows());
+    Eigen::MatrixXd jacobian(system.rows(), system.columns());
+    const Eigen::VectorXd y = system.scaled(x_);
+    system.evaluate(y.data(), residuals.data(), jacobian.data());
+    return jacobian;
+  };
+  const Eigen::MatrixXd full = jacobian_of(equal);
+  out.data = reveal_rank(full);
+
+  const std::vector<int>& free = exact.free();
+  Eigen::MatrixXd seen(full.rows(), exact.columns());
+  for (Index i = 0; i < seen.cols(); ++i) seen.col(i) = full.col(free[i]);
+  out.unseen = reveal_rank(seen).unseen();
+
+  // What the held size is worth as knowledge is what the nominal size is trusted to.
+  std::vector<LinearRow> trusted = linear;
+  for (LinearRow& row : trusted) row.std = options_.scale_prior;
+  exact.set_linear_rows(trusted);
+  out.jacobian = jacobian_of(exact);
+  const Eigen::MatrixXd told =
+      out.jacobian.bottomRows(out.jacobian.rows() - exact.data_rows()) * out.unseen;
+  const RankReport held = reveal_rank(told);
+  out.blind = out.unseen * held.unseen();
+
+  // The space that is left, and the covariance in it.
+  Eigen::MatrixXd left = Eigen::MatrixXd::Identity(exact.columns(), exact.columns());
+  if (out.blind.cols() > 0) {
+    const Eigen::HouseholderQR<Eigen::MatrixXd> qr(out.blind);
+    left = Eigen::MatrixXd(qr.householderQ()).rightCols(exact.columns() - out.blind.cols());
+  }
+  out.covariance = left * reveal_rank(out.jacobian * left, 0.0).covariance() * left.transpose();
+  return out;
+}
+
+void Search::report_before(ArmFit& fit) const {
+  const Eigen::Matrix3Xd deviations = system_->deviations(x_);
+  fit.rms_before = root_mean(deviations.squaredNorm(), static_cast<double>(m_.rows()));
+  fit.point_rms_before = group_rms(deviations);
+  fit.rotation_rms_before =
+      root_mean(system_->turns(x_).squaredNorm(), static_cast<double>(m_.rows()));
+  fit.pairs_before = pair_sum(m_, deviations);
+}
+
+std::vector<double> Search::group_rms(const Eigen::Matrix3Xd& deviations) const {
+  const std::vector<int>& group = m_.tracked ? m_.station : m_.point;
+  const auto groups = static_cast<std::size_t>(m_.tracked ? m_.stations : m_.points());
+  std::vector<double> sum(groups, 0.0);
+  std::vector<double> count(groups, 0.0);
+  for (Index i = 0; i < m_.rows(); ++i) {
+    if (group[i] < 0) continue;
+    sum[group[i]] += deviations.col(i).squaredNorm();
+    count[group[i]] += 1.0;
+  }
+  for (std::size_t g = 0; g < groups; ++g) sum[g] = root_mean(sum[g], count[g]);
+  return sum;
+}
+
+void Search::report_fit(const Knowledge& knowledge, ArmFit& fit) const {
+  const ArmState state = state_at(columns_, x_);
+  fit.arm = state.arm;
+  fit.arm.set_base(state.bases[0]);
+  fit.arm.set_tool(state.tools[0]);
+  fit.bases = state.bases;
+  fit.tools = state.tools;
+  fit.columns = columns_;
+  fit.values = x_;
+
+  fit.residuals = system_->deviations(x_);
+  fit.rms_after = root_mean(fit.residuals.squaredNorm(), static_cast<double>(m_.rows()));
+  fit.point_rms_after = group_rms(fit.residuals);
+  fit.rotation_rms_after =
+      root_mean(system_->turns(x_).squaredNorm(), static_cast<double>(m_.rows()));
+  fit.pairs_after = pair_sum(m_, fit.residuals);
+  fit.history = history_;
+  fit.iterations = static_cast<int>(history_.size()) - 1;
+  fit.converged = converged_;
+
+  fit.rank = knowledge.data.rank;
+  fit.singular_values = knowledge.data.singular_values;
+  for (const Eigen::VectorXd& direction : readable_directions(knowledge.data.unseen())) {
+    fit.unseen.push_back(in_words(direction, columns_.columns));
+  }
+  fit.noise = system_->noise().position;
+  fit.rotation_noise = m_.has_rotation() ? system_->noise().rotation : 0.0;
+  const Eigen::MatrixXd data = knowledge.jacobian.topRows(system_->measurement().rows() * 3);
+  fit.degrees_of_freedom =
+      free_position_rows(m_) - (data * knowledge.covariance).cwiseProduct(data).sum();
+
+  fit.point_labels = m_.labels;
+  fit.points = system_->centroids(x_);
+  for (const KnownDistance& known : m_.distances) {
+    fit.distances.push_back({m_.labels[known.first], m_.labels[known.second], known.distance,
+                             (fit.points.col(known.first) - fit.points.col(known.second)).norm()});
+  }
+}
+
+void Search::report_parameters(const Knowledge& knowledge, ArmFit& fit) const {
+  const auto count = static_cast<Index>(columns_.columns.size());
+  const std::vector<int>& free = system_->free();
+  fit.covariance.setZero(count, count);
+  fit.blind.setZero(count, knowledge.blind.cols());
+  Eigen::MatrixXd unseen = Eigen::MatrixXd::Zero(count, knowledge.unseen.cols());
+  for (std::size_t i = 0; i < free.size(); ++i) {
+    const double scale = columns_.columns[free[i]].scale;
+    for (std::size_t j = 0; j < free.size(); ++j) {
+      fit.covariance(free[i], free[j]) =
+          knowledge.covariance(i, j) * scale * columns_.columns[free[j]].scale;
+    }
+    fit.blind.row(free[i]) = knowledge.blind.row(i) * scale;
+    unseen.row(free[i]) = knowledge.unseen.row(i);
+  }
+
+  for (Index c = 0; c < count; ++c) {
+    const Column& column = columns_.columns[c];
+    FitParameter p{column.name,
+                   column.words,
+                   column.unit,
+                   column.group,
+                   column.nominal,
+                   x_[c],
+                   std::sqrt(fit.covariance(c, c)),
+                   Status::kIdentified,
+                   {}};
+    const bool blind = fit.blind.row(c).norm() > kUnseenShare * column.scale;
+    const bool told = column.prior_std != Column::kNoPrior && p.std > 0.7 * column.prior_std;
+    if (blind) {
+      p.status = Status::kNotIdentifiable;
+      p.std = std::numeric_limits<double>::infinity();
+    } else if (unseen.row(c).norm() > kUnseenShare || told) {
+      p.status = Status::kPrior;
+    }
+    p.trades = trades_of(static_cast<int>(c), unseen, columns_.columns);
+    fit.parameters.push_back(std::move(p));
+  }
+  for (const GaugeColumn& gauge : gauge_) {
+    fit.parameters[gauge.column].status = Status::kGauge;
+    fit.parameters[gauge.column].trades = gauge.trades;
+  }
+  for (const int column : fixed_) fit.parameters[column].status = Status::kFixed;
+  for (const int column : pruned_) fit.parameters[column].status = Status::kPruned;
+}
+
+void Search::report_scale(ArmFit& fit) const {
+  Eigen::VectorXd length = Eigen::VectorXd::Zero(x_.size());
+  for (Index i = 0; i < x_.size(); ++i) {
+    if (is_length(columns_.places[i])) length[i] = columns_.columns[i].nominal;
+  }
+  const double square = length.squaredNorm();
+  if (square > 0.0) {
+    fit.scale = length.dot(x_) / square;
+    fit.scale_std = std::sqrt(std::max(0.0, length.dot(fit.covariance * length))) / square;
+  }
+  double sum = 0.0;
+  double found = 0.0;
+  for (const FoundDistance& distance : fit.distances) {
+    sum += distance.told * distance.found;
+    found += distance.found * distance.found;
+  }
+  const double to_true_size = found > 0.0 ? sum / found : m_.tells_scale() ? 1.0 : 1.0 / fit.scale;
+  fit.rms_after_scaled = fit.rms_after * to_true_size;
+
+  if (m_.tracked) {
+    fit.scale_source = "measured positions";
+  } else if (!m_.known_points.empty()) {
+    fit.scale_source = "known points";
+  } else if (!m_.distances.empty()) {
+    fit.scale_source = m_.distances.size() == 1 ? "known distance" : "known distances";
+  } else if (options_.length_prior) {
+    fit.scale_source = "prior on lengths (" + to_text(*options_.length_prior * 1e3) + " mm)";
+  } else if (held_scale_) {
+    fit.scale_source = "prior on the arm's size (nominal lengths, " +
+                       to_text(options_.scale_prior * 100.0) + " %)";
+  } else {
+    fit.scale_source = "nothing";
+  }
+}
+
+}  // namespace
+
+void IdentifyOptions::check() const {
+  check_range("parallel_angle", parallel_angle, 0.0, 0.5);
+  LeastSquaresOptions{.max_iterations = max_iterations}.check();
+  if (length_prior) check_positive("length_prior", *length_prior);
+  if (angle_prior) check_positive("angle_prior", *angle_prior);
+  for (const auto& [name, std] : priors) check_positive("priors " + name, std);
+  check_positive("scale_prior", scale_prior);
+  if (noise) check_positive("noise", *noise);
+  if (rotation_noise) check_positive("rotation_noise", *rotation_noise);
+  if (loss_width) check_positive("loss_width", *loss_width);
+  if (prune_sigma) check_positive("prune_sigma", *prune_sigma);
+}
+
+ArmFit identify_arm(const Arm& arm, const Touches& touches, const IdentifyOptions& options) {
+  options.check();
+  const Measurement measurement = to_measurement(arm, touches);
+  return Search(arm, measurement, options).run();
+}
+
+ArmFit identify_arm(const Arm& arm, const Tracked& tracked, const IdentifyOptions& options) {
+  options.check();
+  const Measurement measurement = to_measurement(arm, tracked);
+  return Search(arm, measurement, options).run();
+}
+
+}  // namespace bathyal
