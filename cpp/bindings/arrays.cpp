@@ -127,4 +127,30 @@ Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> table_arg
   return Eigen::Map<const Table>(typed.data(), typed.shape(0), columns);
 }
 
+Rows rows_argument(std::string_view name, const py::object& object, Index columns) {
+  const std::string width = std::to_string(columns);
+  const std::string expected = "real numbers of shape (N, " + width + ") or (" + width + ",)";
+  const py::array array = any_array(name, object, expected);
+  const bool fits = (array.ndim() == 1 && array.shape(0) == columns) ||
+                    (array.ndim() == 2 && array.shape(1) == columns);
+  if (!fits) throw_argument(name, expected, "shape " + shape_text(array));
+  const auto typed = typed_array<double>(name, array, "fiu", expected);
+  Rows rows;
+  rows.single = array.ndim() == 1;
+  rows.table = Eigen::Map<const decltype(rows.table)>(typed.data(),
+                                                      rows.single ? 1 : array.shape(0), columns);
+  return rows;
+}
+
+Pose pose_argument(std::string_view name, const py::object& object) {
+  Pose pose = Pose::Identity();
+  if (object.is_none()) return pose;
+  const auto table = table_argument(name, object, 4);
+  if (table.rows() != 4) {
+    throw_argument(name, "shape (4, 4)", "shape (" + std::to_string(table.rows()) + ", 4)");
+  }
+  pose.matrix() = table;
+  return pose;
+}
+
 }  // namespace bathyal::python

@@ -3,11 +3,14 @@
 
 from importlib.metadata import version as _version
 
+from bathyal import arms
 from bathyal._core import (
+    Arm,
     CleanReport,
     CleanResult,
     Error,
     Hits,
+    Link,
     MeshReport,
     Nearest,
     Plane,
@@ -41,10 +44,12 @@ from bathyal.terrain import SheetWarning, triangulate
 __version__ = _version("bathyal")
 
 __all__ = [
+    "Arm",
     "CleanReport",
     "CleanResult",
     "Error",
     "Hits",
+    "Link",
     "MeshReport",
     "Nearest",
     "Plane",
@@ -58,6 +63,7 @@ __all__ = [
     "Targets",
     "ToolPath",
     "TriangleMesh",
+    "arms",
     "clean_cloud",
     "cover_polygon",
     "find_sheets",
