@@ -38,6 +38,7 @@ Eigen::MatrixXd RankReport::covariance() const {
 RankReport reveal_rank(const Eigen::MatrixXd& jacobian, double tolerance) {
   RankReport report;
   const Index columns = jacobian.cols();
+  if (columns == 0) return report;
   Eigen::MatrixXd triangle = Eigen::MatrixXd::Zero(columns, columns);
   if (jacobian.rows() > columns) {
     const Eigen::HouseholderQR<Eigen::MatrixXd> qr(jacobian);
@@ -48,7 +49,7 @@ RankReport reveal_rank(const Eigen::MatrixXd& jacobian, double tolerance) {
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(triangle, Eigen::ComputeFullV);
   report.singular_values = svd.singularValues();
   report.directions = svd.matrixV();
-  const double least = columns > 0 ? tolerance * report.singular_values[0] : 0.0;
+  const double least = tolerance * report.singular_values[0];
   while (report.rank < columns && report.singular_values[report.rank] > least) ++report.rank;
   return report;
 }

@@ -13,7 +13,7 @@ namespace bathyal {
 namespace {
 
 /// A scale that is held, but softly enough for the arithmetic.
-constexpr double kHeldScale = 1e-7;
+constexpr double kHeldScale = 1e-5;
 constexpr double kLeastNoise = 1e-9;  ///< [m] or [rad]; exact data have no scale of their own
 constexpr int kMostRounds = 12;
 constexpr double kNoiseSettled = 1e-4;  ///< relative

@@ -27,7 +27,7 @@ enum class Solver {
 struct LeastSquaresOptions {
   Solver solver = Solver::kLevenbergMarquardt;
   int max_iterations = 100;    ///< 1 or more
-  double damping = 1e-4;       ///< the first one, relative (paper: absolute), above 0
+  double damping = 1e-8;       ///< the first one, relative (paper: absolute), above 0
   double factor = 0.1;         ///< eta of eq 17, in (0, 1)
   double cost_change = 1e-13;  ///< stops when the sum of squares changes by less, 0 or more
 
