@@ -81,7 +81,7 @@ struct ArmFit {
   std::vector<std::string> unseen;  ///< the null directions in words
   double noise = 0.0;               ///< found or told standard deviation, per axis [m]
   double rotation_noise = 0.0;      ///< [rad]
-  double degrees_of_freedom = 0.0;
+  double degrees_of_freedom = 0.0;  ///< position rows less what points and columns take
 
   std::string scale_source;  ///< what the arm's size rests on
   double scale = 1.0;        ///< lengths found by nominal lengths, in the least-squares sense

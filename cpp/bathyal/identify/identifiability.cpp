@@ -29,10 +29,13 @@ std::vector<Index> partners(const Eigen::VectorXd& direction) {
 
 }  // namespace
 
-Eigen::MatrixXd RankReport::covariance() const {
-  const Eigen::MatrixXd seen =
-      directions.leftCols(rank) * singular_values.head(rank).cwiseInverse().asDiagonal();
-  return seen * seen.transpose();
+Eigen::MatrixXd inverse_square(const Eigen::MatrixXd& jacobian) {
+  const Index columns = jacobian.cols();
+  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(jacobian);
+  const Eigen::MatrixXd inverse =
+      qr.matrixQR().topRows(columns).triangularView<Eigen::Upper>().solve(
+          Eigen::MatrixXd::Identity(columns, columns));
+  return inverse * inverse.transpose();
 }
 
 RankReport reveal_rank(const Eigen::MatrixXd& jacobian, double tolerance) {

@@ -24,12 +24,14 @@ struct RankReport {
 
   /// (columns, columns - rank) orthonormal: changes that nothing measured can see.
   Eigen::MatrixXd unseen() const { return directions.rightCols(directions.cols() - rank); }
-  /// Pseudo-inverse of JᵀJ over what is seen: the covariance when residuals have unit noise.
-  Eigen::MatrixXd covariance() const;
 };
 
 /// \pre no entry is NaN
 RankReport reveal_rank(const Eigen::MatrixXd& jacobian, double tolerance = kRankTolerance);
+
+/// (JᵀJ)⁻¹ from the triangle of J: the covariance of columns when residuals have unit noise.
+/// \pre the columns are independent
+Eigen::MatrixXd inverse_square(const Eigen::MatrixXd& jacobian);
 
 /// The same space, each direction with a leading column that no other one has, so that each reads
 /// as one sentence; leading entries are 1.

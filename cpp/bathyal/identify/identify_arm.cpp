@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "bathyal/base/check.hpp"
 #include "bathyal/identify/examine.hpp"
@@ -14,7 +15,8 @@ namespace {
 
 /// A scale that is held, but softly enough for the arithmetic.
 constexpr double kHeldScale = 1e-5;
-constexpr double kLeastNoise = 1e-9;  ///< [m] or [rad]; exact data have no scale of their own
+constexpr double kHeldDirection = 1e-3;  ///< in units of the columns' scale
+constexpr double kLeastNoise = 1e-9;     ///< [m] or [rad]; exact data have no scale of their own
 constexpr int kMostRounds = 12;
 constexpr double kNoiseSettled = 1e-4;  ///< relative
 constexpr double kTrustSettled = 1e-4;
@@ -42,28 +44,23 @@ class Search {
   void name_fixed();
   void set_priors();
   void settle_frames();
-  void hold_scale(double std);
-  void solve(const LeastSquaresOptions& options);
+  std::vector<LinearRow> size_row() const;
+  void set_linear_rows();
+  void solve();
   void solve_with_noise();
   void solve_with_trust();
   bool update_noise();
   double robust_noise(const Eigen::VectorXd& norms) const;
   Eigen::VectorXd norms(const Eigen::VectorXd& x) const;
-  void return_unseen();
   void prune();
 
-  struct Knowledge {
-    RankReport data;             ///< all columns, data only, equal noise
-    Eigen::MatrixXd unseen;      ///< (free, k) by the data
-    Eigen::MatrixXd blind;       ///< (free, k) by data and priors
-    Eigen::MatrixXd jacobian;    ///< (rows, free) whitened, exact touches
-    Eigen::MatrixXd covariance;  ///< (free, free) scaled
-  };
-  Knowledge learn() const;
+  void look();
   RowMatrix exact_joints() const;
+  Eigen::MatrixXd jacobian_of(const ArmSystem& system) const;
+  Eigen::MatrixXd covariance() const;
 
-  void report_fit(const Knowledge& knowledge, ArmFit& fit) const;
-  void report_parameters(const Knowledge& knowledge, ArmFit& fit) const;
+  void report_fit(ArmFit& fit) const;
+  void report_parameters(ArmFit& fit) const;
   void report_scale(ArmFit& fit) const;
   void report_before(ArmFit& fit) const;
   std::vector<double> group_rms(const Eigen::Matrix3Xd& deviations) const;
@@ -72,12 +69,16 @@ class Search {
   const Measurement& m_;
   const IdentifyOptions& options_;
   bool base_free_ = false;
-  bool held_scale_ = false;
   ArmColumns columns_;
   std::vector<GaugeColumn> gauge_;
   std::vector<int> fixed_;
   std::vector<int> pruned_;
   std::optional<ArmSystem> system_;
+  RankReport rank_;              ///< of all columns, by the data, at nominal
+  Eigen::MatrixXd unseen_;       ///< (P, k) scaled changes of free columns that the data do not see
+  Eigen::MatrixXd blind_;        ///< those of them that no prior holds either
+  std::vector<LinearRow> size_;  ///< keeps the arm's size where nothing else does
+  std::vector<LinearRow> holds_;  ///< keep what is blind at nominal
   Eigen::VectorXd x_;
   std::vector<double> history_;
   bool converged_ = true;
@@ -103,17 +104,16 @@ ArmFit Search::run() {
   set_priors();
   system_.emplace(columns_, m_, options_.criterion, options_.pair_weights, options_.num_threads);
   settle_frames();
+  look();
 
   ArmFit fit(arm_);
   report_before(fit);
   solve_with_noise();
   if (options_.loss != Loss::kSquare) solve_with_trust();
-  return_unseen();
   if (options_.prune_sigma) prune();
 
-  const Knowledge knowledge = learn();
-  report_fit(knowledge, fit);
-  report_parameters(knowledge, fit);
+  report_fit(fit);
+  report_parameters(fit);
   report_scale(fit);
   examine(m_, *system_, arm_, fit);
   return fit;
@@ -205,20 +205,77 @@ void Search::settle_frames() {
   system_->set_noise(noise, x_);
 }
 
+/// What the data see is asked at the nominal arm, where the search starts: a direction that is dark
+/// there is held, for the little light that it gets elsewhere is not to be trusted (plain DH beside
+/// parallel axes runs off along such directions).
+void Search::look() {
+  ArmSystem equal = *system_;
+  equal.set_joints(exact_joints());
+  equal.set_criterion(Criterion::kCentroid, false);
+  std::vector<int> all(columns_.columns.size());
+  std::iota(all.begin(), all.end(), 0);
+  equal.set_free(all);
+  equal.set_equal_noise(1e-3);
+  equal.set_use_priors(false);
+  const Eigen::MatrixXd full = jacobian_of(equal);
+  rank_ = reveal_rank(full);
+
+  const std::vector<int>& free = system_->free();
+  Eigen::MatrixXd seen(full.rows(), system_->columns());
+  for (Index i = 0; i < seen.cols(); ++i) seen.col(i) = full.col(free[i]);
+  const Eigen::MatrixXd unseen = reveal_rank(seen).unseen();
+
+  if (!m_.tells_scale()) size_ = size_row();
+  system_->set_linear_rows(size_);
+  const Eigen::MatrixXd rows = jacobian_of(*system_);
+  const Eigen::MatrixXd told =
+      rows.bottomRows(rows.rows() - system_->data_rows()).rowwise().normalized() * unseen;
+  const Eigen::MatrixXd blind = unseen * reveal_rank(told).unseen();
+
+  const auto count = static_cast<Index>(columns_.columns.size());
+  unseen_.setZero(count, unseen.cols());
+  blind_.setZero(count, blind.cols());
+  for (std::size_t i = 0; i < free.size(); ++i) {
+    unseen_.row(free[i]) = unseen.row(i);
+    blind_.row(free[i]) = blind.row(i);
+  }
+  for (Index k = 0; k < blind_.cols(); ++k) {
+    LinearRow row{blind_.col(k), kHeldDirection};
+    for (Index i = 0; i < count; ++i) row.coefficients[i] /= columns_.columns[i].scale;
+    holds_.push_back(std::move(row));
+  }
+}
+
 /// Σ L (x - L) / Σ L² = 0 over the rows' lengths L: no arm of another size. Where the lengths are
 /// all zero there is nothing to hold it by, and nothing but the tool that could shrink.
-void Search::hold_scale(double std) {
-  LinearRow row{Eigen::VectorXd::Zero(x_.size()), std};
+std::vector<LinearRow> Search::size_row() const {
+  LinearRow row{Eigen::VectorXd::Zero(x_.size()), kHeldScale};
   for (Index i = 0; i < x_.size(); ++i) {
     if (is_length(columns_.places[i])) row.coefficients[i] = columns_.columns[i].nominal;
   }
   const double square = row.coefficients.squaredNorm();
-  held_scale_ = square > 0.0;
-  if (held_scale_) row.coefficients /= square;
-  system_->set_linear_rows(held_scale_ ? std::vector<LinearRow>{row} : std::vector<LinearRow>{});
+  if (square == 0.0) return {};
+  row.coefficients /= square;
+  return {row};
 }
 
-void Search::solve(const LeastSquaresOptions& options) {
+void Search::set_linear_rows() {
+  std::vector<LinearRow> rows = size_;
+  rows.insert(rows.end(), holds_.begin(), holds_.end());
+  system_->set_linear_rows(std::move(rows));
+}
+
+Eigen::MatrixXd Search::jacobian_of(const ArmSystem& system) const {
+  Eigen::VectorXd residuals(system.rows());
+  Eigen::MatrixXd jacobian(system.rows(), system.columns());
+  const Eigen::VectorXd y = system.scaled(x_);
+  system.evaluate(y.data(), residuals.data(), jacobian.data());
+  return jacobian;
+}
+
+void Search::solve() {
+  const LeastSquaresOptions options{.solver = options_.solver,
+                                    .max_iterations = options_.max_iterations};
   const LeastSquaresResult result = solve_least_squares(*system_, system_->scaled(x_), options);
   x_ = system_->values(result.y);
   converged_ = result.converged;
@@ -231,20 +288,16 @@ void Search::solve(const LeastSquaresOptions& options) {
 /// Without a length of their own, touches are first fitted at nominal size: the noise that the
 /// priors are then weighed against must not shrink with the arm.
 void Search::solve_with_noise() {
-  const LeastSquaresOptions options{.solver = options_.solver,
-                                    .max_iterations = options_.max_iterations};
-  const bool priors = std::any_of(columns_.columns.begin(), columns_.columns.end(),
-                                  [](const Column& c) { return c.prior_std != Column::kNoPrior; });
-  const bool size_by_priors = priors && !m_.tells_scale() && options_.length_prior;
-  if (!m_.tells_scale()) hold_scale(kHeldScale);
+  const bool size_by_priors = !m_.tells_scale() && options_.length_prior.has_value();
+  set_linear_rows();
   system_->set_use_priors(!size_by_priors);
-  solve(options);
-  for (int round = 0; round < kMostRounds && update_noise(); ++round) solve(options);
+  solve();
+  for (int round = 0; round < kMostRounds && update_noise(); ++round) solve();
   if (size_by_priors) {
-    system_->set_linear_rows({});
-    held_scale_ = false;
+    size_.clear();
+    set_linear_rows();
     system_->set_use_priors(true);
-    solve(options);
+    solve();
   }
 }
 
@@ -252,31 +305,35 @@ void Search::solve_with_noise() {
 /// False when nothing changed that the solution depends on.
 bool Search::update_noise() {
   if (options_.noise && (options_.rotation_noise || !m_.has_rotation())) return false;
-  const bool matters = m_.has_rotation() || system_->rows() > system_->position_rows() + 1 ||
-                       (system_->rows() > system_->position_rows() && !held_scale_);
-  const Knowledge knowledge = learn();
-  Noise noise = system_->noise();
+  // Every direction is held by something, so that the triangle can be inverted.
+  const Eigen::MatrixXd jacobian = jacobian_of(*system_);
+  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(jacobian);
+  const auto triangle = qr.matrixQR().topRows(jacobian.cols()).triangularView<Eigen::Upper>();
   const auto estimate = [&](const Eigen::Matrix3Xd& residuals, Index first, Index count,
                             double rows, double old) {
     double sum = 0.0;
     for (Index i = 0; i < m_.rows(); ++i) {
       sum += m_.weights[i] * system_->trust()[i] * residuals.col(i).squaredNorm();
     }
-    const Eigen::MatrixXd block = knowledge.jacobian.middleRows(first, count);
-    const double taken = (block * knowledge.covariance).cwiseProduct(block).sum();
-    const double freedom = rows - taken;
+    const Eigen::MatrixXd taken =
+        triangle.transpose().solve(jacobian.middleRows(first, count).transpose());
+    const double freedom = rows - taken.squaredNorm();
     return freedom > 0.5 ? std::max(std::sqrt(sum / freedom), kLeastNoise) : old;
   };
+  Noise noise = system_->noise();
   if (!options_.noise) {
-    noise.position =
-        estimate(system_->deviations(x_), 0, 3 * m_.rows(), free_position_rows(m_), noise.position);
+    noise.position = estimate(system_->deviations(x_), 0, system_->position_rows(),
+                              free_position_rows(m_), noise.position);
   }
   if (m_.has_rotation() && !options_.rotation_noise) {
-    noise.rotation = estimate(system_->turns(x_), 3 * m_.rows(), 3 * m_.rows(),
-                              static_cast<double>(3 * m_.rows()), noise.rotation);
+    noise.rotation =
+        estimate(system_->turns(x_), system_->position_rows(), system_->rotation_rows(),
+                 static_cast<double>(3 * m_.rows()), noise.rotation);
   }
   const Noise old = system_->noise();
   system_->set_noise(noise, x_);
+  const auto others = static_cast<Index>(size_.size() + holds_.size());
+  const bool matters = system_->rows() > system_->position_rows() + others;
   return matters && (std::abs(noise.position / old.position - 1.0) > kNoiseSettled ||
                      std::abs(noise.rotation / old.rotation - 1.0) > kNoiseSettled);
 }
@@ -300,8 +357,6 @@ double Search::robust_noise(const Eigen::VectorXd& norms) const {
 
 /// Iteratively reweighted least squares.
 void Search::solve_with_trust() {
-  const LeastSquaresOptions options{.solver = options_.solver,
-                                    .max_iterations = options_.max_iterations};
   for (int round = 0; round < 5 * kMostRounds; ++round) {
     const Eigen::VectorXd distance = norms(x_);
     const double noise = options_.noise.value_or(robust_noise(distance));
@@ -318,38 +373,22 @@ void Search::solve_with_trust() {
     system_->set_trust(std::move(trust));
     system_->set_noise({noise, system_->noise().rotation}, x_);
     if (change < kTrustSettled) break;
-    solve(options);
-  }
-}
-
-/// Steps never go where nothing is seen, but the way may bend: what it gathered there is undone.
-void Search::return_unseen() {
-  const LeastSquaresOptions options{.solver = options_.solver,
-                                    .max_iterations = options_.max_iterations};
-  for (int round = 0; round < 2; ++round) {
-    const Knowledge knowledge = learn();
-    if (knowledge.blind.cols() == 0) return;
-    Eigen::VectorXd y = system_->scaled(x_);
-    y -= knowledge.blind * (knowledge.blind.transpose() * y);
-    x_ = system_->values(y);
-    solve(options);
+    solve();
   }
 }
 
 /// One at a time, the one that is least of its std first.
 void Search::prune() {
-  const LeastSquaresOptions options{.solver = options_.solver,
-                                    .max_iterations = options_.max_iterations};
   while (true) {
-    const Knowledge knowledge = learn();
+    const Eigen::MatrixXd known = covariance();
     const Eigen::VectorXd y = system_->scaled(x_);
     Index least = -1;
     double least_ratio = *options_.prune_sigma;
     for (Index i = 0; i < y.size(); ++i) {
-      if (!is_row(columns_.places[system_->free()[i]])) continue;
-      const double std = std::sqrt(knowledge.covariance(i, i));
-      if (knowledge.unseen.row(i).norm() > kUnseenShare || std == 0.0) continue;
-      if (std::abs(y[i]) / std < least_ratio) {
+      const int column = system_->free()[i];
+      const double std = std::sqrt(known(i, i));
+      if (!is_row(columns_.places[column]) || unseen_.row(column).norm() > kUnseenShare) continue;
+      if (std > 0.0 && std::abs(y[i]) / std < least_ratio) {
         least = i;
         least_ratio = std::abs(y[i]) / std;
       }
@@ -361,7 +400,7 @@ void Search::prune() {
     pruned_.push_back(column);
     x_[column] = columns_.columns[column].nominal;
     system_->set_free(std::move(free));
-    solve(options);
+    solve();
     if (options_.loss == Loss::kSquare) update_noise();
   }
 }
@@ -400,54 +439,26 @@ RowMatrix Search::exact_joints() const {
   return q;
 }
 
-Search::Knowledge Search::learn() const {
-  Knowledge out;
+/// (free, free), scaled, for exact touches; what is blind counts nothing.
+Eigen::MatrixXd Search::covariance() const {
   ArmSystem exact = *system_;
   exact.set_joints(exact_joints());
+  // Pair residuals are correlated; those about a centroid lose one touch to it, and no more.
   exact.set_criterion(Criterion::kCentroid, false);
-
-  // Rank: all columns, every row in millimetres and milliradians, and no prior.
-  ArmSystem equal = exact;
-  std::vector<int> all(columns_.columns.size());
-  for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<int>(i);
-  equal.set_free(all);
-  equal.set_equal_noise(1e-3);
-  equal.set_use_priors(false);
-  const std::vector<LinearRow> linear = equal.linear_rows();
-  equal.set_linear_rows({});
-  const auto jacobian_of = [this](const ArmSystem& system) {
-    Eigen::VectorXd residuals(system.rows());
-    Eigen::MatrixXd jacobian(system.rows(), system.columns());
-    const Eigen::VectorXd y = system.scaled(x_);
-    system.evaluate(y.data(), residuals.data(), jacobian.data());
-    return jacobian;
-  };
-  const Eigen::MatrixXd full = jacobian_of(equal);
-  out.data = reveal_rank(full);
-
-  const std::vector<int>& free = exact.free();
-  Eigen::MatrixXd seen(full.rows(), exact.columns());
-  for (Index i = 0; i < seen.cols(); ++i) seen.col(i) = full.col(free[i]);
-  out.unseen = reveal_rank(seen).unseen();
-
+  std::vector<LinearRow> rows = size_;
   // What the held size is worth as knowledge is what the nominal size is trusted to.
-  std::vector<LinearRow> trusted = linear;
-  for (LinearRow& row : trusted) row.std = options_.scale_prior;
-  exact.set_linear_rows(trusted);
-  out.jacobian = jacobian_of(exact);
-  const Eigen::MatrixXd told =
-      out.jacobian.bottomRows(out.jacobian.rows() - exact.data_rows()) * out.unseen;
-  const RankReport held = reveal_rank(told);
-  out.blind = out.unseen * held.unseen();
+  for (LinearRow& row : rows) row.std = options_.scale_prior;
+  exact.set_linear_rows(std::move(rows));
+  const Eigen::MatrixXd jacobian = jacobian_of(exact);
 
-  // The space that is left, and the covariance in it.
   Eigen::MatrixXd left = Eigen::MatrixXd::Identity(exact.columns(), exact.columns());
-  if (out.blind.cols() > 0) {
-    const Eigen::HouseholderQR<Eigen::MatrixXd> qr(out.blind);
-    left = Eigen::MatrixXd(qr.householderQ()).rightCols(exact.columns() - out.blind.cols());
+  if (blind_.cols() > 0) {
+    Eigen::MatrixXd blind(exact.columns(), blind_.cols());
+    for (Index i = 0; i < blind.rows(); ++i) blind.row(i) = blind_.row(exact.free()[i]);
+    const Eigen::HouseholderQR<Eigen::MatrixXd> qr(blind);
+    left = Eigen::MatrixXd(qr.householderQ()).rightCols(exact.columns() - blind.cols());
   }
-  out.covariance = left * reveal_rank(out.jacobian * left, 0.0).covariance() * left.transpose();
-  return out;
+  return left * inverse_square(jacobian * left) * left.transpose();
 }
 
 void Search::report_before(ArmFit& fit) const {
@@ -473,7 +484,7 @@ std::vector<double> Search::group_rms(const Eigen::Matrix3Xd& deviations) const 
   return sum;
 }
 
-void Search::report_fit(const Knowledge& knowledge, ArmFit& fit) const {
+void Search::report_fit(ArmFit& fit) const {
   const ArmState state = state_at(columns_, x_);
   fit.arm = state.arm;
   fit.arm.set_base(state.bases[0]);
@@ -493,16 +504,17 @@ void Search::report_fit(const Knowledge& knowledge, ArmFit& fit) const {
   fit.iterations = static_cast<int>(history_.size()) - 1;
   fit.converged = converged_;
 
-  fit.rank = knowledge.data.rank;
-  fit.singular_values = knowledge.data.singular_values;
-  for (const Eigen::VectorXd& direction : readable_directions(knowledge.data.unseen())) {
+  fit.rank = rank_.rank;
+  fit.singular_values = rank_.singular_values;
+  for (const Eigen::VectorXd& direction : readable_directions(rank_.unseen())) {
     fit.unseen.push_back(in_words(direction, columns_.columns));
   }
   fit.noise = system_->noise().position;
   fit.rotation_noise = m_.has_rotation() ? system_->noise().rotation : 0.0;
-  const Eigen::MatrixXd data = knowledge.jacobian.topRows(system_->measurement().rows() * 3);
+
+  const auto taken = static_cast<double>(system_->columns() - unseen_.cols());
   fit.degrees_of_freedom =
-      free_position_rows(m_) - (data * knowledge.covariance).cwiseProduct(data).sum();
+      free_position_rows(m_) + static_cast<double>(system_->known_rows()) - taken;
 
   fit.point_labels = m_.labels;
   fit.points = system_->centroids(x_);
@@ -512,21 +524,19 @@ void Search::report_fit(const Knowledge& knowledge, ArmFit& fit) const {
   }
 }
 
-void Search::report_parameters(const Knowledge& knowledge, ArmFit& fit) const {
+void Search::report_parameters(ArmFit& fit) const {
   const auto count = static_cast<Index>(columns_.columns.size());
   const std::vector<int>& free = system_->free();
+  const Eigen::MatrixXd known = covariance();
   fit.covariance.setZero(count, count);
-  fit.blind.setZero(count, knowledge.blind.cols());
-  Eigen::MatrixXd unseen = Eigen::MatrixXd::Zero(count, knowledge.unseen.cols());
+  fit.blind = blind_;
   for (std::size_t i = 0; i < free.size(); ++i) {
-    const double scale = columns_.columns[free[i]].scale;
     for (std::size_t j = 0; j < free.size(); ++j) {
       fit.covariance(free[i], free[j]) =
-          knowledge.covariance(i, j) * scale * columns_.columns[free[j]].scale;
+          known(i, j) * columns_.columns[free[i]].scale * columns_.columns[free[j]].scale;
     }
-    fit.blind.row(free[i]) = knowledge.blind.row(i) * scale;
-    unseen.row(free[i]) = knowledge.unseen.row(i);
   }
+  for (Index i = 0; i < count; ++i) fit.blind.row(i) *= columns_.columns[i].scale;
 
   for (Index c = 0; c < count; ++c) {
     const Column& column = columns_.columns[c];
@@ -544,10 +554,10 @@ void Search::report_parameters(const Knowledge& knowledge, ArmFit& fit) const {
     if (blind) {
       p.status = Status::kNotIdentifiable;
       p.std = std::numeric_limits<double>::infinity();
-    } else if (unseen.row(c).norm() > kUnseenShare || told) {
+    } else if (unseen_.row(c).norm() > kUnseenShare || told) {
       p.status = Status::kPrior;
     }
-    p.trades = trades_of(static_cast<int>(c), unseen, columns_.columns);
+    p.trades = trades_of(static_cast<int>(c), unseen_, columns_.columns);
     fit.parameters.push_back(std::move(p));
   }
   for (const GaugeColumn& gauge : gauge_) {
@@ -585,7 +595,7 @@ void Search::report_scale(ArmFit& fit) const {
     fit.scale_source = m_.distances.size() == 1 ? "known distance" : "known distances";
   } else if (options_.length_prior) {
     fit.scale_source = "prior on lengths (" + to_text(*options_.length_prior * 1e3) + " mm)";
-  } else if (held_scale_) {
+  } else if (!size_.empty()) {
     fit.scale_source = "prior on the arm's size (nominal lengths, " +
                        to_text(options_.scale_prior * 100.0) + " %)";
   } else {
