@@ -7,6 +7,7 @@
 #include <string>
 
 #include "arm_docs.hpp"
+#include "arm_parts.hpp"
 #include "arrays.hpp"
 #include "bathyal/arm/dh.hpp"
 #include "bathyal/arm/kinematics.hpp"
@@ -20,12 +21,6 @@ namespace {
 
 // Words -----------------------------------------------------------------------------------------
 
-const Words<JointType>& type_words() {
-  static const Words<JointType> words{{"revolute", JointType::kRevolute},
-                                      {"prismatic", JointType::kPrismatic},
-                                      {"fixed", JointType::kFixed}};
-  return words;
-}
 const Words<DhConvention>& convention_words() {
   static const Words<DhConvention> words{{"standard", DhConvention::kStandard},
                                          {"modified", DhConvention::kModified}};
@@ -116,27 +111,6 @@ std::vector<Value> of_coordinates(const Arm& arm, const Get& get) {
   return values;
 }
 
-// Copies ----------------------------------------------------------------------------------------
-
-py::tuple joint_state(const Joint& j) {
-  return py::make_tuple(j.name, word_of(j.type, type_words()), j.row.a, j.row.alpha, j.row.d,
-                        j.row.theta, j.row.beta, j.coordinate, j.multiplier, j.offset, j.lower,
-                        j.upper, j.velocity, j.effort);
-}
-
-Joint joint_from(const py::tuple& state) {
-  Joint j;
-  j.name = state[0].cast<std::string>();
-  j.type = word_argument("type", state[1].cast<std::string>(), type_words());
-  double* numbers[] = {&j.row.a,      &j.row.alpha, &j.row.d, &j.row.theta, &j.row.beta, nullptr,
-                       &j.multiplier, &j.offset,    &j.lower, &j.upper,     &j.velocity, &j.effort};
-  for (std::size_t i = 0; i < std::size(numbers); ++i) {
-    if (numbers[i] != nullptr) *numbers[i] = state[i + 2].cast<double>();
-  }
-  j.coordinate = state[7].cast<int>();
-  return j;
-}
-
 py::array to_numpy(const Eigen::Matrix3d& matrix) {
   const Eigen::Matrix<double, 3, 3, Eigen::RowMajor> rows = matrix;
   return python::to_numpy(std::vector<double>(rows.data(), rows.data() + 9), {3});
@@ -160,39 +134,6 @@ Link make_link(const std::string& name, double mass, const py::object& center_of
   link.center_of_buoyancy = vector_argument("center_of_buoyancy", center_of_buoyancy);
   link.row_from_link = pose_argument("frame", frame);
   return link;
-}
-
-py::tuple link_state(const Link& link) {
-  return py::make_tuple(
-      link.name, link.mass, python::to_numpy(link.center_of_mass), to_numpy(link.inertia),
-      link.volume, python::to_numpy(link.center_of_buoyancy), python::to_numpy(link.row_from_link));
-}
-
-Link link_from(const py::tuple& s) {
-  return make_link(s[0].cast<std::string>(), s[1].cast<double>(), s[2], s[3], s[4].cast<double>(),
-                   s[5], s[6]);
-}
-
-py::tuple arm_state(const Arm& arm) {
-  py::list joints, links;
-  for (const Joint& joint : arm.joints()) joints.append(joint_state(joint));
-  for (const Link& link : arm.links()) links.append(link_state(link));
-  return py::make_tuple(arm.name(), arm.source(), joints, links, python::to_numpy(arm.root()),
-                        python::to_numpy(arm.flange()), python::to_numpy(arm.base()),
-                        python::to_numpy(arm.tool()));
-}
-
-Arm arm_from(const py::tuple& state) {
-  std::vector<Joint> joints;
-  std::vector<Link> links;
-  for (const py::handle joint : state[2]) joints.push_back(joint_from(joint.cast<py::tuple>()));
-  for (const py::handle link : state[3]) links.push_back(link_from(link.cast<py::tuple>()));
-  Arm arm(state[0].cast<std::string>(), std::move(joints), std::move(links),
-          pose_argument("root", state[4]), pose_argument("flange", state[5]));
-  arm.set_source(state[1].cast<std::string>());
-  arm.set_base(pose_argument("base", state[6]));
-  arm.set_tool(pose_argument("tool", state[7]));
-  return arm;
 }
 
 // Methods ---------------------------------------------------------------------------------------
@@ -377,7 +318,7 @@ void bind_makers(py::class_<Arm>& cls) {
       .def("__copy__", [](const Arm& arm) { return arm; })
       .def(
           "__deepcopy__", [](const Arm& arm, const py::dict&) { return arm; }, py::arg("memo"))
-      .def(py::pickle(&arm_state, &arm_from));
+      .def(py::pickle(&arm_parts, &arm_from_parts));
 }
 
 void bind_properties(py::class_<Arm>& cls) {
@@ -387,9 +328,10 @@ void bind_properties(py::class_<Arm>& cls) {
       .def_property_readonly(
           "joint_names",
           [](const Arm& arm) {
-            return of_coordinates<std::string>(arm, [](const Joint& j) { return j.name; });
+            return of_coordinates<std::string>(
+                arm, [](const Joint& j) { return j.follows.empty() ? j.name : j.follows; });
           },
-          "One name a coordinate: of the joint that leads it.")
+          "One name a coordinate: of the joint that leads it, in the arm or beside it.")
       .def_property_readonly(
           "joint_types",
           [](const Arm& arm) {
@@ -493,6 +435,8 @@ void bind_arm(py::module_& module) {
   bind_makers(cls);
   bind_properties(cls);
   bind_kinematics(cls);
+  add_arm_files(cls);
+  bind_arm_parts(module);
 }
 
 }  // namespace bathyal::python

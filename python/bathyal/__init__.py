@@ -41,6 +41,7 @@ from bathyal._core import (
     survey_height,
 )
 from bathyal.aims import read_aims
+from bathyal.arm_files import read_arm
 from bathyal.clouds import read_cloud, write_cloud
 from bathyal.meshes import read_mesh, write_mesh
 from bathyal.terrain import SheetWarning, triangulate
@@ -82,6 +83,7 @@ __all__ = [
     "mesh_report",
     "plan_toolpath",
     "read_aims",
+    "read_arm",
     "read_cloud",
     "read_mesh",
     "set_simd_level",

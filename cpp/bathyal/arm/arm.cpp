@@ -5,23 +5,11 @@
 #include <cmath>
 #include <utility>
 
+#include "bathyal/arm/check_rigid.hpp"
 #include "bathyal/base/check.hpp"
 
 namespace bathyal {
 namespace {
-
-void check_rigid(std::string_view name, const Pose& pose) {
-  if (!pose.matrix().allFinite()) throw_argument(name, "finite numbers", "nan or inf");
-  if (pose.matrix().row(3) != Eigen::RowVector4d(0, 0, 0, 1)) {
-    throw_argument(name, "a rigid motion with last row 0 0 0 1", "another last row");
-  }
-  const Eigen::Matrix3d rotation = pose.linear();
-  const double error = (rotation * rotation.transpose() - Eigen::Matrix3d::Identity()).norm();
-  if (error > 1e-6 || rotation.determinant() < 0.0) {
-    throw_argument(name, "a rotation of determinant 1 beside the translation",
-                   "one that is off by " + to_text(error));
-  }
-}
 
 void check_joint(const Joint& joint) {
   const std::string name = "joint " + joint.name;
@@ -53,7 +41,7 @@ void check_link(const Link& link) {
   }
 }
 
-/// Each coordinate is introduced in order by a joint that carries it as it stands.
+/// Coordinates are numbered in the order in which joints first use them.
 Index count_coordinates(const std::vector<Joint>& joints) {
   Index count = 0;
   for (const Joint& joint : joints) {
@@ -62,11 +50,11 @@ Index count_coordinates(const std::vector<Joint>& joints) {
         throw_argument("joint " + joint.name + " coordinate", "-1, as of every fixed joint",
                        std::to_string(joint.coordinate));
       }
-    } else if (joint.coordinate == count && joint.multiplier == 1.0 && joint.offset == 0.0) {
+    } else if (joint.coordinate == count) {
       ++count;
-    } else if (joint.coordinate < 0 || joint.coordinate >= count) {
+    } else if (joint.coordinate < 0 || joint.coordinate > count) {
       throw_argument("joint " + joint.name + " coordinate",
-                     "one that a joint before it leads, or " + std::to_string(count),
+                     "one that a joint before it uses, or " + std::to_string(count),
                      std::to_string(joint.coordinate));
     }
   }

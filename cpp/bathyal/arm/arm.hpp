@@ -10,6 +10,12 @@
 
 namespace bathyal {
 
+/// Neighbouring axes whose directions have a sine below this (5.7 degrees) count as nearly
+/// parallel: their row has Hayati's beta in place of d. A common normal moves by the arm's length
+/// over that sine for each radian of error, so nearer ones leave d and theta ill-determined, while
+/// beta stays well-determined far beyond; and no arm is built askew by as much.
+inline constexpr double kNearlyParallel = 0.1;
+
 enum class JointType { kRevolute, kPrismatic, kFixed };
 
 /// One row of a Denavit-Hartenberg table in the standard (distal) convention, with Hayati and
@@ -34,12 +40,19 @@ struct Joint {
   JointType type = JointType::kRevolute;
   DhRow row;
   int coordinate = -1;
+  std::string follows;  ///< name of the joint that it mimics; empty for one that leads
   double multiplier = 1.0;
   double offset = 0.0;
   double lower = -kUnlimited;  ///< of the joint's value [rad] or [m]; a joint without limits wraps
   double upper = kUnlimited;
   double velocity = kUnlimited;  ///< [rad/s] or [m/s]
   double effort = kUnlimited;    ///< [N m] or [N]
+};
+
+/// A named place on a link: what a URDF calls a link and joins by a fixed joint.
+struct Frame {
+  std::string name;
+  Pose link_from_frame = Pose::Identity();
 };
 
 /// What hangs on the frame behind a row: link 0 is the foot, before any joint; link k moves with
@@ -52,6 +65,7 @@ struct Link {
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();  ///< about the centre of mass [kg m²]
   double volume = 0.0;                                ///< displaced [m³]; 0 is unknown
   Vec3 center_of_buoyancy = Vec3::Zero();             ///< [m]
+  std::vector<Frame> frames;  ///< that move with it; what they weigh is told in `mass`
 };
 
 /// A serial arm: world_from_tool = base * root * row 1 * … * row m * flange * tool.
@@ -61,7 +75,8 @@ struct Link {
 class Arm {
  public:
   /// `links` may be empty (nameless, massless links are made) or one more than `joints`.
-  /// Coordinates count 0 … n - 1, each first named by a joint with multiplier 1 and offset 0.
+  /// Coordinates count 0 … n - 1 in the order in which joints first use them. (The first one may
+  /// follow a joint that is not part of the arm: a lifting column's stages, its drive.)
   /// \throw std::invalid_argument for no moving joint, a value that is not finite, limits that are
   ///        crossed, coordinates that skip a number, a transform that is not rigid.
   Arm(std::string name, std::vector<Joint> joints, std::vector<Link> links = {},

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <string>
 
-#include "bathyal/arm/forward_kernel.hpp"
+#include "bathyal/arm/forward_program.hpp"
 #include "bathyal/base/error.hpp"
 #include "bathyal/base/parallel.hpp"
 #include "bathyal/base/simd.hpp"
@@ -13,12 +13,8 @@
 namespace bathyal {
 namespace {
 
-using arm::ForwardBatch;
 using arm::ForwardKernel;
-using arm::ForwardProgram;
-using arm::ForwardStep;
-using arm::PlainPose;
-using arm::StepKind;
+using arm::Program;
 
 constexpr std::size_t kGrain = 512;  ///< poses of one task; a multiple of every number of lanes
 
@@ -35,63 +31,6 @@ ForwardKernel kernel() {
 #endif
   return arm::baseline_forward;
 }
-
-PlainPose plain(const Pose& pose) {
-  PlainPose result;
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) result.rotation[3 * i + j] = pose.linear()(i, j);
-    result.translation[i] = pose.translation()[i];
-  }
-  return result;
-}
-
-ForwardStep step_of(const Joint& joint, Index& coordinates) {
-  const DhRow& row = joint.row;
-  ForwardStep step{};
-  step.kind = joint.type == JointType::kRevolute    ? StepKind::kRevolute
-              : joint.type == JointType::kPrismatic ? StepKind::kPrismatic
-                                                    : StepKind::kFixed;
-  if (step.kind != StepKind::kFixed) {
-    step.coordinate = static_cast<std::size_t>(joint.coordinate);
-    step.leads = joint.coordinate == coordinates;
-    if (step.leads) ++coordinates;
-    step.multiplier = joint.multiplier;
-    step.offset = joint.offset;
-  }
-  step.turned = row.alpha != 0.0;
-  step.tilted = row.beta != 0.0;
-  step.theta = row.theta;
-  step.cos_theta = std::cos(row.theta);
-  step.sin_theta = std::sin(row.theta);
-  step.d = row.d;
-  step.a = row.a;
-  step.cos_alpha = std::cos(row.alpha);
-  step.sin_alpha = std::sin(row.alpha);
-  step.cos_beta = std::cos(row.beta);
-  step.sin_beta = std::sin(row.beta);
-  return step;
-}
-
-/// An arm in the kernels' words.
-struct Program {
-  explicit Program(const Arm& arm) {
-    Index coordinates = 0;
-    for (const Joint& joint : arm.joints()) steps.push_back(step_of(joint, coordinates));
-    for (const Link& link : arm.links()) row_from_link.push_back(plain(link.row_from_link));
-    view = {steps.data(),
-            steps.size(),
-            static_cast<std::size_t>(arm.size()),
-            plain(arm.base() * arm.root()),
-            plain(arm.flange() * arm.tool()),
-            row_from_link.data()};
-  }
-  Program(const Program&) = delete;
-  Program& operator=(const Program&) = delete;
-
-  std::vector<ForwardStep> steps;
-  std::vector<PlainPose> row_from_link;
-  ForwardProgram view;
-};
 
 /// What is wanted of a batch; null is not.
 struct Wanted {
