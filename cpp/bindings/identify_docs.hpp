@@ -142,8 +142,8 @@ data : Touches or Tracked
 parametrization : {"hayati", "dh"}
     "hayati": beta (Hayati, Mirmirani 1985) in place of d where the next axis is nearly parallel.
     "dh": theta, d, a, alpha in every row, as the paper.
-parallel_angle : float
-    Axes closer than this are nearly parallel [rad].
+nearly_parallel : float
+    Axes whose directions have a smaller sine are nearly parallel.
 criterion : {"centroid", "pairs"}
     Each touch against the mean of its point, or every pair of a point's touches (the paper's eq
     7-9). They have the same minimum when every point has as many touches, or with `pair_weights`.
@@ -163,9 +163,13 @@ length_prior, angle_prior : float
     [rad], about nominal. None: no prior.
 priors : dict
     {name: std} for single parameters, in their unit.
-scale_prior : float
-    Where nothing tells the arm's size (touches without a known distance or point, and no
-    `length_prior`) it is held at nominal, and counts as known to this relative std.
+size_prior : float
+    The length prior that stands in where nothing tells the arm's size (touches without a known
+    distance or point) and none is given [m].
+unbiased_size : bool
+    Divide the residuals of touches by the arm's relative size. Scatter is recorded in joint values,
+    and a smaller arm shows less of it: without this, touches draw every fit towards a smaller arm.
+    False is the paper's criterion to the letter.
 noise, rotation_noise : float
     Standard deviation of a touch or a position per axis [m], and of a rotation [rad]. None: from
     the residuals.

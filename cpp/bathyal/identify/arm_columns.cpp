@@ -93,7 +93,7 @@ void add_rows(const Arm& arm, const ColumnChoice& choice, ColumnMaker& maker) {
     const Vec3 next = turn_to_next_axis(arm, k).col(2);
     const bool parallel = choice.parametrization == Parametrization::kHayati &&
                           has_next_axis(arm, k) &&
-                          std::hypot(next.x(), next.y()) < std::sin(choice.parallel_angle);
+                          std::hypot(next.x(), next.y()) < choice.nearly_parallel;
     maker.row(k, Part::kTheta, "theta", joint.row.theta);
     if (!parallel) maker.row(k, Part::kD, "d", joint.row.d);
     maker.row(k, Part::kA, "a", joint.row.a);

@@ -59,8 +59,8 @@ struct ArmColumns {
 
 struct ColumnChoice {
   Parametrization parametrization = Parametrization::kHayati;
-  double parallel_angle = 0.1;  ///< axes closer than this count as parallel [rad]
-  bool free_base = false;       ///< columns for the base of the first station
+  double nearly_parallel = kNearlyParallel;  ///< sine between axes
+  bool free_base = false;                    ///< columns for the base of the first station
 };
 
 /// Columns in the order rows, tools, bases, planes. Fixed joints have none: their neighbours' rows

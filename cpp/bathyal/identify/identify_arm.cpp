@@ -13,8 +13,6 @@
 namespace bathyal {
 namespace {
 
-/// A scale that is held, but softly enough for the arithmetic.
-constexpr double kHeldScale = 1e-5;
 constexpr double kHeldDirection = 1e-3;  ///< in units of the columns' scale
 constexpr double kLeastNoise = 1e-9;     ///< [m] or [rad]; exact data have no scale of their own
 constexpr int kMostRounds = 12;
@@ -43,9 +41,9 @@ class Search {
   void make_start();
   void name_fixed();
   void set_priors();
+  void set_length_prior(double std);
   void settle_frames();
-  std::vector<LinearRow> size_row() const;
-  void set_linear_rows();
+  Eigen::VectorXd size_derivative() const;
   void solve();
   void solve_with_noise();
   void solve_with_trust();
@@ -73,11 +71,11 @@ class Search {
   std::vector<GaugeColumn> gauge_;
   std::vector<int> fixed_;
   std::vector<int> pruned_;
+  std::optional<double> length_prior_;
   std::optional<ArmSystem> system_;
   RankReport rank_;              ///< of all columns, by the data, at nominal
   Eigen::MatrixXd unseen_;       ///< (P, k) scaled changes of free columns that the data do not see
   Eigen::MatrixXd blind_;        ///< those of them that no prior holds either
-  std::vector<LinearRow> size_;  ///< keeps the arm's size where nothing else does
   std::vector<LinearRow> holds_;  ///< keep what is blind at nominal
   Eigen::VectorXd x_;
   std::vector<double> history_;
@@ -120,7 +118,7 @@ ArmFit Search::run() {
 }
 
 ColumnChoice Search::choice() const {
-  return {options_.parametrization, options_.parallel_angle, base_free_};
+  return {options_.parametrization, options_.nearly_parallel, base_free_};
 }
 
 void Search::make_start() {
@@ -141,12 +139,21 @@ void Search::name_fixed() {
   }
 }
 
+void Search::set_length_prior(double std) {
+  for (std::size_t i = 0; i < columns_.columns.size(); ++i) {
+    const Column& column = columns_.columns[i];
+    if (is_length(columns_.places[i]) && !options_.priors.contains(column.name)) {
+      columns_.columns[i].prior_std = std;
+    }
+  }
+}
+
 void Search::set_priors() {
+  length_prior_ = options_.length_prior;
+  if (!length_prior_ && !m_.tells_scale()) length_prior_ = options_.size_prior;
+  if (length_prior_) set_length_prior(*length_prior_);
   for (std::size_t i = 0; i < columns_.columns.size(); ++i) {
     Column& column = columns_.columns[i];
-    if (options_.length_prior && is_length(columns_.places[i])) {
-      column.prior_std = *options_.length_prior;
-    }
     if (options_.angle_prior && is_angle(columns_.places[i])) {
       column.prior_std = *options_.angle_prior;
     }
@@ -225,8 +232,8 @@ void Search::look() {
   for (Index i = 0; i < seen.cols(); ++i) seen.col(i) = full.col(free[i]);
   const Eigen::MatrixXd unseen = reveal_rank(seen).unseen();
 
-  if (!m_.tells_scale()) size_ = size_row();
-  system_->set_linear_rows(size_);
+  const Eigen::VectorXd size = size_derivative();
+  if (!m_.tracked && options_.unbiased_size) system_->set_size(size);
   const Eigen::MatrixXd rows = jacobian_of(*system_);
   const Eigen::MatrixXd told =
       rows.bottomRows(rows.rows() - system_->data_rows()).rowwise().normalized() * unseen;
@@ -244,25 +251,18 @@ void Search::look() {
     for (Index i = 0; i < count; ++i) row.coefficients[i] /= columns_.columns[i].scale;
     holds_.push_back(std::move(row));
   }
+  system_->set_linear_rows(holds_);
 }
 
-/// Σ L (x - L) / Σ L² = 0 over the rows' lengths L: no arm of another size. Where the lengths are
-/// all zero there is nothing to hold it by, and nothing but the tool that could shrink.
-std::vector<LinearRow> Search::size_row() const {
-  LinearRow row{Eigen::VectorXd::Zero(x_.size()), kHeldScale};
+/// Derivative of the arm's size by the columns: Σ L (x - L) / Σ L² over the rows' lengths L. Where
+/// they are all zero there is nothing but the tool that could shrink.
+Eigen::VectorXd Search::size_derivative() const {
+  Eigen::VectorXd derivative = Eigen::VectorXd::Zero(x_.size());
   for (Index i = 0; i < x_.size(); ++i) {
-    if (is_length(columns_.places[i])) row.coefficients[i] = columns_.columns[i].nominal;
+    if (is_length(columns_.places[i])) derivative[i] = columns_.columns[i].nominal;
   }
-  const double square = row.coefficients.squaredNorm();
-  if (square == 0.0) return {};
-  row.coefficients /= square;
-  return {row};
-}
-
-void Search::set_linear_rows() {
-  std::vector<LinearRow> rows = size_;
-  rows.insert(rows.end(), holds_.begin(), holds_.end());
-  system_->set_linear_rows(std::move(rows));
+  const double square = derivative.squaredNorm();
+  return square > 0.0 ? Eigen::VectorXd(derivative / square) : derivative;
 }
 
 Eigen::MatrixXd Search::jacobian_of(const ArmSystem& system) const {
@@ -285,20 +285,21 @@ void Search::solve() {
   }
 }
 
-/// Without a length of their own, touches are first fitted at nominal size: the noise that the
-/// priors are then weighed against must not shrink with the arm.
+/// Where a loose prior alone holds the size, the noise that it is weighed against is found first
+/// with a firm one: else both shrink together.
 void Search::solve_with_noise() {
-  const bool size_by_priors = !m_.tells_scale() && options_.length_prior.has_value();
-  set_linear_rows();
-  system_->set_use_priors(!size_by_priors);
+  const bool loose = !m_.tells_scale() && *length_prior_ > options_.size_prior;
+  if (loose) {
+    const double asked = *length_prior_;
+    set_length_prior(options_.size_prior);
+    solve();
+    for (int round = 0; round < kMostRounds && update_noise(); ++round) solve();
+    set_length_prior(asked);
+    solve();
+    return;
+  }
   solve();
   for (int round = 0; round < kMostRounds && update_noise(); ++round) solve();
-  if (size_by_priors) {
-    size_.clear();
-    set_linear_rows();
-    system_->set_use_priors(true);
-    solve();
-  }
 }
 
 /// Each kind of row by its own residuals: σ² = Σ r² / (rows - what the columns take of them).
@@ -332,8 +333,8 @@ bool Search::update_noise() {
   }
   const Noise old = system_->noise();
   system_->set_noise(noise, x_);
-  const auto others = static_cast<Index>(size_.size() + holds_.size());
-  const bool matters = system_->rows() > system_->position_rows() + others;
+  const bool matters =
+      system_->rows() > system_->position_rows() + static_cast<Index>(holds_.size());
   return matters && (std::abs(noise.position / old.position - 1.0) > kNoiseSettled ||
                      std::abs(noise.rotation / old.rotation - 1.0) > kNoiseSettled);
 }
@@ -445,10 +446,7 @@ Eigen::MatrixXd Search::covariance() const {
   exact.set_joints(exact_joints());
   // Pair residuals are correlated; those about a centroid lose one touch to it, and no more.
   exact.set_criterion(Criterion::kCentroid, false);
-  std::vector<LinearRow> rows = size_;
-  // What the held size is worth as knowledge is what the nominal size is trusted to.
-  for (LinearRow& row : rows) row.std = options_.scale_prior;
-  exact.set_linear_rows(std::move(rows));
+  exact.set_linear_rows({});
   const Eigen::MatrixXd jacobian = jacobian_of(exact);
 
   Eigen::MatrixXd left = Eigen::MatrixXd::Identity(exact.columns(), exact.columns());
@@ -569,15 +567,9 @@ void Search::report_parameters(ArmFit& fit) const {
 }
 
 void Search::report_scale(ArmFit& fit) const {
-  Eigen::VectorXd length = Eigen::VectorXd::Zero(x_.size());
-  for (Index i = 0; i < x_.size(); ++i) {
-    if (is_length(columns_.places[i])) length[i] = columns_.columns[i].nominal;
-  }
-  const double square = length.squaredNorm();
-  if (square > 0.0) {
-    fit.scale = length.dot(x_) / square;
-    fit.scale_std = std::sqrt(std::max(0.0, length.dot(fit.covariance * length))) / square;
-  }
+  const Eigen::VectorXd derivative = size_derivative();
+  fit.scale = 1.0 + derivative.dot(x_ - columns_.nominal());
+  fit.scale_std = std::sqrt(std::max(0.0, derivative.dot(fit.covariance * derivative)));
   double sum = 0.0;
   double found = 0.0;
   for (const FoundDistance& distance : fit.distances) {
@@ -593,25 +585,20 @@ void Search::report_scale(ArmFit& fit) const {
     fit.scale_source = "known points";
   } else if (!m_.distances.empty()) {
     fit.scale_source = m_.distances.size() == 1 ? "known distance" : "known distances";
-  } else if (options_.length_prior) {
-    fit.scale_source = "prior on lengths (" + to_text(*options_.length_prior * 1e3) + " mm)";
-  } else if (!size_.empty()) {
-    fit.scale_source = "prior on the arm's size (nominal lengths, " +
-                       to_text(options_.scale_prior * 100.0) + " %)";
   } else {
-    fit.scale_source = "nothing";
+    fit.scale_source = "prior on lengths (" + to_text(*length_prior_ * 1e3) + " mm)";
   }
 }
 
 }  // namespace
 
 void IdentifyOptions::check() const {
-  check_range("parallel_angle", parallel_angle, 0.0, 0.5);
+  check_range("nearly_parallel", nearly_parallel, 0.0, 0.5);
   LeastSquaresOptions{.max_iterations = max_iterations}.check();
   if (length_prior) check_positive("length_prior", *length_prior);
   if (angle_prior) check_positive("angle_prior", *angle_prior);
   for (const auto& [name, std] : priors) check_positive("priors " + name, std);
-  check_positive("scale_prior", scale_prior);
+  check_positive("size_prior", size_prior);
   if (noise) check_positive("noise", *noise);
   if (rotation_noise) check_positive("rotation_noise", *rotation_noise);
   if (loss_width) check_positive("loss_width", *loss_width);

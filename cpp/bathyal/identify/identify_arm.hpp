@@ -17,7 +17,8 @@ enum class BaseChoice { kAuto, kFree, kFixed };
 
 struct IdentifyOptions {
   Parametrization parametrization = Parametrization::kHayati;
-  double parallel_angle = 0.1;  ///< axes closer than this take beta in place of d [rad], 0 … 0.5
+  double nearly_parallel =
+      kNearlyParallel;  ///< sine below which beta takes the place of d, 0 … 0.5
   Criterion criterion = Criterion::kCentroid;
   /// Weighs a point by the number of its touches, as the sum over pairs does: the centroid form
   /// then costs what kPairs costs. kPairs always does.
@@ -34,8 +35,12 @@ struct IdentifyOptions {
       length_prior;                   ///< std of every a and d about its nominal value [m], above 0
   std::optional<double> angle_prior;  ///< of every theta, alpha, beta [rad], above 0
   std::map<std::string, double> priors;  ///< by parameter's name, in its unit, above 0
-  /// Where nothing tells the arm's size: relative std of the nominal size that then holds it.
-  double scale_prior = 1e-3;
+  /// The length prior that stands in where nothing tells the arm's size and none is given [m].
+  double size_prior = 1e-3;
+  /// Divides the residuals of touches by the arm's relative size. Scatter is recorded in joint
+  /// values and a smaller arm shows less of it: without this, touches draw every fit towards a
+  /// smaller arm, by the square of the size's relative std for each degree of freedom.
+  bool unbiased_size = true;
 
   std::optional<double> noise;  ///< known std of a touch or position, per axis [m]; else estimated
   std::optional<double> rotation_noise;  ///< of a measured rotation, per axis [rad]
@@ -51,10 +56,9 @@ struct IdentifyOptions {
 ///
 /// Unknown are each moving joint's row (Hayati and Mirmirani's beta in place of d where the next
 /// axis is nearly parallel), the tool and, for tracked poses, the base. What base and tool can do
-/// as well is held at nominal (`Status::kGauge`). Touches of one point need only agree; their
-/// criterion is scaled down to nothing by an arm that shrinks, so that without a known distance or
-/// point the arm keeps its nominal size (`scale_prior` says how surely), or, when `length_prior` is
-/// given, the size where that prior and the residuals balance: `scale_source` says which.
+/// as well is held at nominal (`Status::kGauge`). Touches of one point need only agree; an arm that
+/// shrinks would make them, so that their sum of squares says nothing of the arm's size: known
+/// distances or points tell it, or a prior on the lengths holds it, and `scale_source` says which.
 ///
 /// Directions that the data do not see stay at nominal. Noise is estimated from the residuals with
 /// 3 Σ(m_i - 1) - rank degrees of freedom and sets the weight of what is known beside the touches.
