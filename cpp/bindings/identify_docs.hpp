@@ -166,10 +166,6 @@ priors : dict
 size_prior : float
     The length prior that stands in where nothing tells the arm's size (touches without a known
     distance or point) and none is given [m].
-unbiased_size : bool
-    Divide the residuals of touches by the arm's relative size. Scatter is recorded in joint values,
-    and a smaller arm shows less of it: without this, touches draw every fit towards a smaller arm.
-    False is the paper's criterion to the letter.
 noise, rotation_noise : float
     Standard deviation of a touch or a position per axis [m], and of a rotation [rad]. None: from
     the residuals.

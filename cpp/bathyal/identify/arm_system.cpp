@@ -200,7 +200,6 @@ void ArmSystem::evaluate(const double* y, double* residuals, double* jacobian) c
     if (in_place) compare_with_centers(sheet);
     if (!in_place) compare_pairs(sheet);
     compare_planes(walk, sheet);
-    if (size_.size() > 0) divide_by_size(x, sheet);
     compare_known(sheet);
   }
   add_linear_rows(x, sheet);
@@ -298,20 +297,6 @@ void ArmSystem::compare_planes(const TipWalk& walk, Sheet& sheet) const {
     }
     sheet.residuals[place] = scale * plane_distance(plane, tip);
     if (sheet.derive) sheet.jacobian.row(place) = scale * derivative;
-  }
-}
-
-void ArmSystem::divide_by_size(const Eigen::VectorXd& x, Sheet& sheet) const {
-  constexpr double kLeastSize = 0.1;  // a search that strays below it finds no smaller residuals
-  const double linear = 1.0 + size_.dot(x - columns_.nominal());
-  const double size = std::max(linear, kLeastSize);
-  auto residuals = sheet.residuals.head(position_rows());
-  residuals /= size;
-  if (!sheet.derive) return;
-  for (Index c = 0; c < columns(); ++c) {
-    auto column = sheet.jacobian.col(c).head(position_rows());
-    const double share = linear > kLeastSize ? size_[free_[c]] : 0.0;
-    column = (column - share * residuals) / size;
   }
 }
 

@@ -46,11 +46,6 @@ class ArmSystem final : public ResidualModel {
   void set_use_priors(bool use) { use_priors_ = use; }
   void set_criterion(Criterion criterion, bool pair_weights);
 
-  /// Coefficients c of the arm's relative size 1 + c · (x - nominal), by which residuals of touches
-  /// are then divided: scatter is recorded in joint values, so that a smaller arm shows less of it,
-  /// and without this every fit is drawn towards a smaller arm. Empty: no division.
-  void set_size(Eigen::VectorXd coefficients) { size_ = std::move(coefficients); }
-
   /// Factors on the weights of the measurement, (N,): 0 leaves a row out.
   void set_trust(std::vector<double> trust) { trust_ = std::move(trust); }
   const std::vector<double>& trust() const { return trust_; }
@@ -105,7 +100,6 @@ class ArmSystem final : public ResidualModel {
   void compare_planes(const TipWalk& walk, Sheet& sheet) const;
   void known_residuals(const Eigen::Matrix3Xd& centers, Eigen::VectorXd& residuals,
                        Eigen::MatrixXd& by_center) const;
-  void divide_by_size(const Eigen::VectorXd& x, Sheet& sheet) const;
   void compare_known(Sheet& sheet) const;
   void add_linear_rows(const Eigen::VectorXd& x, Sheet& sheet) const;
 
@@ -118,7 +112,6 @@ class ArmSystem final : public ResidualModel {
   std::vector<int> plane_rows_;
   RowMatrix q_;
   std::vector<int> free_;
-  Eigen::VectorXd size_;
   std::vector<LinearRow> linear_;
   bool use_priors_ = true;
   std::vector<double> trust_;

@@ -232,8 +232,6 @@ void Search::look() {
   for (Index i = 0; i < seen.cols(); ++i) seen.col(i) = full.col(free[i]);
   const Eigen::MatrixXd unseen = reveal_rank(seen).unseen();
 
-  const Eigen::VectorXd size = size_derivative();
-  if (!m_.tracked && options_.unbiased_size) system_->set_size(size);
   const Eigen::MatrixXd rows = jacobian_of(*system_);
   const Eigen::MatrixXd told =
       rows.bottomRows(rows.rows() - system_->data_rows()).rowwise().normalized() * unseen;

@@ -37,10 +37,6 @@ struct IdentifyOptions {
   std::map<std::string, double> priors;  ///< by parameter's name, in its unit, above 0
   /// The length prior that stands in where nothing tells the arm's size and none is given [m].
   double size_prior = 1e-3;
-  /// Divides the residuals of touches by the arm's relative size. Scatter is recorded in joint
-  /// values and a smaller arm shows less of it: without this, touches draw every fit towards a
-  /// smaller arm, by the square of the size's relative std for each degree of freedom.
-  bool unbiased_size = true;
 
   std::optional<double> noise;  ///< known std of a touch or position, per axis [m]; else estimated
   std::optional<double> rotation_noise;  ///< of a measured rotation, per axis [rad]
