@@ -15,5 +15,6 @@ void bind_terrain(pybind11::module_& module);
 void bind_scene(pybind11::module_& module);
 void bind_toolpath(pybind11::module_& module);
 void bind_arm(pybind11::module_& module);
+void bind_identify(pybind11::module_& module);
 
 }  // namespace bathyal::python

@@ -12,4 +12,5 @@ PYBIND11_MODULE(_core, module) {
   bind_scene(module);
   bind_toolpath(module);
   bind_arm(module);
+  bind_identify(module);
 }

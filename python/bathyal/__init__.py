@@ -6,6 +6,7 @@ from importlib.metadata import version as _version
 from bathyal import arms
 from bathyal._core import (
     Arm,
+    ArmFit,
     CleanReport,
     CleanResult,
     Error,
@@ -23,6 +24,8 @@ from bathyal._core import (
     SheetReport,
     Targets,
     ToolPath,
+    Touches,
+    Tracked,
     TriangleMesh,
     clean_cloud,
     cover_polygon,
@@ -30,6 +33,7 @@ from bathyal._core import (
     find_targets,
     fit_plane,
     generate_survey,
+    identify_arm,
     intersect_moller_trumbore,
     mesh_report,
     plan_toolpath,
@@ -47,6 +51,7 @@ __version__ = _version("bathyal")
 
 __all__ = [
     "Arm",
+    "ArmFit",
     "CleanReport",
     "CleanResult",
     "Error",
@@ -65,6 +70,8 @@ __all__ = [
     "SheetWarning",
     "Targets",
     "ToolPath",
+    "Touches",
+    "Tracked",
     "TriangleMesh",
     "arms",
     "clean_cloud",
@@ -73,6 +80,7 @@ __all__ = [
     "find_targets",
     "fit_plane",
     "generate_survey",
+    "identify_arm",
     "intersect_moller_trumbore",
     "mesh_report",
     "plan_toolpath",
