@@ -115,6 +115,16 @@ Vec3 vector_argument(std::string_view name, const py::object& object) {
   return vector;
 }
 
+Pose pose_argument(std::string_view name, const py::object& object) {
+  const auto table = table_argument(name, object, 4);
+  if (table.rows() != 4) {
+    throw_argument(name, "shape (4, 4)", "shape (" + std::to_string(table.rows()) + ", 4)");
+  }
+  Pose pose = Pose::Identity();
+  pose.matrix() = table;
+  return pose;
+}
+
 Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> table_argument(
     std::string_view name, const py::object& object, Index columns) {
   const std::string expected = "real numbers of shape (N, " + std::to_string(columns) + ")";

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "bathyal/geometry/point_cloud.hpp"
+#include "bathyal/geometry/pose.hpp"
 
 // The border between numpy and the engine. Arguments: shape and type are checked here, with the
 // argument's name, before anything else is done; float64 in C order is shared, anything else that
@@ -31,6 +32,9 @@ Triangles triangles_argument(std::string_view name, const py::object& object);
 
 /// Three real numbers, finite.
 Vec3 vector_argument(std::string_view name, const py::object& object);
+
+/// A rigid motion as (4, 4) real numbers; whether it is rigid is for the engine to say.
+Pose pose_argument(std::string_view name, const py::object& object);
 
 /// (N, columns) real numbers in row-major order, for tables wider than three.
 Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> table_argument(

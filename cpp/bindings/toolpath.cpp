@@ -10,6 +10,7 @@
 #include "bathyal/toolpath/toolpath.hpp"
 #include "bindings.hpp"
 #include "toolpath_docs.hpp"
+#include "words.hpp"
 
 namespace bathyal::python {
 namespace {
@@ -24,21 +25,6 @@ Surface surface_argument(const py::object& object) {
 }
 
 Aims aims_argument(const py::object& object) { return table_argument("aims", object, 6); }
-
-Pose pose_argument(std::string_view name, const py::object& object) {
-  Pose pose = Pose::Identity();
-  if (object.is_none()) return pose;
-  const auto table = table_argument(name, object, 4);
-  if (table.rows() != 4) {
-    throw_argument(name, "shape (4, 4)", "shape (" + std::to_string(table.rows()) + ", 4)");
-  }
-  pose.matrix() = table;
-  return pose;
-}
-
-/// The names of an enum's values in Python.
-template <class Enum>
-using Words = std::vector<std::pair<std::string, Enum>>;
 
 const Words<AimsFrame>& frame_words() {
   static const Words<AimsFrame> words{{"vehicle", AimsFrame::kVehicle},
@@ -61,29 +47,13 @@ const Words<MissedAims>& missed_words() {
   return words;
 }
 
-template <class Enum>
-Enum word_argument(std::string_view name, const std::string& word, const Words<Enum>& words) {
-  std::string expected;
-  for (const auto& [known, value] : words) {
-    if (known == word) return value;
-    expected += (expected.empty() ? "\"" : " or \"") + known + "\"";
-  }
-  throw_argument(name, expected, "\"" + word + "\"");
-}
-
-template <class Enum>
-std::string word_of(Enum value, const Words<Enum>& words) {
-  for (const auto& [word, known] : words) {
-    if (known == value) return word;
-  }
-  return {};
-}
-
 TargetOptions target_options(const py::object& world_from_vehicle, const std::string& frame,
                              const std::string& vertical, double grazing_angle, double max_range,
                              int num_threads) {
   TargetOptions options;
-  options.vehicle.world_from_vehicle = pose_argument("world_from_vehicle", world_from_vehicle);
+  if (!world_from_vehicle.is_none()) {
+    options.vehicle.world_from_vehicle = pose_argument("world_from_vehicle", world_from_vehicle);
+  }
   options.vehicle.frame = word_argument("frame", frame, frame_words());
   options.vehicle.vertical = word_argument("vertical", vertical, vertical_words());
   options.grazing_angle = grazing_angle;

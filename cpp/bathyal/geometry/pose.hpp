@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <string_view>
 
 #include "bathyal/geometry/shared_array.hpp"
 
@@ -10,5 +11,9 @@ namespace bathyal {
 /// A rigid motion, named target_from_source and composed by reading:
 /// world_from_tool = world_from_vehicle * vehicle_from_tool.
 using Pose = Eigen::Isometry3d;
+
+/// \throw std::invalid_argument for a matrix that is no rigid motion: not finite, a rotation that
+/// is off by more than 1e-6 or left-handed, a last row other than 0 0 0 1.
+void check_rigid(std::string_view name, const Pose& pose);
 
 }  // namespace bathyal

@@ -8,18 +8,7 @@
 
 namespace bathyal {
 
-void Vehicle::check() const {
-  constexpr double kRigid = 1e-6;
-  const Eigen::Matrix3d r = world_from_vehicle.linear();
-  const bool rigid = world_from_vehicle.matrix().allFinite() &&
-                     (r.transpose() * r).isIdentity(kRigid) && r.determinant() > 0.0 &&
-                     world_from_vehicle.matrix().row(3) == Eigen::RowVector4d(0, 0, 0, 1);
-  if (!rigid) {
-    throw_argument("world_from_vehicle",
-                   "a rigid motion: a right-handed rotation, finite, last row 0 0 0 1",
-                   "a matrix with a rotation part of determinant " + to_text(r.determinant()));
-  }
-}
+void Vehicle::check() const { check_rigid("world_from_vehicle", world_from_vehicle); }
 
 Vec3 Vehicle::up() const {
   if (vertical == Vertical::kGravity) return Vec3::UnitZ();

@@ -20,9 +20,10 @@ ToolPath sample_piecewise_constant(const Route& route, double step);
 /// Frames blended over `blend_length`. At arc length s each turn φ_k (a rotation vector in the
 /// world, at s_k) has happened to the part w((s − s_k) / blend_length + ½), w(x) = 3x² − 2x³, and
 /// R(s) = … exp(w₂ φ₂) exp(w₁ φ₁) R₀: the cumulative form of Kim, Kim, Shin (1995), never
-/// undefined, not even for a return on the same line. Turns that overlap do not commute, so that
-/// the reversed path's frames there differ to second order. Samples: the ends of pieces, within
-/// turns points no further apart than an eighth of blend_length, and what `step` asks for.
+/// undefined, not even for a return on the same line. Turns that overlap do not commute; halfway
+/// between the product built up from behind and that built back from ahead, the reversed path has
+/// the same frames. Samples: the ends of pieces, within turns points no further apart than an
+/// eighth of blend_length, and what `step` asks for.
 ToolPath sample_blended(const Route& route, double blend_length, double step);
 
 /// The smallest angle that turns one frame into the other [rad].

@@ -37,8 +37,7 @@ struct Leg {
 /// - Edges that lie in the plane appear once, on the lowest of their triangles, and of whole
 ///   triangles in it their outline (Scene::section). Pieces shorter than kCoincident are dropped.
 /// - A body that stands on the bottom as a mesh of its own is not merged with it: the bottom's
-/// sheet
-///   goes on beneath it, which flag_contacts tells.
+///   sheet goes on beneath it, which flag_contacts tells.
 /// `a` and `b` are further apart than kCoincident.
 Leg follow_sheet(const Scene& scene, const SheetPoint& a, const SheetPoint& b, const Vec3& up);
 

@@ -73,9 +73,8 @@ struct ToolPath {
 ///
 /// - n_j is T_jT_{j+1} made perpendicular to a_j, so that [n, −b, −a] is a rotation.
 /// - Blended: the turn from one facet's frame to the next's, and at a target from one heading to
-/// the
-///   next, is spread smoothly over blend_length of path, half before and half after; samples are
-///   added there. Turns closer than that add up. Away from edges a_j is the facet's normal.
+///   the next, is spread smoothly over blend_length of path, half before and half after; samples
+///   are added there. Turns closer than that add up. Away from edges a_j is the facet's normal.
 /// - Piecewise constant: the tool stops at an edge and turns in place at angular_rate.
 /// - A gap is crossed in a straight line between two samples, the first with its gap flag set; no
 ///   surface is claimed between them, no step divides it, and the tool is at rest at both its ends.
@@ -83,11 +82,9 @@ struct ToolPath {
 /// - Aims without a target are warned of and the stretch over them is a gap, since the bottom
 ///   between their neighbours is not what was aimed at; missed = kRefuse makes them an error.
 /// - Targets that coincide (to 1 µm) give no length and no stop, and a warning. One target gives
-/// one
-///   sample, n_j along the world's x as far as a_j lets it.
+///   one sample, n_j along the world's x as far as a_j lets it.
 /// - Speed, acceleration along the path and angular rate hold between any two samples; it starts
-/// and
-///   ends at rest.
+///   and ends at rest.
 ///
 /// \throw std::invalid_argument for no aims, aims that are not finite, no target at all, or a step
 /// or normal_radius that asks for more than 10⁸ parts.

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <stdexcept>
 
 #include "bathyal/geometry/plane.hpp"
+#include "bathyal/geometry/pose.hpp"
 #include "bathyal/geometry/triangle_mesh.hpp"
 
 namespace bathyal {
@@ -54,6 +56,21 @@ TEST(LocalOrigin, IsSnappedToWholeMetresAndIgnoresWhatIsNotFinite) {
   PointMatrix points(3, 3);
   points << 620152.873, 7246504.912, -52.9, 620153.873, 7246506.9, -51.1, NAN, 0, 0;
   EXPECT_EQ(local_origin(Points(points).view()), Vec3(620153, 7246506, -52));
+}
+
+TEST(Pose, WhatIsNoRigidMotionIsRefused) {
+  Pose pose = Pose::Identity();
+  check_rigid("pose", pose);
+  pose.linear()(0, 1) = 1e-3;
+  EXPECT_THROW(check_rigid("pose", pose), std::invalid_argument);
+  pose.linear() = -Eigen::Matrix3d::Identity();
+  EXPECT_THROW(check_rigid("pose", pose), std::invalid_argument);
+  pose = Pose::Identity();
+  pose.matrix()(3, 0) = 0.5;
+  EXPECT_THROW(check_rigid("pose", pose), std::invalid_argument);
+  pose = Pose::Identity();
+  pose.translation().x() = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(check_rigid("pose", pose), std::invalid_argument);
 }
 
 }  // namespace

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bathyal/geometry/pose.hpp"
+
+#include "bathyal/base/error.hpp"
+
+namespace bathyal {
+
+void check_rigid(std::string_view name, const Pose& pose) {
+  constexpr double kRigid = 1e-6;
+  const Eigen::Matrix3d r = pose.linear();
+  const bool rigid = pose.matrix().allFinite() && (r.transpose() * r).isIdentity(kRigid) &&
+                     r.determinant() > 0.0 &&
+                     pose.matrix().row(3) == Eigen::RowVector4d(0, 0, 0, 1);
+  if (!rigid) {
+    throw_argument(name, "a rigid motion: a right-handed rotation, finite, last row 0 0 0 1",
+                   "a matrix with a rotation part of determinant " + to_text(r.determinant()));
+  }
+}
+
+}  // namespace bathyal
