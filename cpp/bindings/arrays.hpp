@@ -75,4 +75,10 @@ inline py::array to_numpy(const Vec3& vector) {
   return to_numpy(std::vector<double>(vector.begin(), vector.end()));
 }
 
+/// (4, 4)
+inline py::array to_numpy(const Pose& pose) {
+  const Eigen::Matrix<double, 4, 4, Eigen::RowMajor> rows = pose.matrix();
+  return to_numpy(std::vector<double>(rows.data(), rows.data() + rows.size()), {4});
+}
+
 }  // namespace bathyal::python

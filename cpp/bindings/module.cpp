@@ -11,4 +11,5 @@ PYBIND11_MODULE(_core, module) {
   bind_terrain(module);
   bind_scene(module);
   bind_toolpath(module);
+  bind_verify(module);
 }

@@ -10,16 +10,6 @@
 namespace bathyal {
 namespace {
 
-void check_rigid(std::string_view name, const Pose& pose) {
-  if (!pose.matrix().allFinite()) throw_argument(name, "finite numbers", "nan or inf");
-  const Eigen::Matrix3d rotation = pose.linear();
-  const double error = (rotation * rotation.transpose() - Eigen::Matrix3d::Identity()).norm();
-  if (error > 1e-6 || rotation.determinant() < 0.0) {
-    throw_argument(name, "a rotation of determinant 1 beside the translation",
-                   "one that is off by " + to_text(error));
-  }
-}
-
 void check_joint(const Joint& joint) {
   const std::string name = "joint " + joint.name;
   const DhRow& row = joint.row;
