@@ -16,5 +16,6 @@ void bind_scene(pybind11::module_& module);
 void bind_toolpath(pybind11::module_& module);
 void bind_arm(pybind11::module_& module);
 void bind_identify(pybind11::module_& module);
+void bind_verify(pybind11::module_& module);  // of the room identify
 
 }  // namespace bathyal::python

@@ -13,4 +13,5 @@ PYBIND11_MODULE(_core, module) {
   bind_toolpath(module);
   bind_arm(module);
   bind_identify(module);
+  bind_verify(module);
 }
