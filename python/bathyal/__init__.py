@@ -46,6 +46,8 @@ from bathyal.arm_files import read_arm
 from bathyal.clouds import read_cloud, write_cloud
 from bathyal.meshes import read_mesh, write_mesh
 from bathyal.terrain import SheetWarning, triangulate
+from bathyal.touch_files import read_touches, read_tracked
+from bathyal.verification import verify_arm
 
 __version__ = _version("bathyal")
 
@@ -88,10 +90,13 @@ __all__ = [
     "read_arm",
     "read_cloud",
     "read_mesh",
+    "read_touches",
+    "read_tracked",
     "set_simd_level",
     "simd_level",
     "survey_height",
     "triangulate",
+    "verify_arm",
     "write_cloud",
     "write_mesh",
 ]
