@@ -11,7 +11,7 @@ BIN := $(VENV)/bin
 STAMPS := build/setup
 
 # Debian packages: to build and run; to test; for the benchmarks' peers.
-APT_BUILD := g++ cmake ninja-build libeigen3-dev python3 python3-dev python3-venv
+APT_BUILD := g++ cmake ninja-build libeigen3-dev libceres-dev python3 python3-dev python3-venv
 APT_TEST := $(APT_BUILD) git ccache libgtest-dev libpcl-dev clang-14 libclang-rt-14-dev \
             clang-format-14 util-linux
 APT_BENCH := $(APT_TEST) libcgal-dev libgmp-dev libmpfr-dev
