@@ -209,6 +209,13 @@ void ArmSystem::evaluate(const double* y, double* residuals, double* jacobian) c
   }
 }
 
+Eigen::MatrixXd ArmSystem::jacobian(const Eigen::VectorXd& x) const {
+  Eigen::VectorXd residuals(rows());
+  Eigen::MatrixXd jacobian(rows(), columns());
+  evaluate(scaled(x).data(), residuals.data(), jacobian.data());
+  return jacobian;
+}
+
 void ArmSystem::compare_tracked(Sheet& sheet) const {
   sheet.tips -= m_.position;
   for (Index i = 0; i < m_.rows(); ++i) {

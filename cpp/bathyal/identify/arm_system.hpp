@@ -49,6 +49,7 @@ class ArmSystem final : public ResidualModel {
   /// Factors on the weights of the measurement, (N,): 0 leaves a row out.
   void set_trust(std::vector<double> trust) { trust_ = std::move(trust); }
   const std::vector<double>& trust() const { return trust_; }
+  double weight(Index row) const { return m_.weights[row] * trust_[row]; }
 
   /// Also brings up to date what the noise of the centroids at `x` adds to known distances and
   /// points.
@@ -70,6 +71,9 @@ class ArmSystem final : public ResidualModel {
 
   void evaluate(const double* y, double* residuals, double* jacobian) const override;
 
+  /// (rows, columns) at the values `x` of all columns.
+  Eigen::MatrixXd jacobian(const Eigen::VectorXd& x) const;
+
   /// All columns' values for the free ones' `y`.
   Eigen::VectorXd values(const Eigen::VectorXd& y) const;
   Eigen::VectorXd scaled(const Eigen::VectorXd& x) const;
@@ -86,7 +90,6 @@ class ArmSystem final : public ResidualModel {
   const ArmColumns& arm_columns() const { return columns_; }
 
  private:
-  double weight(Index row) const { return m_.weights[row] * trust_[row]; }
   Eigen::Matrix3Xd tips(const Eigen::VectorXd& x) const;
   Eigen::Matrix3Xd centroids_of(const Eigen::Ref<const Eigen::Matrix3Xd>& tips) const;
   void fill_tips(const TipWalk& walk, double* tips, double* jacobian, Index stride,
