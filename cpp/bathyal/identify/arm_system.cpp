@@ -149,8 +149,11 @@ void ArmSystem::fill_tips(const TipWalk& walk, double* tips, double* jacobian, I
                    const Vec3 error = vector_of(pose.linear() * m_.rotation[i].transpose());
                    Eigen::Map<Vec3>(rotations + 3 * i) = error;
                    if (turn == nullptr) continue;
-                   Block block(turn, 3, columns(), Eigen::OuterStride<>(stride));
-                   block = (left_jacobian(error).inverse() * block).eval();
+                   const Eigen::Matrix3d error_by_turn = left_jacobian(error).inverse();
+                   for (Index c = 0; c < columns(); ++c) {
+                     Eigen::Map<Vec3> column(turn + c * stride);
+                     column = error_by_turn * Vec3(column);
+                   }
                  }
                });
 }
@@ -218,14 +221,16 @@ Eigen::MatrixXd ArmSystem::jacobian(const Eigen::VectorXd& x) const {
 
 void ArmSystem::compare_tracked(Sheet& sheet) const {
   sheet.tips -= m_.position;
+  Eigen::VectorXd factors(data_rows());
   for (Index i = 0; i < m_.rows(); ++i) {
     const double root = std::sqrt(weight(i));
-    sheet.residuals.segment<3>(3 * i) *= root / noise_.position;
-    if (sheet.derive) sheet.jacobian.middleRows(3 * i, 3) *= root / noise_.position;
+    factors.segment<3>(3 * i).setConstant(root / noise_.position);
     if (!m_.has_rotation()) continue;
-    const Index row = position_rows() + 3 * i;
-    sheet.residuals.segment<3>(row) *= root / noise_.rotation;
-    if (sheet.derive) sheet.jacobian.middleRows(row, 3) *= root / noise_.rotation;
+    factors.segment<3>(position_rows() + 3 * i).setConstant(root / noise_.rotation);
+  }
+  sheet.residuals.head(data_rows()).array() *= factors.array();
+  for (Index c = 0; sheet.derive && c < columns(); ++c) {
+    sheet.jacobian.col(c).head(data_rows()).array() *= factors.array();
   }
 }
 
