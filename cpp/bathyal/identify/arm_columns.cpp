@@ -311,11 +311,11 @@ Pose TipWalk::tip(const double* q, int tool, int station, RowFrames& frames, dou
   return world_from_tool;
 }
 
-void TipWalk::joint_jacobian(const double* q, int tool, int station, RowFrames& frames,
-                             Eigen::Matrix3Xd& jacobian, Vec3& tip) const {
+Eigen::Matrix3Xd TipWalk::joint_jacobian(const double* q, int tool, int station, RowFrames& frames,
+                                         Vec3& tip) const {
   walk(q, station, frames);
   tip = frames.world_from_row.back() * row_from_tool_[tool].translation();
-  jacobian.setZero(3, state_.arm.size());
+  Eigen::Matrix3Xd jacobian = Eigen::Matrix3Xd::Zero(3, state_.arm.size());
   for (std::size_t k = 0; k < state_.arm.joints().size(); ++k) {
     const Joint& joint = state_.arm.joints()[k];
     if (joint.type == JointType::kFixed) continue;
@@ -325,6 +325,7 @@ void TipWalk::joint_jacobian(const double* q, int tool, int station, RowFrames& 
         joint.type == JointType::kPrismatic ? z : Vec3(z.cross(tip - before.translation()));
     jacobian.col(joint.coordinate) += joint.multiplier * move;
   }
+  return jacobian;
 }
 
 }  // namespace bathyal

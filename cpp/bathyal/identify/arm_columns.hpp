@@ -96,8 +96,8 @@ class TipWalk {
   Vec3 plane_turn(std::size_t i) const { return turn_axes_[i]; }
 
   /// d tip / d q, (3, n), and the tip.
-  void joint_jacobian(const double* q, int tool, int station, RowFrames& frames,
-                      Eigen::Matrix3Xd& jacobian, Vec3& tip) const;
+  Eigen::Matrix3Xd joint_jacobian(const double* q, int tool, int station, RowFrames& frames,
+                                  Vec3& tip) const;
 
  private:
   /// A row as Rz(value) or Tz(value), then what does not change from pose to pose.

@@ -99,13 +99,13 @@ RowMatrix exact_joints(const ArmSystem& system, const Eigen::VectorXd& x) {
   const Eigen::Matrix3Xd centers = system.centroids(x);
   const TipWalk walk(system.arm_columns(), x, {});
   RowFrames frames;
-  Eigen::Matrix3Xd jacobian;
   Eigen::VectorXd joints;
   Vec3 tip;
   for (Index i = 0; i < q.rows(); ++i) {
     joints = q.row(i).transpose();
     for (int step = 0; step < kMostSteps; ++step) {
-      walk.joint_jacobian(joints.data(), m.tool[i], m.station[i], frames, jacobian, tip);
+      const Eigen::Matrix3Xd jacobian =
+          walk.joint_jacobian(joints.data(), m.tool[i], m.station[i], frames, tip);
       const Vec3 miss = miss_of(m, i, tip, centers, walk.state().planes);
       if (miss.norm() < kOnPoint) break;
       Eigen::Matrix3d square = jacobian * jacobian.transpose();

@@ -70,6 +70,8 @@ class ArmSystem final : public ResidualModel {
   Index known_rows() const;
 
   void evaluate(const double* y, double* residuals, double* jacobian) const override;
+  Eigen::MatrixXd square(const double* y) const override;
+  double cost(const double* y) const override;
 
   /// (rows, columns) at the values `x` of all columns.
   Eigen::MatrixXd jacobian(const Eigen::VectorXd& x) const;
@@ -92,11 +94,21 @@ class ArmSystem final : public ResidualModel {
  private:
   Eigen::Matrix3Xd tips(const Eigen::VectorXd& x) const;
   Eigen::Matrix3Xd centroids_of(const Eigen::Ref<const Eigen::Matrix3Xd>& tips) const;
-  void fill_tips(const TipWalk& walk, double* tips, double* jacobian, Index stride,
-                 double* rotations, double* rotation_jacobian) const;
+  /// Where the numbers of a range of poses go; what is null is not wanted.
+  struct TipRows {
+    double* tips = nullptr;      ///< (3, n)
+    double* jacobian = nullptr;  ///< (3 n, columns), `stride` from column to column
+    double* rotations = nullptr;
+    double* rotation_jacobian = nullptr;
+    Index stride = 0;
+  };
+  void fill_tips(const TipWalk& walk, const TipRows& out) const;
+  void fill_tips(const TipWalk& walk, Index begin, Index end, const TipRows& out) const;
+  void compare_tracked(Index begin, Index end, const TipRows& out) const;
+  template <class Body>
+  void for_each_tracked(const double* y, bool derive, const Body& body) const;
 
   struct Sheet;
-  void compare_tracked(Sheet& sheet) const;
   void find_centers(Sheet& sheet) const;
   void compare_with_centers(Sheet& sheet) const;
   void compare_pairs(Sheet& sheet) const;
@@ -104,7 +116,7 @@ class ArmSystem final : public ResidualModel {
   void known_residuals(const Eigen::Matrix3Xd& centers, Eigen::VectorXd& residuals,
                        Eigen::MatrixXd& by_center) const;
   void compare_known(Sheet& sheet) const;
-  void add_linear_rows(const Eigen::VectorXd& x, Sheet& sheet) const;
+  Eigen::MatrixXd linear_rows_at(const double* y) const;
 
   const ArmColumns& columns_;
   const Measurement& m_;
