@@ -50,7 +50,7 @@ Observability observe(const ArmSystem& system, const Eigen::VectorXd& x) {
   data.set_equal_noise(kEqualNoise);
   data.set_use_priors(false);
   data.set_linear_rows({});
-  const Eigen::MatrixXd jacobian = data.jacobian(x);
+  const Eigen::MatrixXd jacobian = triangle_of(data.jacobian(x), system.num_threads());
 
   const std::vector<int>& free = system.free();
   Eigen::MatrixXd seen(jacobian.rows(), system.columns());
@@ -58,9 +58,7 @@ Observability observe(const ArmSystem& system, const Eigen::VectorXd& x) {
   const Eigen::MatrixXd unseen = reveal_rank(seen).unseen();
 
   // Of what the data do not see, priors hold what moves any of them.
-  const Eigen::MatrixXd rows = system.jacobian(x);
-  const Eigen::MatrixXd told =
-      rows.bottomRows(rows.rows() - system.data_rows()).rowwise().normalized() * unseen;
+  const Eigen::MatrixXd told = system.linear_jacobian().rowwise().normalized() * unseen;
   const Eigen::MatrixXd blind = unseen * reveal_rank(told).unseen();
   return {reveal_rank(jacobian), among_all(unseen, free, count), among_all(blind, free, count)};
 }
@@ -83,7 +81,7 @@ Eigen::MatrixXd free_covariance(const ArmSystem& system, const Eigen::VectorXd& 
   // Pair residuals are correlated; those about a centroid lose one touch to it, and no more.
   exact.set_criterion(Criterion::kCentroid, false);
   exact.set_linear_rows({});
-  const Eigen::MatrixXd jacobian = exact.jacobian(x);
+  const Eigen::MatrixXd jacobian = triangle_of(exact.jacobian(x), system.num_threads());
   if (blind.cols() == 0) return inverse_square(jacobian);
   const Eigen::MatrixXd left = complement(rows_of(blind, system.free()));
   return left * inverse_square(jacobian * left) * left.transpose();

@@ -10,9 +10,6 @@
 
 namespace bathyal {
 
-/// A column's share in an unseen direction from which it counts as part of it.
-constexpr double kUnseenShare = 1e-4;
-
 /// Directions are of all columns, in units of their scale.
 struct Observability {
   RankReport rank;         ///< of all columns, by the data alone

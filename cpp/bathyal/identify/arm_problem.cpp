@@ -39,7 +39,8 @@ ArmProblem::ArmProblem(const Arm& known_arm, const Measurement& data, const Iden
       options(asked),
       base_free(asked.base == BaseChoice::kFree ||
                 (asked.base == BaseChoice::kAuto && data.tracked)),
-      columns{known_arm, {}, {}, {}, {}, {}} {
+      columns{known_arm, {}, {}, {}, {}, {}},
+      size_told(data.tells_scale()) {
   if (base_free && !measurement.in_world()) {
     throw_argument("base", "\"fixed\" or \"auto\" for touches of points that nobody told",
                    "\"free\"");
@@ -82,7 +83,7 @@ void ArmProblem::set_length_prior(double std) {
 
 void ArmProblem::set_priors() {
   length_prior = options.length_prior;
-  if (!length_prior && !measurement.tells_scale()) length_prior = options.size_prior;
+  if (!length_prior && !size_told) length_prior = options.size_prior;
   if (length_prior) set_length_prior(*length_prior);
   for (std::size_t i = 0; options.angle_prior && i < columns.columns.size(); ++i) {
     if (is_angle(columns.places[i])) columns.columns[i].prior_std = *options.angle_prior;
@@ -90,6 +91,18 @@ void ArmProblem::set_priors() {
   for (const auto& [name, std] : options.priors) {
     columns.columns[column_named(columns, name, "priors")].prior_std = std;
   }
+}
+
+bool ArmProblem::drop_size_prior(const Eigen::MatrixXd& unseen) {
+  if (size_told) return false;
+  Eigen::VectorXd size = size_derivative(columns);
+  for (Index i = 0; i < size.size(); ++i) size[i] *= columns.columns[i].scale;
+  if ((unseen.transpose() * size).norm() > kUnseenShare * size.norm()) return false;
+  size_told = true;
+  if (options.length_prior) return false;
+  length_prior.reset();
+  set_length_prior(Column::kNoPrior);
+  return true;
 }
 
 /// Bases, tools of tracked poses and planes for the nominal rows: what a user who identifies
@@ -139,6 +152,15 @@ void ArmProblem::set_first_noise() {
         std::max(root_mean_square(system->turns(start)), kLeastNoise));
   }
   system->set_noise(noise, start);
+}
+
+Eigen::VectorXd size_derivative(const ArmColumns& columns) {
+  Eigen::VectorXd derivative = columns.nominal();
+  for (Index i = 0; i < derivative.size(); ++i) {
+    if (!is_length(columns.places[i])) derivative[i] = 0.0;
+  }
+  const double square = derivative.squaredNorm();
+  return square > 0.0 ? Eigen::VectorXd(derivative / square) : derivative;
 }
 
 }  // namespace bathyal

@@ -29,12 +29,17 @@ struct ArmProblem {
   std::vector<int> fixed;              ///< columns that the caller holds at nominal
   std::vector<GaugeColumn> gauge;      ///< columns that base and tool make superfluous
   std::optional<double> length_prior;  ///< asked for, or standing in for a scale [m]
+  bool size_told = false;              ///< by the data, whatever the priors say
   std::optional<ArmSystem> system;     ///< over the columns that are left free
   Eigen::VectorXd start;               ///< values of all columns
 
   ColumnChoice choice() const;
   /// The std of every a and d that has no prior of its own [m].
   void set_length_prior(double std);
+  /// The travel of a sliding joint is known, so that touches tell the size of an arm that has one:
+  /// no change of the size is among those that are `unseen`. The prior that stood in for it goes
+  /// then; true when it did, and what is seen must be asked anew.
+  bool drop_size_prior(const Eigen::MatrixXd& unseen);
 
  private:
   void find_columns();
@@ -44,11 +49,18 @@ struct ArmProblem {
   void set_first_noise();
 };
 
+/// Derivative of the arm's size by the columns: Σ L (x - L) / Σ L² over the rows' lengths L. Where
+/// they are all zero there is nothing but the tool that could shrink.
+Eigen::VectorXd size_derivative(const ArmColumns& columns);
+
 /// Whether a column belongs to a row of the arm.
 inline bool is_row(const Place& place) { return place.part <= Part::kBeta; }
 inline bool is_length(const Place& place) {
   return place.part == Part::kD || place.part == Part::kA;
 }
+
+/// A column's share in an unseen direction from which it counts as part of it.
+constexpr double kUnseenShare = 1e-4;
 
 /// [m] or [rad]; exact data have no scale of their own, and none is taken to be better.
 constexpr double kLeastNoise = 1e-9;

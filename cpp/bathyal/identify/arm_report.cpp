@@ -157,22 +157,12 @@ void report_parameters(const ArmProblem& problem, const Observability& seen,
   for (const int column : found.pruned) fit.parameters[column].status = Status::kPruned;
 }
 
-/// Derivative of the arm's size by the columns: Σ L (x - L) / Σ L² over the rows' lengths L. Where
-/// they are all zero there is nothing but the tool that could shrink.
-Eigen::VectorXd size_derivative(const ArmColumns& columns) {
-  Eigen::VectorXd derivative = columns.nominal();
-  for (Index i = 0; i < derivative.size(); ++i) {
-    if (!is_length(columns.places[i])) derivative[i] = 0.0;
-  }
-  const double square = derivative.squaredNorm();
-  return square > 0.0 ? Eigen::VectorXd(derivative / square) : derivative;
-}
-
 std::string scale_source(const ArmProblem& problem) {
   const Measurement& m = problem.measurement;
   if (m.tracked) return "measured positions";
   if (!m.known_points.empty()) return "known points";
   if (!m.distances.empty()) return m.distances.size() == 1 ? "known distance" : "known distances";
+  if (problem.size_told) return "travel of sliding joints";
   return "prior on lengths (" + to_text(*problem.length_prior * 1e3) + " mm)";
 }
 
@@ -187,7 +177,7 @@ void report_scale(const ArmProblem& problem, const Eigen::VectorXd& x, ArmFit& f
     sum += distance.told * distance.found;
     square += distance.found * distance.found;
   }
-  double to_true_size = problem.measurement.tells_scale() ? 1.0 : 1.0 / fit.scale;
+  double to_true_size = problem.size_told ? 1.0 : 1.0 / fit.scale;
   if (square > 0.0) to_true_size = sum / square;
   fit.rms_after_scaled = fit.rms_after * to_true_size;
 }

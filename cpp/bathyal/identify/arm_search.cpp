@@ -7,10 +7,12 @@
 namespace bathyal {
 namespace {
 
+constexpr int kRoughSteps = 2;
 constexpr int kMostRounds = 12;
 constexpr int kMostTrustRounds = 60;
 constexpr double kNoiseSettled = 1e-4;  ///< relative
 constexpr double kTrustSettled = 1e-4;
+constexpr double kSizeSettled = 1e-6;  ///< in units of the columns' scale: nm and nrad
 constexpr double kWidthByNoise = 3.0;
 constexpr double kMedianOfNorm = 1.5381722544550522;  ///< of a normal 3-vector of unit std
 
@@ -27,10 +29,14 @@ class Search {
   SearchResult run();
 
  private:
-  void solve();
+  void solve() { solve(options_.max_iterations); }
+  void solve(int max_iterations);
   void solve_with_noise();
   void solve_with_trust();
   void prune();
+  void undo_size_draw();
+  bool noise_is_told() const;
+  bool noise_matters() const;
   bool update_noise();
   Noise estimate_noise() const;
   double robust_noise(const Eigen::VectorXd& distances) const;
@@ -49,7 +55,7 @@ SearchResult Search::run() {
   system_.set_linear_rows(rows_to_hold(seen_.blind, problem_.columns.columns));
   // Where a loose prior alone holds the size, the noise that it is weighed against is found with a
   // firm one: else both shrink together.
-  const bool loose = !m_.tells_scale() && *problem_.length_prior > options_.size_prior;
+  const bool loose = !problem_.size_told && *problem_.length_prior > options_.size_prior;
   if (loose) problem_.set_length_prior(options_.size_prior);
   solve_with_noise();
   if (loose) {
@@ -58,12 +64,12 @@ SearchResult Search::run() {
   }
   if (options_.loss != Loss::kSquare) solve_with_trust();
   if (options_.prune_sigma) prune();
+  if (!m_.tracked && problem_.size_told) undo_size_draw();
   return std::move(result_);
 }
 
-void Search::solve() {
-  const LeastSquaresOptions options{.solver = options_.solver,
-                                    .max_iterations = options_.max_iterations};
+void Search::solve(int max_iterations) {
+  const LeastSquaresOptions options{.solver = options_.solver, .max_iterations = max_iterations};
   const LeastSquaresResult found = solve_least_squares(system_, system_.scaled(result_.x), options);
   result_.x = system_.values(found.y);
   result_.converged = found.converged;
@@ -73,47 +79,68 @@ void Search::solve() {
   }
 }
 
+/// The first noise is a guess, and its minimum is not worth more than a few steps.
 void Search::solve_with_noise() {
+  if (!noise_is_told() && noise_matters()) {
+    solve(std::min(kRoughSteps, options_.max_iterations));
+    update_noise();
+  }
   solve();
   for (int round = 0; round < kMostRounds && update_noise(); ++round) solve();
 }
 
+bool Search::noise_is_told() const {
+  return options_.noise && (options_.rotation_noise || !m_.has_rotation());
+}
+
+/// Whether anything is weighed against positions.
+bool Search::noise_matters() const {
+  const auto held = static_cast<Index>(system_.linear_rows().size());
+  return system_.rows() > system_.position_rows() + held;
+}
+
 /// False when nothing changed that the solution depends on.
 bool Search::update_noise() {
-  if (options_.noise && (options_.rotation_noise || !m_.has_rotation())) return false;
+  if (noise_is_told()) return false;
   const Noise old = system_.noise();
   const Noise noise = estimate_noise();
   system_.set_noise(noise, result_.x);
-  const auto held = static_cast<Index>(system_.linear_rows().size());
-  const bool matters = system_.rows() > system_.position_rows() + held;
-  return matters && (std::abs(noise.position / old.position - 1.0) > kNoiseSettled ||
-                     std::abs(noise.rotation / old.rotation - 1.0) > kNoiseSettled);
+  return noise_matters() && (std::abs(noise.position / old.position - 1.0) > kNoiseSettled ||
+                             std::abs(noise.rotation / old.rotation - 1.0) > kNoiseSettled);
 }
 
 /// Each kind of row by its own residuals: σ² = Σ r² / (rows - what the columns take of them).
 Noise Search::estimate_noise() const {
-  // Every direction is held by something, so that the triangle can be inverted.
   const Eigen::MatrixXd jacobian = system_.jacobian(result_.x);
-  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(jacobian);
-  const auto triangle = qr.matrixQR().topRows(jacobian.cols()).triangularView<Eigen::Upper>();
-  const auto estimate = [&](const Eigen::Matrix3Xd& residuals, Index first, Index count,
+  const Index wide = jacobian.cols();
+  const Index positions = system_.position_rows();
+  const Index rotations = system_.rotation_rows();
+  const Index others = jacobian.rows() - positions - rotations;
+  const int threads = system_.num_threads();
+  const Eigen::MatrixXd of_positions = triangle_of(jacobian.topRows(positions), threads);
+  const Eigen::MatrixXd of_rotations =
+      triangle_of(jacobian.middleRows(positions, rotations), threads);
+  Eigen::MatrixXd together(2 * wide + others, wide);
+  together << of_positions, of_rotations, jacobian.bottomRows(others);
+  const Eigen::MatrixXd all = triangle_of(together);
+  const auto estimate = [&](const Eigen::Matrix3Xd& residuals, const Eigen::MatrixXd& part,
                             double rows, double old) {
     double sum = 0.0;
     for (Index i = 0; i < m_.rows(); ++i) sum += system_.weight(i) * residuals.col(i).squaredNorm();
+    // Every direction is held by something, so that the triangle can be inverted.
     const Eigen::MatrixXd taken =
-        triangle.transpose().solve(jacobian.middleRows(first, count).transpose());
+        all.triangularView<Eigen::Upper>().transpose().solve(part.transpose());
     const double freedom = rows - taken.squaredNorm();
     return freedom > 0.5 ? std::max(std::sqrt(sum / freedom), kLeastNoise) : old;
   };
   Noise noise = system_.noise();
   if (!options_.noise) {
-    noise.position = estimate(system_.deviations(result_.x), 0, system_.position_rows(),
-                              free_position_rows(m_), noise.position);
+    noise.position = estimate(system_.deviations(result_.x), of_positions, free_position_rows(m_),
+                              noise.position);
   }
   if (m_.has_rotation() && !options_.rotation_noise) {
-    noise.rotation =
-        estimate(system_.turns(result_.x), system_.position_rows(), system_.rotation_rows(),
-                 static_cast<double>(3 * m_.rows()), noise.rotation);
+    noise.rotation = estimate(system_.turns(result_.x), of_rotations,
+                              static_cast<double>(3 * m_.rows()), noise.rotation);
   }
   return noise;
 }
@@ -189,6 +216,24 @@ Index Search::least_sure() const {
     }
   }
   return least;
+}
+
+/// Scatter is recorded in joint values, and a smaller arm shows less of it: the least sum of
+/// squares is that of an arm too small by (degrees of freedom) · (relative std of its size)², many
+/// std where hundreds of touches lean on a short known distance. The derivatives of exact touches
+/// know nothing of the scatter, so that steps along them end where what is known of the size is
+/// met.
+void Search::undo_size_draw() {
+  Eigen::VectorXd residuals(system_.rows());
+  for (int round = 0; round < kMostRounds; ++round) {
+    ArmSystem exact = system_;
+    exact.set_joints(exact_joints(system_, result_.x));
+    const Eigen::VectorXd y = system_.scaled(result_.x);
+    system_.evaluate(y.data(), residuals.data(), nullptr);
+    const Eigen::VectorXd step = exact.jacobian(result_.x).householderQr().solve(-residuals);
+    result_.x = system_.values(y + step);
+    if (step.norm() < kSizeSettled) break;
+  }
 }
 
 }  // namespace

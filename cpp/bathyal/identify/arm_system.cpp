@@ -218,9 +218,8 @@ void ArmSystem::evaluate(const double* y, double* residuals, double* jacobian) c
   sheet.residuals.tail(linear.rows()) = linear.rightCols(1);
   if (!derive) return;
   sheet.jacobian.bottomRows(linear.rows()) = linear.leftCols(columns());
-  for (Index c = 0; c < columns(); ++c) {
-    sheet.jacobian.col(c) *= columns_.columns[free_[c]].scale;
-  }
+  const Eigen::VectorXd scale = scales();
+  for (Index c = 0; c < columns(); ++c) sheet.jacobian.col(c) *= scale[c];
 }
 
 /// Tracked poses do not know of each other: their rows are made, used and forgotten chunk by chunk.
@@ -261,10 +260,10 @@ Eigen::MatrixXd ArmSystem::square(const double* y) const {
   for (const Eigen::MatrixXd& part : parts) sum += part;
   const Eigen::MatrixXd linear = linear_rows_at(y);
   sum.selfadjointView<Eigen::Lower>().rankUpdate(linear.transpose());
-  Eigen::VectorXd scales = Eigen::VectorXd::Ones(wide);
-  for (Index c = 0; c < columns(); ++c) scales[c] = columns_.columns[free_[c]].scale;
+  Eigen::VectorXd factors(wide);
+  factors << scales(), 1.0;
   const Eigen::MatrixXd both = sum.selfadjointView<Eigen::Lower>();
-  return scales.asDiagonal() * both * scales.asDiagonal();
+  return factors.asDiagonal() * both * factors.asDiagonal();
 }
 
 double ArmSystem::cost(const double* y) const {
@@ -412,6 +411,17 @@ void ArmSystem::compare_known(Sheet& sheet) const {
     sheet.jacobian.middleRows(position_rows(), known_rows()) =
         whitening_ * (by_center * sheet.center_jacobian);
   }
+}
+
+Eigen::VectorXd ArmSystem::scales() const {
+  Eigen::VectorXd out(columns());
+  for (Index c = 0; c < columns(); ++c) out[c] = columns_.columns[free_[c]].scale;
+  return out;
+}
+
+Eigen::MatrixXd ArmSystem::linear_jacobian() const {
+  const Eigen::VectorXd start = Eigen::VectorXd::Zero(columns());
+  return linear_rows_at(start.data()).leftCols(columns()) * scales().asDiagonal();
 }
 
 /// [J r] of priors and linear rows; J in the columns' own units.

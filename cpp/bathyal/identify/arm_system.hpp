@@ -75,6 +75,8 @@ class ArmSystem final : public ResidualModel {
 
   /// (rows, columns) at the values `x` of all columns.
   Eigen::MatrixXd jacobian(const Eigen::VectorXd& x) const;
+  /// The rows of priors and linear rows alone: they are the same everywhere.
+  Eigen::MatrixXd linear_jacobian() const;
 
   /// All columns' values for the free ones' `y`.
   Eigen::VectorXd values(const Eigen::VectorXd& y) const;
@@ -89,6 +91,7 @@ class ArmSystem final : public ResidualModel {
   Eigen::Matrix3Xd centroids(const Eigen::VectorXd& x) const;
 
   const Measurement& measurement() const { return m_; }
+  int num_threads() const { return num_threads_; }
   const ArmColumns& arm_columns() const { return columns_; }
 
  private:
@@ -116,6 +119,7 @@ class ArmSystem final : public ResidualModel {
   void known_residuals(const Eigen::Matrix3Xd& centers, Eigen::VectorXd& residuals,
                        Eigen::MatrixXd& by_center) const;
   void compare_known(Sheet& sheet) const;
+  Eigen::VectorXd scales() const;
   Eigen::MatrixXd linear_rows_at(const double* y) const;
 
   const ArmColumns& columns_;

@@ -13,7 +13,8 @@ ArmFit identify(const Arm& arm, const Measurement& measurement, const IdentifyOp
   // What the data see is asked where the search starts: a direction that is dark there is held, for
   // the little light that it gets elsewhere is not to be trusted (plain DH beside parallel axes
   // runs off along such directions).
-  const Observability seen = observe(*problem.system, problem.start);
+  Observability seen = observe(*problem.system, problem.start);
+  if (problem.drop_size_prior(seen.unseen)) seen = observe(*problem.system, problem.start);
   const SearchResult found = search(problem, seen);
   ArmFit fit = report(problem, seen, found);
   examine(measurement, *problem.system, arm, fit);
