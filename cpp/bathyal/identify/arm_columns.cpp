@@ -199,6 +199,12 @@ ArmState state_at(const ArmColumns& columns, const Eigen::VectorXd& x) {
 
 TipWalk::TipWalk(const ArmColumns& columns, const Eigen::VectorXd& x, std::vector<int> wanted)
     : columns_(columns), wanted_(std::move(wanted)), state_(state_at(columns, x)) {
+  for (const Joint& joint : state_.arm.joints()) {
+    const double beta = joint.row.beta;
+    steps_.push_back(
+        {row_pose(joint.row, joint.type, 0.0), Vec3(std::cos(beta), 0.0, std::sin(beta))});
+  }
+  for (const Pose& tool : state_.tools) row_from_tool_.push_back(state_.arm.flange() * tool);
   for (const int column : wanted_) {
     const auto [part, index, axis] = columns_.places[column];
     Vec3 turn = Vec3::Zero();
@@ -219,77 +225,96 @@ TipWalk::TipWalk(const ArmColumns& columns, const Eigen::VectorXd& x, std::vecto
   }
 }
 
+/// As compute_row_frames, with all that one pose shares with the next worked out before.
+void TipWalk::walk(const double* q, int station, RowFrames& frames) const {
+  const std::vector<Joint>& joints = state_.arm.joints();
+  const auto coordinates = static_cast<std::size_t>(state_.arm.size());
+  frames.world_from_row.resize(joints.size() + 1);
+  frames.world_from_row[0] = state_.bases[station] * state_.arm.root();
+  for (std::size_t k = 0; k < joints.size(); ++k) {
+    Pose moved = frames.world_from_row[k];
+    const double value = joint_value(joints[k], {q, coordinates});
+    if (joints[k].type == JointType::kRevolute) {
+      const double cosine = std::cos(value), sine = std::sin(value);
+      const Vec3 x = moved.linear().col(0), y = moved.linear().col(1);
+      moved.linear().col(0) = cosine * x + sine * y;
+      moved.linear().col(1) = cosine * y - sine * x;
+    } else {
+      moved.translation() += value * moved.linear().col(2);
+    }
+    const Pose& step = steps_[k].behind_from_moved;
+    Pose& behind = frames.world_from_row[k + 1];
+    behind.linear().noalias() = moved.linear() * step.linear();
+    behind.translation() = moved.linear() * step.translation() + moved.translation();
+  }
+}
+
 Pose TipWalk::tip(const double* q, int tool, int station, RowFrames& frames, double* shift,
                   double* turn, Index stride) const {
-  compute_row_frames(state_.arm, {q, static_cast<std::size_t>(state_.arm.size())}, frames);
-  const Pose& base = state_.bases[station];
-  const Pose flange = frames.world_from_tool;  // base_from_flange: the arm's own base is identity
-  const Pose base_from_tool = flange * state_.tools[tool];
-  const Pose world_from_tool = base * base_from_tool;
+  walk(q, station, frames);
+  const Pose& last = frames.world_from_row.back();
+  const Pose world_from_tool = last * row_from_tool_[tool];
   if (shift == nullptr) return world_from_tool;
 
-  const Vec3 tip = base_from_tool.translation();
+  const Vec3 tip = world_from_tool.translation();
+  const Eigen::Matrix3d flange = last.linear() * state_.arm.flange().linear();
   for (std::size_t i = 0; i < wanted_.size(); ++i) {
     const auto [part, index, axis] = columns_.places[wanted_[i]];
-    Vec3 move = Vec3::Zero();  // in the frame of the base, as is `axis_turned`
-    Vec3 axis_turned = Vec3::Zero();
+    Vec3 move = Vec3::Zero();
+    Vec3 turned = Vec3::Zero();
     const auto about = [&](const Vec3& direction, const Vec3& center) {
-      axis_turned = direction;
+      turned = direction;
       move = direction.cross(tip - center);
     };
     switch (part) {
-      case Part::kTheta:
-      case Part::kD: {
+      case Part::kTheta: {
         const Pose& before = frames.world_from_row[index];
-        const Vec3 z = before.linear().col(2);
-        if (part == Part::kTheta) about(z, before.translation());
-        if (part == Part::kD) move = z;
+        about(before.linear().col(2), before.translation());
         break;
       }
+      case Part::kD:
+        move = frames.world_from_row[index].linear().col(2);
+        break;
       case Part::kA:
-      case Part::kAlpha:
-      case Part::kBeta: {
-        // The row's last turn is Ry(beta): it leaves y, and x is turned back.
+      case Part::kAlpha: {
         const Pose& behind = frames.world_from_row[index + 1];
-        const double beta = state_.arm.joints()[index].row.beta;
-        const Vec3 x =
-            std::cos(beta) * behind.linear().col(0) + std::sin(beta) * behind.linear().col(2);
+        const Vec3 x = behind.linear() * steps_[index].x_of_row;
         if (part == Part::kA) move = x;
         if (part == Part::kAlpha) about(x, behind.translation());
-        if (part == Part::kBeta) about(behind.linear().col(1), behind.translation());
+        break;
+      }
+      case Part::kBeta: {
+        // Ry(beta) is the last turn of the row, and leaves y.
+        const Pose& behind = frames.world_from_row[index + 1];
+        about(behind.linear().col(1), behind.translation());
         break;
       }
       case Part::kToolShift:
-        if (index == tool) move = flange.linear().col(axis);
+        if (index == tool) move = flange.col(axis);
         break;
       case Part::kToolTurn:
-        if (index == tool) axis_turned = flange.linear() * turn_axes_[i];
+        if (index == tool) turned = flange * turn_axes_[i];
         break;
       case Part::kBaseShift:
-        if (index == station) move = base.linear().row(axis);
+        if (index == station) move = Vec3::Unit(axis);
         break;
       case Part::kBaseTurn:
-        if (index == station) about(base.linear().transpose() * turn_axes_[i], Vec3::Zero());
+        if (index == station) about(turn_axes_[i], state_.bases[station].translation());
         break;
       case Part::kPlaneTurn:
       case Part::kPlaneShift:
         break;
     }
-    Eigen::Map<Vec3>(shift + static_cast<Index>(i) * stride) = base.linear() * move;
-    if (turn != nullptr) {
-      Eigen::Map<Vec3>(turn + static_cast<Index>(i) * stride) = base.linear() * axis_turned;
-    }
+    Eigen::Map<Vec3>(shift + static_cast<Index>(i) * stride) = move;
+    if (turn != nullptr) Eigen::Map<Vec3>(turn + static_cast<Index>(i) * stride) = turned;
   }
   return world_from_tool;
 }
 
-Vec3 TipWalk::plane_turn(std::size_t i) const { return turn_axes_[i]; }
-
 Eigen::Matrix3Xd TipWalk::joint_jacobian(const double* q, int tool, int station, RowFrames& frames,
                                          Vec3& tip) const {
-  const Pose world_from_tool = this->tip(q, tool, station, frames, nullptr, nullptr, 0);
-  tip = world_from_tool.translation();
-  const Vec3 local = (state_.bases[station].inverse() * world_from_tool).translation();
+  walk(q, station, frames);
+  tip = frames.world_from_row.back() * row_from_tool_[tool].translation();
   Eigen::Matrix3Xd jacobian = Eigen::Matrix3Xd::Zero(3, state_.arm.size());
   for (std::size_t k = 0; k < state_.arm.joints().size(); ++k) {
     const Joint& joint = state_.arm.joints()[k];
@@ -297,8 +322,8 @@ Eigen::Matrix3Xd TipWalk::joint_jacobian(const double* q, int tool, int station,
     const Pose& before = frames.world_from_row[k];
     const Vec3 z = before.linear().col(2);
     const Vec3 move =
-        joint.type == JointType::kPrismatic ? z : Vec3(z.cross(local - before.translation()));
-    jacobian.col(joint.coordinate) += joint.multiplier * (state_.bases[station].linear() * move);
+        joint.type == JointType::kPrismatic ? z : Vec3(z.cross(tip - before.translation()));
+    jacobian.col(joint.coordinate) += joint.multiplier * move;
   }
   return jacobian;
 }

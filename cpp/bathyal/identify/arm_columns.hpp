@@ -81,6 +81,7 @@ ArmState state_at(const ArmColumns& columns, const Eigen::VectorXd& x);
 /// The tip at each pose of a measurement and how it moves with each of `wanted` columns.
 class TipWalk {
  public:
+  /// `columns` must outlive it.
   TipWalk(const ArmColumns& columns, const Eigen::VectorXd& x, std::vector<int> wanted);
 
   const ArmState& state() const { return state_; }
@@ -92,17 +93,26 @@ class TipWalk {
            Index stride) const;
 
   /// The axis about which the i-th wanted column, a plane's tilt, turns that plane's normal.
-  Vec3 plane_turn(std::size_t i) const;
+  Vec3 plane_turn(std::size_t i) const { return turn_axes_[i]; }
 
   /// d tip / d q, (3, n), and the tip.
   Eigen::Matrix3Xd joint_jacobian(const double* q, int tool, int station, RowFrames& frames,
                                   Vec3& tip) const;
 
  private:
+  /// A row as Rz(value) or Tz(value), then what does not change from pose to pose.
+  struct Step {
+    Pose behind_from_moved;
+    Vec3 x_of_row;  ///< x before the row's last turn, Ry(beta), in the frame behind it
+  };
+  void walk(const double* q, int station, RowFrames& frames) const;
+
   const ArmColumns& columns_;
   std::vector<int> wanted_;
   ArmState state_;
-  std::vector<Vec3> turn_axes_;  ///< of each wanted turn, in the frame that it turns in
+  std::vector<Step> steps_;
+  std::vector<Pose> row_from_tool_;  ///< of each tool, from the frame behind the last row
+  std::vector<Vec3> turn_axes_;      ///< of each wanted turn, in the frame that it turns in
 };
 
 }  // namespace bathyal

@@ -31,7 +31,7 @@ std::vector<Eigen::Matrix3d> tip_covariance(const ArmFit& fit, const RowMatrix& 
   }
   if (!q.allFinite()) throw_argument("q", "finite numbers", "nan or inf");
   constexpr std::size_t kPosesPerChunk = 256;
-  constexpr double kMoves = 1e-7;  // [m] per mm or mrad of a change that nobody could tell
+  constexpr double kMoves = 1e-5;  // [m] per mm or mrad of a change that nobody could tell
 
   // The base of the first station is the frame that tips are told in: it adds nothing.
   std::vector<int> wanted;

@@ -87,7 +87,7 @@ Eigen::VectorXd ArmSystem::scaled(const Eigen::VectorXd& x) const {
 
 Eigen::Matrix3Xd ArmSystem::tips(const Eigen::VectorXd& x) const {
   Eigen::Matrix3Xd tips(3, m_.rows());
-  fill_tips(TipWalk(columns_, x, {}), tips.data(), nullptr, 0, nullptr, nullptr);
+  fill_tips(TipWalk(columns_, x, {}), {.tips = tips.data()});
   return tips;
 }
 
@@ -127,32 +127,42 @@ Eigen::Matrix3Xd ArmSystem::turns(const Eigen::VectorXd& x) const {
   Eigen::Matrix3Xd positions(3, m_.rows());
   Eigen::Matrix3Xd out(3, m_.has_rotation() ? m_.rows() : 0);
   if (m_.has_rotation()) {
-    fill_tips(TipWalk(columns_, x, {}), positions.data(), nullptr, 0, out.data(), nullptr);
+    fill_tips(TipWalk(columns_, x, {}), {.tips = positions.data(), .rotations = out.data()});
   }
   return out;
 }
 
 /// Tips (3, N) as they are, and rotation residuals; with derivatives by the free columns.
-void ArmSystem::fill_tips(const TipWalk& walk, double* tips, double* jacobian, Index stride,
-                          double* rotations, double* rotation_jacobian) const {
+void ArmSystem::fill_tips(const TipWalk& walk, const TipRows& out) const {
   parallel_for(static_cast<std::size_t>(m_.rows()), kPosesPerChunk, num_threads_,
                [&](std::size_t begin, std::size_t end) {
-                 RowFrames frames;
-                 for (auto i = static_cast<Index>(begin); i < static_cast<Index>(end); ++i) {
-                   double* shift = jacobian == nullptr ? nullptr : jacobian + 3 * i;
-                   double* turn =
-                       rotation_jacobian == nullptr ? nullptr : rotation_jacobian + 3 * i;
-                   const Pose pose = walk.tip(q_.row(i).data(), m_.tool[i], m_.station[i], frames,
-                                              shift, turn, stride);
-                   Eigen::Map<Vec3>(tips + 3 * i) = pose.translation();
-                   if (rotations == nullptr) continue;
-                   const Vec3 error = vector_of(pose.linear() * m_.rotation[i].transpose());
-                   Eigen::Map<Vec3>(rotations + 3 * i) = error;
-                   if (turn == nullptr) continue;
-                   Block block(turn, 3, columns(), Eigen::OuterStride<>(stride));
-                   block = (left_jacobian(error).inverse() * block).eval();
-                 }
+                 const auto first = static_cast<Index>(begin);
+                 const auto from = [first](double* all) { return all ? all + 3 * first : all; };
+                 fill_tips(walk, first, static_cast<Index>(end),
+                           {from(out.tips), from(out.jacobian), from(out.rotations),
+                            from(out.rotation_jacobian), out.stride});
                });
+}
+
+void ArmSystem::fill_tips(const TipWalk& walk, Index begin, Index end, const TipRows& out) const {
+  RowFrames frames;
+  for (Index i = begin; i < end; ++i) {
+    const Index row = 3 * (i - begin);
+    double* shift = out.jacobian == nullptr ? nullptr : out.jacobian + row;
+    double* turn = out.rotation_jacobian == nullptr ? nullptr : out.rotation_jacobian + row;
+    const Pose pose =
+        walk.tip(q_.row(i).data(), m_.tool[i], m_.station[i], frames, shift, turn, out.stride);
+    Eigen::Map<Vec3>(out.tips + row) = pose.translation();
+    if (out.rotations == nullptr) continue;
+    const Vec3 error = vector_of(pose.linear() * m_.rotation[i].transpose());
+    Eigen::Map<Vec3>(out.rotations + row) = error;
+    if (turn == nullptr) continue;
+    const Eigen::Matrix3d error_by_turn = left_jacobian(error).inverse();
+    for (Index c = 0; c < columns(); ++c) {
+      Eigen::Map<Vec3> column(turn + c * out.stride);
+      column = error_by_turn * Vec3(column);
+    }
+  }
 }
 
 /// What one evaluation fills. The Jacobian is in the columns' own units until the end.
@@ -178,23 +188,25 @@ void ArmSystem::evaluate(const double* y, double* residuals, double* jacobian) c
   const bool in_place = criterion_ == Criterion::kCentroid;
   Eigen::VectorXd tip_scratch(in_place ? 0 : 3 * n);
   Eigen::MatrixXd jacobian_scratch(in_place || !derive ? 0 : 3 * n, columns());
-  double* tip_data = in_place ? residuals : tip_scratch.data();
-  double* tip_jacobian = in_place || !derive ? jacobian : jacobian_scratch.data();
-  const Index tip_stride = in_place ? count : 3 * n;
-  const bool turns = m_.has_rotation();
-  fill_tips(walk, tip_data, tip_jacobian, tip_stride, turns ? residuals + 3 * n : nullptr,
-            turns && derive ? jacobian + 3 * n : nullptr);
+  TipRows out{in_place ? residuals : tip_scratch.data(),
+              in_place || !derive ? jacobian : jacobian_scratch.data(), nullptr, nullptr,
+              in_place ? count : 3 * n};
+  if (m_.has_rotation()) {
+    out.rotations = residuals + 3 * n;
+    out.rotation_jacobian = derive ? jacobian + 3 * n : nullptr;
+  }
+  fill_tips(walk, out);
 
   Sheet sheet{{residuals, count},
               {jacobian, derive ? count : 0, columns(), Eigen::OuterStride<>(count)},
-              {tip_data, 3, n},
-              {tip_jacobian, derive ? 3 * n : 0, columns(), Eigen::OuterStride<>(tip_stride)},
+              {out.tips, 3, n},
+              {out.jacobian, derive ? 3 * n : 0, columns(), Eigen::OuterStride<>(out.stride)},
               {},
               {},
               {},
               derive};
   if (m_.tracked) {
-    compare_tracked(sheet);
+    compare_tracked(0, n, out);
   } else {
     find_centers(sheet);
     if (in_place) compare_with_centers(sheet);
@@ -202,24 +214,90 @@ void ArmSystem::evaluate(const double* y, double* residuals, double* jacobian) c
     compare_planes(walk, sheet);
     compare_known(sheet);
   }
-  add_linear_rows(x, sheet);
+  const Eigen::MatrixXd linear = linear_rows_at(y);
+  sheet.residuals.tail(linear.rows()) = linear.rightCols(1);
   if (!derive) return;
-  for (Index c = 0; c < columns(); ++c) {
-    sheet.jacobian.col(c) *= columns_.columns[free_[c]].scale;
-  }
+  sheet.jacobian.bottomRows(linear.rows()) = linear.leftCols(columns());
+  const Eigen::VectorXd scale = scales();
+  for (Index c = 0; c < columns(); ++c) sheet.jacobian.col(c) *= scale[c];
 }
 
-void ArmSystem::compare_tracked(Sheet& sheet) const {
-  sheet.tips -= m_.position;
-  for (Index i = 0; i < m_.rows(); ++i) {
-    const double root = std::sqrt(weight(i));
-    sheet.residuals.segment<3>(3 * i) *= root / noise_.position;
-    if (sheet.derive) sheet.jacobian.middleRows(3 * i, 3) *= root / noise_.position;
-    if (!m_.has_rotation()) continue;
-    const Index row = position_rows() + 3 * i;
-    sheet.residuals.segment<3>(row) *= root / noise_.rotation;
-    if (sheet.derive) sheet.jacobian.middleRows(row, 3) *= root / noise_.rotation;
+/// Tracked poses do not know of each other: their rows are made, used and forgotten chunk by chunk.
+/// `body(chunk, rows)` gets [J r] of a chunk, J in the columns' own units.
+template <class Body>
+void ArmSystem::for_each_tracked(const double* y, bool derive, const Body& body) const {
+  const Eigen::VectorXd x = values(Eigen::Map<const Eigen::VectorXd>(y, columns()));
+  const TipWalk walk(columns_, x, free_);
+  const Index kinds = m_.has_rotation() ? 2 : 1;
+  parallel_for(static_cast<std::size_t>(m_.rows()), kPosesPerChunk, num_threads_,
+               [&](std::size_t begin, std::size_t end) {
+                 const auto count = static_cast<Index>(end - begin);
+                 const Index wide = derive ? columns() : 0;
+                 Eigen::MatrixXd rows(3 * kinds * count, wide + 1);
+                 TipRows out{rows.col(wide).data(), derive ? rows.data() : nullptr, nullptr,
+                             nullptr, rows.rows()};
+                 if (kinds == 2) {
+                   out.rotations = out.tips + 3 * count;
+                   out.rotation_jacobian = derive ? out.jacobian + 3 * count : nullptr;
+                 }
+                 fill_tips(walk, static_cast<Index>(begin), static_cast<Index>(end), out);
+                 compare_tracked(static_cast<Index>(begin), static_cast<Index>(end), out);
+                 body(begin / kPosesPerChunk, rows);
+               });
+}
+
+/// Sums of each chunk, added in order.
+Eigen::MatrixXd ArmSystem::square(const double* y) const {
+  if (!m_.tracked) return ResidualModel::square(y);
+  const Index wide = columns() + 1;
+  std::vector<Eigen::MatrixXd> parts((static_cast<std::size_t>(m_.rows()) - 1) / kPosesPerChunk +
+                                     1);
+  for_each_tracked(y, true, [&](std::size_t chunk, const Eigen::MatrixXd& rows) {
+    parts[chunk].setZero(wide, wide);
+    parts[chunk].selfadjointView<Eigen::Lower>().rankUpdate(rows.transpose());
+  });
+  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(wide, wide);
+  for (const Eigen::MatrixXd& part : parts) sum += part;
+  const Eigen::MatrixXd linear = linear_rows_at(y);
+  sum.selfadjointView<Eigen::Lower>().rankUpdate(linear.transpose());
+  Eigen::VectorXd factors(wide);
+  factors << scales(), 1.0;
+  const Eigen::MatrixXd both = sum.selfadjointView<Eigen::Lower>();
+  return factors.asDiagonal() * both * factors.asDiagonal();
+}
+
+double ArmSystem::cost(const double* y) const {
+  if (!m_.tracked) return ResidualModel::cost(y);
+  std::vector<double> parts((static_cast<std::size_t>(m_.rows()) - 1) / kPosesPerChunk + 1);
+  for_each_tracked(y, false, [&](std::size_t chunk, const Eigen::MatrixXd& rows) {
+    parts[chunk] = rows.squaredNorm();
+  });
+  return std::accumulate(parts.begin(), parts.end(), linear_rows_at(y).rightCols(1).squaredNorm());
+}
+
+Eigen::MatrixXd ArmSystem::jacobian(const Eigen::VectorXd& x) const {
+  Eigen::VectorXd residuals(rows());
+  Eigen::MatrixXd jacobian(rows(), columns());
+  evaluate(scaled(x).data(), residuals.data(), jacobian.data());
+  return jacobian;
+}
+
+void ArmSystem::compare_tracked(Index begin, Index end, const TipRows& out) const {
+  const Index count = 3 * (end - begin);
+  Eigen::Map<Eigen::Matrix3Xd>(out.tips, 3, end - begin) -=
+      m_.position.middleCols(begin, end - begin);
+  Eigen::ArrayXd root(count);
+  for (Index i = begin; i < end; ++i) {
+    root.segment<3>(3 * (i - begin)).setConstant(std::sqrt(weight(i)));
   }
+  const auto weigh = [&](double* residuals, double* jacobian, double noise) {
+    Eigen::Map<Eigen::ArrayXd>(residuals, count) *= root / noise;
+    for (Index c = 0; jacobian != nullptr && c < columns(); ++c) {
+      Eigen::Map<Eigen::ArrayXd>(jacobian + c * out.stride, count) *= root / noise;
+    }
+  };
+  weigh(out.tips, out.jacobian, noise_.position);
+  if (m_.has_rotation()) weigh(out.rotations, out.rotation_jacobian, noise_.rotation);
 }
 
 void ArmSystem::find_centers(Sheet& sheet) const {
@@ -335,26 +413,37 @@ void ArmSystem::compare_known(Sheet& sheet) const {
   }
 }
 
-void ArmSystem::add_linear_rows(const Eigen::VectorXd& x, Sheet& sheet) const {
-  Index row = data_rows();
+Eigen::VectorXd ArmSystem::scales() const {
+  Eigen::VectorXd out(columns());
+  for (Index c = 0; c < columns(); ++c) out[c] = columns_.columns[free_[c]].scale;
+  return out;
+}
+
+Eigen::MatrixXd ArmSystem::linear_jacobian() const {
+  const Eigen::VectorXd start = Eigen::VectorXd::Zero(columns());
+  return linear_rows_at(start.data()).leftCols(columns()) * scales().asDiagonal();
+}
+
+/// [J r] of priors and linear rows; J in the columns' own units.
+Eigen::MatrixXd ArmSystem::linear_rows_at(const double* y) const {
+  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(rows() - data_rows(), columns() + 1);
+  Index row = 0;
   for (Index c = 0; use_priors_ && c < columns(); ++c) {
     const Column& column = columns_.columns[free_[c]];
     if (column.prior_std == Column::kNoPrior) continue;
-    sheet.residuals[row] = (x[free_[c]] - column.nominal) / column.prior_std;
-    if (sheet.derive) {
-      sheet.jacobian.row(row).setZero();
-      sheet.jacobian(row, c) = 1.0 / column.prior_std;
-    }
+    out(row, c) = 1.0 / column.prior_std;
+    out(row, columns()) = column.scale * y[c] / column.prior_std;
     ++row;
   }
-  const Eigen::VectorXd change = x - columns_.nominal();
   for (const LinearRow& linear : linear_) {
-    sheet.residuals[row] = linear.coefficients.dot(change) / linear.std;
-    for (Index c = 0; sheet.derive && c < columns(); ++c) {
-      sheet.jacobian(row, c) = linear.coefficients[free_[c]] / linear.std;
+    for (Index c = 0; c < columns(); ++c) {
+      const double factor = linear.coefficients[free_[c]] / linear.std;
+      out(row, c) = factor;
+      out(row, columns()) += factor * columns_.columns[free_[c]].scale * y[c];
     }
     ++row;
   }
+  return out;
 }
 
 void ArmSystem::set_noise(const Noise& noise, const Eigen::VectorXd& x) {

@@ -49,6 +49,7 @@ class ArmSystem final : public ResidualModel {
   /// Factors on the weights of the measurement, (N,): 0 leaves a row out.
   void set_trust(std::vector<double> trust) { trust_ = std::move(trust); }
   const std::vector<double>& trust() const { return trust_; }
+  double weight(Index row) const { return m_.weights[row] * trust_[row]; }
 
   /// Also brings up to date what the noise of the centroids at `x` adds to known distances and
   /// points.
@@ -69,6 +70,13 @@ class ArmSystem final : public ResidualModel {
   Index known_rows() const;
 
   void evaluate(const double* y, double* residuals, double* jacobian) const override;
+  Eigen::MatrixXd square(const double* y) const override;
+  double cost(const double* y) const override;
+
+  /// (rows, columns) at the values `x` of all columns.
+  Eigen::MatrixXd jacobian(const Eigen::VectorXd& x) const;
+  /// The rows of priors and linear rows alone: they are the same everywhere.
+  Eigen::MatrixXd linear_jacobian() const;
 
   /// All columns' values for the free ones' `y`.
   Eigen::VectorXd values(const Eigen::VectorXd& y) const;
@@ -83,17 +91,27 @@ class ArmSystem final : public ResidualModel {
   Eigen::Matrix3Xd centroids(const Eigen::VectorXd& x) const;
 
   const Measurement& measurement() const { return m_; }
+  int num_threads() const { return num_threads_; }
   const ArmColumns& arm_columns() const { return columns_; }
 
  private:
-  double weight(Index row) const { return m_.weights[row] * trust_[row]; }
   Eigen::Matrix3Xd tips(const Eigen::VectorXd& x) const;
   Eigen::Matrix3Xd centroids_of(const Eigen::Ref<const Eigen::Matrix3Xd>& tips) const;
-  void fill_tips(const TipWalk& walk, double* tips, double* jacobian, Index stride,
-                 double* rotations, double* rotation_jacobian) const;
+  /// Where the numbers of a range of poses go; what is null is not wanted.
+  struct TipRows {
+    double* tips = nullptr;      ///< (3, n)
+    double* jacobian = nullptr;  ///< (3 n, columns), `stride` from column to column
+    double* rotations = nullptr;
+    double* rotation_jacobian = nullptr;
+    Index stride = 0;
+  };
+  void fill_tips(const TipWalk& walk, const TipRows& out) const;
+  void fill_tips(const TipWalk& walk, Index begin, Index end, const TipRows& out) const;
+  void compare_tracked(Index begin, Index end, const TipRows& out) const;
+  template <class Body>
+  void for_each_tracked(const double* y, bool derive, const Body& body) const;
 
   struct Sheet;
-  void compare_tracked(Sheet& sheet) const;
   void find_centers(Sheet& sheet) const;
   void compare_with_centers(Sheet& sheet) const;
   void compare_pairs(Sheet& sheet) const;
@@ -101,7 +119,8 @@ class ArmSystem final : public ResidualModel {
   void known_residuals(const Eigen::Matrix3Xd& centers, Eigen::VectorXd& residuals,
                        Eigen::MatrixXd& by_center) const;
   void compare_known(Sheet& sheet) const;
-  void add_linear_rows(const Eigen::VectorXd& x, Sheet& sheet) const;
+  Eigen::VectorXd scales() const;
+  Eigen::MatrixXd linear_rows_at(const double* y) const;
 
   const ArmColumns& columns_;
   const Measurement& m_;

@@ -5,11 +5,15 @@
 #include <cmath>
 #include <cstdio>
 
+#include "bathyal/base/parallel.hpp"
+
 namespace bathyal {
 
 using Eigen::Index;
 
 namespace {
+
+constexpr Index kRowsPerBlock = 1024;
 
 /// Entries below this share of a direction's largest one are rounding, not partners.
 constexpr double kPartnerShare = 1e-4;
@@ -29,12 +33,30 @@ std::vector<Index> partners(const Eigen::VectorXd& direction) {
 
 }  // namespace
 
+Eigen::MatrixXd triangle_of(const Eigen::MatrixXd& rows, int num_threads) {
+  const Index columns = rows.cols();
+  if (rows.rows() <= std::max(kRowsPerBlock, 2 * columns)) {
+    Eigen::MatrixXd triangle = Eigen::MatrixXd::Zero(columns, columns);
+    const Index height = std::min(rows.rows(), columns);
+    const Eigen::HouseholderQR<Eigen::MatrixXd> qr(rows);
+    triangle.topRows(height) = qr.matrixQR().topRows(height).triangularView<Eigen::Upper>();
+    return triangle;
+  }
+  const Index block = std::max(kRowsPerBlock, 2 * columns);
+  const Index blocks = (rows.rows() + block - 1) / block;
+  Eigen::MatrixXd triangles(blocks * columns, columns);
+  parallel_for(static_cast<std::size_t>(blocks), 1, num_threads, [&](std::size_t i, std::size_t) {
+    const auto first = static_cast<Index>(i) * block;
+    triangles.middleRows(static_cast<Index>(i) * columns, columns) =
+        triangle_of(rows.middleRows(first, std::min(block, rows.rows() - first)));
+  });
+  return triangle_of(triangles);
+}
+
 Eigen::MatrixXd inverse_square(const Eigen::MatrixXd& jacobian) {
   const Index columns = jacobian.cols();
-  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(jacobian);
-  const Eigen::MatrixXd inverse =
-      qr.matrixQR().topRows(columns).triangularView<Eigen::Upper>().solve(
-          Eigen::MatrixXd::Identity(columns, columns));
+  const Eigen::MatrixXd inverse = triangle_of(jacobian).triangularView<Eigen::Upper>().solve(
+      Eigen::MatrixXd::Identity(columns, columns));
   return inverse * inverse.transpose();
 }
 
@@ -42,14 +64,7 @@ RankReport reveal_rank(const Eigen::MatrixXd& jacobian, double tolerance) {
   RankReport report;
   const Index columns = jacobian.cols();
   if (columns == 0) return report;
-  Eigen::MatrixXd triangle = Eigen::MatrixXd::Zero(columns, columns);
-  if (jacobian.rows() > columns) {
-    const Eigen::HouseholderQR<Eigen::MatrixXd> qr(jacobian);
-    triangle = qr.matrixQR().topRows(columns).triangularView<Eigen::Upper>();
-  } else {
-    triangle.topRows(jacobian.rows()) = jacobian;
-  }
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(triangle, Eigen::ComputeFullV);
+  const Eigen::BDCSVD<Eigen::MatrixXd> svd(triangle_of(jacobian), Eigen::ComputeFullV);
   report.singular_values = svd.singularValues();
   report.directions = svd.matrixV();
   const double least = tolerance * report.singular_values[0];

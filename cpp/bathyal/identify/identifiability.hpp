@@ -26,6 +26,11 @@ struct RankReport {
   Eigen::MatrixXd unseen() const { return directions.rightCols(directions.cols() - rank); }
 };
 
+/// R of the QR decomposition, (columns, columns): it has the singular values, the right singular
+/// vectors and the square of all the rows. Many rows are taken in fixed blocks whose triangles are
+/// decomposed again: the same bytes for any number of threads.
+Eigen::MatrixXd triangle_of(const Eigen::MatrixXd& rows, int num_threads = 1);
+
 /// \pre no entry is NaN
 RankReport reveal_rank(const Eigen::MatrixXd& jacobian, double tolerance = kRankTolerance);
 

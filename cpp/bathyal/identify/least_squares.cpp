@@ -8,10 +8,24 @@
 #include "bathyal/base/check.hpp"
 
 namespace bathyal {
+
+using Eigen::Index;
+
 namespace {
 
-/// A model as TinySolver wants it. The solver asks for derivatives at the start and at each point
-/// that it accepts, and nowhere else: that is where the history is written.
+/// A matrix F with FᵀF = `square`, which need not be definite.
+Eigen::MatrixXd root_of(const Eigen::MatrixXd& square) {
+  const Eigen::LDLT<Eigen::MatrixXd> factors(square);
+  const Eigen::VectorXd diagonal = factors.vectorD().cwiseMax(0.0).cwiseSqrt();
+  Eigen::MatrixXd root = Eigen::MatrixXd::Identity(square.rows(), square.cols());
+  root = factors.transpositionsP() * root;
+  root = factors.matrixU() * root;
+  return diagonal.asDiagonal() * root;
+}
+
+/// A model as TinySolver wants it: columns + 1 rows that have the JᵀJ, Jᵀr and rᵀr of all the
+/// model's rows. The solver asks for derivatives at the start and at each point that it accepts,
+/// and nowhere else: that is where the history is written.
 struct TinyFunction {
   using Scalar = double;
   enum { NUM_RESIDUALS = Eigen::Dynamic, NUM_PARAMETERS = Eigen::Dynamic };
@@ -19,14 +33,22 @@ struct TinyFunction {
   const ResidualModel& model;
   std::vector<double>& history;
 
-  int NumResiduals() const { return static_cast<int>(model.rows()); }
+  int NumResiduals() const { return NumParameters() + 1; }
   int NumParameters() const { return static_cast<int>(model.columns()); }
 
   bool operator()(const double* y, double* residuals, double* jacobian) const {
-    model.evaluate(y, residuals, jacobian);
-    if (jacobian != nullptr) {
-      history.push_back(Eigen::Map<const Eigen::VectorXd>(residuals, model.rows()).squaredNorm());
+    const Index columns = model.columns();
+    Eigen::Map<Eigen::VectorXd> r(residuals, columns + 1);
+    if (jacobian == nullptr) {
+      r.setZero();
+      r[0] = std::sqrt(model.cost(y));
+      return true;
     }
+    const Eigen::MatrixXd square = model.square(y);
+    const Eigen::MatrixXd root = root_of(square);
+    r = root.col(columns);
+    Eigen::Map<Eigen::MatrixXd>(jacobian, columns + 1, columns) = root.leftCols(columns);
+    history.push_back(square(columns, columns));
     return true;
   }
 };
@@ -39,12 +61,13 @@ LeastSquaresResult solve_tiny(const ResidualModel& model, const Eigen::VectorXd&
   solver.options.max_num_iterations = options.max_iterations + 1;  // it counts from 1
   solver.options.gradient_tolerance = 0.0;
   solver.options.parameter_tolerance = 1e-12;
-  solver.options.function_tolerance = options.cost_change;
+  solver.options.function_tolerance = options.cost_change * static_cast<double>(model.rows());
   solver.options.cost_threshold = 0.0;
   solver.options.initial_trust_region_radius = 1.0 / options.damping;
   solver.Solve(TinyFunction{model, result.history}, &result.y);
+  // The last step, when it changed next to nothing, is taken without derivatives.
   const double last = 2.0 * solver.summary.final_cost;
-  if (last != result.history.back()) result.history.push_back(last);
+  if (last < result.history.back()) result.history.push_back(last);
   result.converged = solver.summary.status != Tiny::HIT_MAX_ITERATIONS;
   return result;
 }
@@ -52,32 +75,30 @@ LeastSquaresResult solve_tiny(const ResidualModel& model, const Eigen::VectorXd&
 LeastSquaresResult solve_paper(const ResidualModel& model, const Eigen::VectorXd& start,
                                const LeastSquaresOptions& options) {
   LeastSquaresResult result{start, {}, false};
-  Eigen::VectorXd residuals(model.rows());
-  Eigen::VectorXd tried(model.rows());
-  Eigen::MatrixXd jacobian(model.rows(), model.columns());
+  const Index columns = model.columns();
+  const double settled = options.cost_change * static_cast<double>(model.rows());
   double damping = options.damping;
-
-  model.evaluate(result.y.data(), residuals.data(), jacobian.data());
-  result.history.push_back(residuals.squaredNorm());
+  Eigen::MatrixXd square = model.square(start.data());
+  result.history.push_back(square(columns, columns));
   for (int i = 0; i < options.max_iterations; ++i) {
-    Eigen::MatrixXd normal = jacobian.transpose() * jacobian;
+    Eigen::MatrixXd normal = square.topLeftCorner(columns, columns);
     normal.diagonal().array() += damping;
-    const Eigen::VectorXd step = normal.ldlt().solve(-(jacobian.transpose() * residuals));  // eq 17
+    const Eigen::VectorXd step = normal.ldlt().solve(-square.col(columns).head(columns));  // eq 17
     const Eigen::VectorXd next = result.y + step;
-    model.evaluate(next.data(), tried.data(), nullptr);
-    const double change = tried.squaredNorm() - result.history.back();
+    const double cost = model.cost(next.data());
+    const double change = cost - result.history.back();
     if (change < 0.0) {
       result.y = next;
-      result.history.push_back(tried.squaredNorm());
-      model.evaluate(result.y.data(), residuals.data(), jacobian.data());
+      result.history.push_back(cost);
       damping *= options.factor;
     } else {
       damping /= options.factor;
     }
-    if (std::abs(change) <= options.cost_change) {
+    if (std::abs(change) <= settled) {
       result.converged = true;
       break;
     }
+    if (change < 0.0) square = model.square(result.y.data());
   }
   return result;
 }
@@ -95,16 +116,24 @@ void LeastSquaresOptions::check() const {
   check_not_negative("cost_change", cost_change);
 }
 
+Eigen::MatrixXd ResidualModel::square(const double* y) const {
+  Eigen::MatrixXd both(rows(), columns() + 1);
+  evaluate(y, both.col(columns()).data(), both.data());
+  Eigen::MatrixXd square = Eigen::MatrixXd::Zero(both.cols(), both.cols());
+  square.selfadjointView<Eigen::Lower>().rankUpdate(both.transpose());
+  return square.selfadjointView<Eigen::Lower>();
+}
+
+double ResidualModel::cost(const double* y) const {
+  Eigen::VectorXd residuals(rows());
+  evaluate(y, residuals.data(), nullptr);
+  return residuals.squaredNorm();
+}
+
 LeastSquaresResult solve_least_squares(const ResidualModel& model, const Eigen::VectorXd& start,
                                        const LeastSquaresOptions& options) {
   options.check();
-  if (model.columns() == 0) {
-    LeastSquaresResult result{start, {}, true};
-    Eigen::VectorXd residuals(model.rows());
-    model.evaluate(start.data(), residuals.data(), nullptr);
-    result.history.push_back(residuals.squaredNorm());
-    return result;
-  }
+  if (model.columns() == 0) return {start, {model.cost(start.data())}, true};
   return options.solver == Solver::kPaper ? solve_paper(model, start, options)
                                           : solve_tiny(model, start, options);
 }

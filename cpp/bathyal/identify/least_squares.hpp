@@ -17,6 +17,13 @@ class ResidualModel {
   /// Fills `residuals` (rows) and, unless it is null, `jacobian` (rows × columns, column by
   /// column).
   virtual void evaluate(const double* y, double* residuals, double* jacobian) const = 0;
+
+  /// [J r]ᵀ[J r], (columns + 1, columns + 1): enough for a step, not for a rank. By default from
+  /// `evaluate`; models of many rows need not have them all in memory at once.
+  virtual Eigen::MatrixXd square(const double* y) const;
+
+  /// Sum of squared residuals.
+  virtual double cost(const double* y) const;
 };
 
 enum class Solver {
@@ -29,7 +36,7 @@ struct LeastSquaresOptions {
   int max_iterations = 100;    ///< 1 or more
   double damping = 1e-8;       ///< the first one, relative (paper: absolute), above 0
   double factor = 0.1;         ///< eta of eq 17, in (0, 1)
-  double cost_change = 1e-13;  ///< stops when the sum of squares changes by less, 0 or more
+  double cost_change = 1e-13;  ///< stops when the mean square changes by less, 0 or more
 
   void check() const;
 };
@@ -42,9 +49,10 @@ struct LeastSquaresResult {
 
 /// The nearest minimum of the sum of squared residuals, from `start`.
 ///
-/// Directions that no residual feels do no harm: both ways are damped, and stay put along them.
-/// For eq 17 the printed rule is mended: the damping falls after success and grows after failure,
-/// and the stop test takes the absolute value of the change.
+/// Steps are found from JᵀJ, as TinySolver and the paper do; the model's rows are seen only through
+/// `square` and `cost`. Directions that no residual feels do no harm: both ways are damped, and
+/// stay put along them. For eq 17 the printed rule is mended: the damping falls after success and
+/// grows after failure, and the stop test takes the absolute value of the change.
 LeastSquaresResult solve_least_squares(const ResidualModel& model, const Eigen::VectorXd& start,
                                        const LeastSquaresOptions& options = {});
 
