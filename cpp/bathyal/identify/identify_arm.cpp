@@ -18,6 +18,7 @@ constexpr double kLeastNoise = 1e-9;     ///< [m] or [rad]; exact data have no s
 constexpr int kMostRounds = 12;
 constexpr double kNoiseSettled = 1e-4;  ///< relative
 constexpr double kTrustSettled = 1e-4;
+constexpr double kSizeSettled = 1e-9;  ///< in units of the columns' scale
 constexpr double kMedianOfNorm = 1.5381722544550522;  ///< of a normal 3-vector of unit std
 /// A column's share in an unseen direction from which it counts as part of it.
 constexpr double kUnseenShare = 1e-4;
@@ -48,6 +49,7 @@ class Search {
   void solve_with_noise();
   void solve_with_trust();
   bool update_noise();
+  void undo_size_draw();
   double robust_noise(const Eigen::VectorXd& norms) const;
   Eigen::VectorXd norms(const Eigen::VectorXd& x) const;
   void prune();
@@ -109,6 +111,7 @@ ArmFit Search::run() {
   solve_with_noise();
   if (options_.loss != Loss::kSquare) solve_with_trust();
   if (options_.prune_sigma) prune();
+  if (!m_.tracked && m_.tells_scale()) undo_size_draw();
 
   report_fit(fit);
   report_parameters(fit);
@@ -436,6 +439,23 @@ RowMatrix Search::exact_joints() const {
     }
   }
   return q;
+}
+
+/// Scatter is recorded in joint values, and a smaller arm shows less of it: the least sum of squares
+/// is that of an arm too small by (degrees of freedom) · (relative std of its size)², many std where
+/// hundreds of touches lean on a short known distance. The derivatives of exact touches know nothing
+/// of the scatter, so that steps along them end where what is known of the size is met.
+void Search::undo_size_draw() {
+  Eigen::VectorXd residuals(system_->rows());
+  for (int round = 0; round < kMostRounds; ++round) {
+    ArmSystem exact = *system_;
+    exact.set_joints(exact_joints());
+    const Eigen::VectorXd y = system_->scaled(x_);
+    system_->evaluate(y.data(), residuals.data(), nullptr);
+    const Eigen::VectorXd step = jacobian_of(exact).householderQr().solve(-residuals);
+    x_ = system_->values(y + step);
+    if (step.norm() < kSizeSettled) break;
+  }
 }
 
 /// (free, free), scaled, for exact touches; what is blind counts nothing.
