@@ -18,7 +18,7 @@ constexpr double kLeastNoise = 1e-9;     ///< [m] or [rad]; exact data have no s
 constexpr int kMostRounds = 12;
 constexpr double kNoiseSettled = 1e-4;  ///< relative
 constexpr double kTrustSettled = 1e-4;
-constexpr double kSizeSettled = 1e-9;  ///< in units of the columns' scale
+constexpr double kSizeSettled = 1e-6;  ///< in units of the columns' scale: nm and nrad
 constexpr double kMedianOfNorm = 1.5381722544550522;  ///< of a normal 3-vector of unit std
 /// A column's share in an unseen direction from which it counts as part of it.
 constexpr double kUnseenShare = 1e-4;
