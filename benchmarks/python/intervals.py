@@ -15,7 +15,7 @@ import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "tests" / "python"))
 
-from interval_cases import CASES, show  # noqa: E402
+from interval_cases import CASES, show
 
 TITLES = {
     "tracked": "63 tracked positions",
