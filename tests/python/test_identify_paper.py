@@ -170,11 +170,10 @@ def test_exact_tracked_positions_give_the_arm_back(name: str) -> None:
     np.testing.assert_allclose(fit.arm.forward(elsewhere)[:, :3, 3], tips, rtol=0, atol=1e-9)
 
 
-@pytest.mark.parametrize("name", ARMS)
-def test_exact_touches_with_a_known_distance_give_the_arm_back(name: str) -> None:
-    make, _, columns = ARMS[name]
+def exact_touches(name: str) -> tuple[bathyal.Arm, bathyal.Arm, Array, Array, Array]:
+    """Nominal and true arm; 30 poses of the true one on each of four points, labels, points."""
     random = np.random.default_rng(4)
-    nominal = make()
+    nominal = ARMS[name][0]()
     nominal.tool = shift(0.01, -0.02, 0.15)
     true = true_arm(nominal, random)
     points = nominal.forward(anywhere(nominal, 4, random))[:, :3, 3]
@@ -185,17 +184,53 @@ def test_exact_touches_with_a_known_distance_give_the_arm_back(name: str) -> Non
         solution = nominal.inverse(targets, starts, task="position")
         poses.append(solution.q[solution.status == "reached"][:30])
     labels = np.repeat(np.arange(4), 30)
-    q = moved_to(true, np.vstack(poses), points[labels])
-    touches = bathyal.Touches(q, labels, known_distances=distances_of(points, [(0, 1)]))
-    fit = bathyal.identify_arm(nominal, touches)
+    return nominal, true, moved_to(true, np.vstack(poses), points[labels]), labels, points
+
+
+def check_touched(fit: Any, nominal: bathyal.Arm, true: bathyal.Arm, columns: int) -> None:
     assert fit.rms_before > 1e-4
     assert fit.rms_after < 1e-10
     assert fit.rank == columns
     check_found(fit, true, columns)
-    elsewhere = anywhere(nominal, 100, random)
+    elsewhere = anywhere(nominal, 100, np.random.default_rng(5))
     tips = true.forward(elsewhere)[:, :3, 3]
     assert bathyal.verify_arm(nominal, elsewhere, tips).rms_after > 1e-4
     assert bathyal.verify_arm(fit.arm, elsewhere, tips).deviation.max() < 1e-9
+
+
+@pytest.mark.parametrize("name", ARMS)
+def test_exact_touches_with_a_known_distance_give_the_arm_back(name: str) -> None:
+    nominal, true, q, labels, points = exact_touches(name)
+    touches = bathyal.Touches(q, labels, known_distances=distances_of(points, [(0, 1)]))
+    fit = bathyal.identify_arm(nominal, touches)
+    assert fit.scale_source == "known distance"
+    check_touched(fit, nominal, true, ARMS[name][2])
+
+
+def test_a_sliding_joint_tells_the_size() -> None:
+    """Its travel is recorded in metres: no distance need be known, and no prior stands in."""
+    nominal, true, q, labels, _ = exact_touches("lift")
+    fit = bathyal.identify_arm(nominal, bathyal.Touches(q, labels))
+    assert fit.scale_source == "travel of sliding joints"
+    check_touched(fit, nominal, true, ARMS["lift"][2])
+
+
+def test_a_slide_that_stands_still_does_not() -> None:
+    random = np.random.default_rng(4)
+    nominal = lift_arm()
+    table = nominal.to_dh()
+    turning = bathyal.Arm.from_dh(
+        a=table.a[1:], alpha=table.alpha[1:], d=table.d[1:], theta=table.theta[1:]
+    )
+    points = turning.forward(random.uniform(-2, 2, (4, 4)))[:, :3, 3]
+    targets = np.repeat([shift(*point) for point in points], 40, axis=0)
+    solution = turning.inverse(targets, random.uniform(-2, 2, (160, 4)), task="position")
+    reached = solution.status == "reached"
+    q = np.column_stack([np.full(reached.sum(), 0.4), solution.q[reached]])
+    touches = bathyal.Touches(q, np.repeat(np.arange(4), 40)[reached])
+    fit = bathyal.identify_arm(nominal, touches)
+    assert fit.rms_before < 1e-3
+    assert fit.scale_source == "prior on lengths (1 mm)"
 
 
 # Intervals ----------------------------------------------------------------------------------------

@@ -55,6 +55,7 @@ class Search {
   void prune();
 
   void look();
+  void ask_for_size();
   RowMatrix exact_joints() const;
   Eigen::MatrixXd jacobian_of(const ArmSystem& system) const;
   Eigen::MatrixXd covariance() const;
@@ -74,10 +75,11 @@ class Search {
   std::vector<int> fixed_;
   std::vector<int> pruned_;
   std::optional<double> length_prior_;
+  bool size_told_ = false;  ///< by the data, whatever the priors say
   std::optional<ArmSystem> system_;
-  RankReport rank_;              ///< of all columns, by the data, at nominal
-  Eigen::MatrixXd unseen_;       ///< (P, k) scaled changes of free columns that the data do not see
-  Eigen::MatrixXd blind_;        ///< those of them that no prior holds either
+  RankReport rank_;         ///< of all columns, by the data, at nominal
+  Eigen::MatrixXd unseen_;  ///< (P, k) scaled changes of free columns that the data do not see
+  Eigen::MatrixXd blind_;   ///< those of them that no prior holds either
   std::vector<LinearRow> holds_;  ///< keep what is blind at nominal
   Eigen::VectorXd x_;
   std::vector<double> history_;
@@ -90,6 +92,7 @@ Search::Search(const Arm& arm, const Measurement& measurement, const IdentifyOpt
       options_(options),
       base_free_(options.base == BaseChoice::kFree ||
                  (options.base == BaseChoice::kAuto && measurement.tracked)),
+      size_told_(measurement.tells_scale()),
       columns_{arm, {}, {}, {}, {}, {}} {
   if (base_free_ && !m_.in_world()) {
     throw_argument("base", "\"fixed\" or \"auto\" for touches of points that nobody told",
@@ -105,13 +108,14 @@ ArmFit Search::run() {
   system_.emplace(columns_, m_, options_.criterion, options_.pair_weights, options_.num_threads);
   settle_frames();
   look();
+  ask_for_size();
 
   ArmFit fit(arm_);
   report_before(fit);
   solve_with_noise();
   if (options_.loss != Loss::kSquare) solve_with_trust();
   if (options_.prune_sigma) prune();
-  if (!m_.tracked && m_.tells_scale()) undo_size_draw();
+  if (!m_.tracked && size_told_) undo_size_draw();
 
   report_fit(fit);
   report_parameters(fit);
@@ -153,7 +157,7 @@ void Search::set_length_prior(double std) {
 
 void Search::set_priors() {
   length_prior_ = options_.length_prior;
-  if (!length_prior_ && !m_.tells_scale()) length_prior_ = options_.size_prior;
+  if (!length_prior_ && !size_told_) length_prior_ = options_.size_prior;
   if (length_prior_) set_length_prior(*length_prior_);
   for (std::size_t i = 0; i < columns_.columns.size(); ++i) {
     Column& column = columns_.columns[i];
@@ -219,6 +223,8 @@ void Search::settle_frames() {
 /// there is held, for the little light that it gets elsewhere is not to be trusted (plain DH beside
 /// parallel axes runs off along such directions).
 void Search::look() {
+  holds_.clear();
+  system_->set_linear_rows({});
   ArmSystem equal = *system_;
   equal.set_joints(exact_joints());
   equal.set_criterion(Criterion::kCentroid, false);
@@ -255,6 +261,20 @@ void Search::look() {
   system_->set_linear_rows(holds_);
 }
 
+/// The travel of a sliding joint is known, so that touches tell the size of an arm that has one: no
+/// change of the size is among those that the data do not see. The prior that stood in for it goes.
+void Search::ask_for_size() {
+  if (size_told_) return;
+  Eigen::VectorXd size = size_derivative();
+  for (Index i = 0; i < size.size(); ++i) size[i] *= columns_.columns[i].scale;
+  if ((unseen_.transpose() * size).norm() > kUnseenShare * size.norm()) return;
+  size_told_ = true;
+  if (options_.length_prior) return;
+  length_prior_.reset();
+  set_length_prior(Column::kNoPrior);
+  look();
+}
+
 /// Derivative of the arm's size by the columns: Σ L (x - L) / Σ L² over the rows' lengths L. Where
 /// they are all zero there is nothing but the tool that could shrink.
 Eigen::VectorXd Search::size_derivative() const {
@@ -289,7 +309,7 @@ void Search::solve() {
 /// Where a loose prior alone holds the size, the noise that it is weighed against is found first
 /// with a firm one: else both shrink together.
 void Search::solve_with_noise() {
-  const bool loose = !m_.tells_scale() && *length_prior_ > options_.size_prior;
+  const bool loose = !size_told_ && *length_prior_ > options_.size_prior;
   if (loose) {
     const double asked = *length_prior_;
     set_length_prior(options_.size_prior);
@@ -441,10 +461,11 @@ RowMatrix Search::exact_joints() const {
   return q;
 }
 
-/// Scatter is recorded in joint values, and a smaller arm shows less of it: the least sum of squares
-/// is that of an arm too small by (degrees of freedom) · (relative std of its size)², many std where
-/// hundreds of touches lean on a short known distance. The derivatives of exact touches know nothing
-/// of the scatter, so that steps along them end where what is known of the size is met.
+/// Scatter is recorded in joint values, and a smaller arm shows less of it: the least sum of
+/// squares is that of an arm too small by (degrees of freedom) · (relative std of its size)², many
+/// std where hundreds of touches lean on a short known distance. The derivatives of exact touches
+/// know nothing of the scatter, so that steps along them end where what is known of the size is
+/// met.
 void Search::undo_size_draw() {
   Eigen::VectorXd residuals(system_->rows());
   for (int round = 0; round < kMostRounds; ++round) {
@@ -594,7 +615,7 @@ void Search::report_scale(ArmFit& fit) const {
     sum += distance.told * distance.found;
     found += distance.found * distance.found;
   }
-  const double to_true_size = found > 0.0 ? sum / found : m_.tells_scale() ? 1.0 : 1.0 / fit.scale;
+  const double to_true_size = found > 0.0 ? sum / found : size_told_ ? 1.0 : 1.0 / fit.scale;
   fit.rms_after_scaled = fit.rms_after * to_true_size;
 
   if (m_.tracked) {
@@ -603,6 +624,8 @@ void Search::report_scale(ArmFit& fit) const {
     fit.scale_source = "known points";
   } else if (!m_.distances.empty()) {
     fit.scale_source = m_.distances.size() == 1 ? "known distance" : "known distances";
+  } else if (size_told_) {
+    fit.scale_source = "travel of sliding joints";
   } else {
     fit.scale_source = "prior on lengths (" + to_text(*length_prior_ * 1e3) + " mm)";
   }
