@@ -194,6 +194,11 @@ Rank and covariance come from QR and singular values of the Jacobian with its co
 mrad; a singular value below 1e-7 of the largest is none. Noise is estimated with 3 Σ(m_i − 1) −
 rank degrees of freedom.
 
+Touches scatter less on a smaller arm, and least squares lean that way: by (degrees of freedom) ·
+(relative std of the size)². Where known distances or points, or a sliding joint, tell the size, this
+is taken away (the derivatives of exact touches decide, not those of scattered ones). Where only a
+prior tells it, the paper's criterion stands as it is: read ``scale_source``, and trust no small rms.
+
 Examples
 --------
 >>> import bathyal, numpy as np

@@ -78,19 +78,19 @@ Returns
         }
         return to_numpy(std::move(pairs));
       },
-      py::arg("predicted"), py::arg("measured"), py::kw_only(),
+      py::arg("predicted"), py::arg("positions"), py::kw_only(),
       py::arg("max_iterations") = IcpOptions{}.max_iterations,
       R"(Which measured position lies nearest to each predicted one (Besl, McKay 1992).
 
 Parameters
 ----------
-predicted, measured : (N, 3) and (M, 3) arrays
+predicted, positions : (N, 3) and (M, 3) arrays
     [m]; three rows or more of each. Their centroids are laid upon each other first.
 max_iterations : int
 
 Returns
 -------
 (N,) int array
-    Rows of `measured`; two predictions may share one.
+    Rows of `positions`, each once.
 )");
 }

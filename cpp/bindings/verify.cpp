@@ -50,7 +50,7 @@ void bind_verify(py::module_& module) {
         const Points onto = points_argument("positions", measured);
         return std::make_shared<Verification>(verify_positions(from.view(), onto.view(), pairs));
       },
-      py::arg("predicted"), py::arg("measured"), py::kw_only(),
+      py::arg("predicted"), py::arg("positions"), py::kw_only(),
       py::arg("pairs") = std::vector<Index>{},
       "The comparison behind `verify_arm`, of positions (N, 3) [m].");
 }

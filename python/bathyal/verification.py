@@ -3,10 +3,12 @@
 
 from __future__ import annotations
 
+import numpy as np
 from numpy.typing import ArrayLike
 
 from bathyal import _core, optional
 from bathyal._core import Arm, Verification
+from bathyal.errors import argument_error
 
 
 def verify_arm(
@@ -29,8 +31,9 @@ def verify_arm(
         Measured, in any frame [m].
     pairing : {"exact", "icp"}
         "exact" pairs row with row. "icp" finds for each prediction the measured position that
-        PCL's iterative closest point leaves nearest, for positions in any order, and of another
-        number; it needs the optional extension ``_pcl`` and clouds that lie close from the start.
+        PCL's iterative closest point leaves nearest, for positions in any order, of which there may
+        be more than poses; it needs the optional extension ``_pcl`` and clouds that lie close from
+        the start.
 
     Returns
     -------
@@ -41,9 +44,11 @@ def verify_arm(
     Raises
     ------
     ValueError
-        For fewer than three positions, positions on one line, other numbers of rows.
+        For fewer than three positions, positions on one line, other numbers of rows, numbers that
+        are not finite.
     Error
-        For "icp" without the extension, or when it does not converge.
+        For "icp" without the extension, when it does not converge, or pairs two poses with one
+        position.
 
     Examples
     --------
@@ -54,10 +59,12 @@ def verify_arm(
     >>> bool(bathyal.verify_arm(arm, q, seen).rms_after < 1e-12)
     True
     """
-    predicted = arm.forward(q)[:, :3, 3]
+    predicted = arm.forward(q)[..., :3, 3]
+    if predicted.ndim != 2 or len(predicted) < 3:
+        raise argument_error("q", "three rows or more", f"shape {np.shape(q)}")
     if pairing == "exact":
         return _core.verify_positions(predicted, positions)
     if pairing == "icp":
         pairs = optional.pcl('pairing="icp"', 'pairing="exact"').pair_by_icp(predicted, positions)
         return _core.verify_positions(predicted, positions, pairs=pairs.tolist())
-    raise ValueError(f'`pairing`: expected "exact" or "icp", got {pairing!r}')
+    raise argument_error("pairing", '"exact" or "icp"', repr(pairing))

@@ -28,18 +28,20 @@ void check_spread(std::string_view name, const PointMatrix& centred) {
 
 }  // namespace
 
-Pose align(PointView from, PointView onto) {
+Pose align(PointView from, PointView onto, std::string_view from_name, std::string_view onto_name) {
   if (from.rows() != onto.rows()) {
-    throw_argument("onto", "as many rows as from (" + std::to_string(from.rows()) + ")",
-                   std::to_string(onto.rows()));
+    throw_argument(
+        onto_name,
+        "as many rows as `" + std::string(from_name) + "` (" + std::to_string(from.rows()) + ")",
+        std::to_string(onto.rows()));
   }
-  if (from.rows() < 3) throw_argument("from", "three rows or more", std::to_string(from.rows()));
-  check_points_finite("from", from);
-  check_points_finite("onto", onto);
+  if (from.rows() < 3) throw_argument(from_name, "three rows or more", std::to_string(from.rows()));
+  check_points_finite(from_name, from);
+  check_points_finite(onto_name, onto);
   const Eigen::RowVector3d from_centre = centroid(from), onto_centre = centroid(onto);
   const PointMatrix a = from.rowwise() - from_centre, b = onto.rowwise() - onto_centre;
-  check_spread("from", a);
-  check_spread("onto", b);
+  check_spread(from_name, a);
+  check_spread(onto_name, b);
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(b.transpose() * a,
                                               Eigen::ComputeFullU | Eigen::ComputeFullV);
   Vec3 signs = Vec3::Ones();

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <string_view>
+
 #include "bathyal/geometry/pose.hpp"
 
 namespace bathyal {
@@ -9,7 +11,8 @@ namespace bathyal {
 /// 1991, without scale and without mirroring), computed about the centroids.
 /// \throw std::invalid_argument for different numbers of rows, fewer than three, rows that are not
 /// finite, or points of either side that lie on one line: the turn about it would be anybody's
-/// guess.
-Pose align(PointView from, PointView onto);
+/// guess. They are named in its text as the caller's own arguments may be.
+Pose align(PointView from, PointView onto, std::string_view from_name = "from",
+           std::string_view onto_name = "onto");
 
 }  // namespace bathyal

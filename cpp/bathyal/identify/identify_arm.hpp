@@ -54,7 +54,12 @@ struct IdentifyOptions {
 /// axis is nearly parallel), the tool and, for tracked poses, the base. What base and tool can do
 /// as well is held at nominal (`Status::kGauge`). Touches of one point need only agree; an arm that
 /// shrinks would make them, so that their sum of squares says nothing of the arm's size: known
-/// distances or points tell it, or a prior on the lengths holds it, and `scale_source` says which.
+/// distances or points or a joint that slides tell it, or a prior on the lengths holds it, and
+/// `scale_source` says which. Scatter is recorded in joint values and a smaller arm shows less of
+/// it: the least sum of squares lies at an arm too small by (degrees of freedom) · (relative std of
+/// the size)². A told size is freed of that by steps along the derivatives of exact touches, which
+/// leave the sum a little above its least. Where a prior holds the size, the sum alone decides, as
+/// in the paper, and a loose prior lets the arm shrink.
 ///
 /// Directions that the data do not see stay at nominal. Noise is estimated from the residuals with
 /// 3 Σ(m_i - 1) - rank degrees of freedom and sets the weight of what is known beside the touches.

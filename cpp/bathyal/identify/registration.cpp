@@ -41,6 +41,20 @@ class QuietPcl {
   pcl::console::VERBOSITY_LEVEL before_ = pcl::console::getVerbosityLevel();
 };
 
+void check_none_shared(const std::vector<Index>& pairs, Index positions) {
+  std::vector<Index> owner(static_cast<std::size_t>(positions), -1);
+  for (Index i = 0; i < static_cast<Index>(pairs.size()); ++i) {
+    Index& taken = owner[pairs[i]];
+    if (taken >= 0) {
+      throw Error("the iterative closest point algorithm leaves predictions " +
+                  std::to_string(taken) + " and " + std::to_string(i) +
+                  " nearest to the same position, row " + std::to_string(pairs[i]) +
+                  ": the clouds lie too far apart to be paired by it");
+    }
+    taken = i;
+  }
+}
+
 }  // namespace
 
 void IcpOptions::check() const {
@@ -49,9 +63,15 @@ void IcpOptions::check() const {
   }
 }
 
-std::vector<Index> pair_by_icp(PointView from, PointView onto, const IcpOptions& options) {
+std::vector<Index> pair_by_icp(PointView predicted, PointView positions,
+                               const IcpOptions& options) {
   options.check();
-  const Cloud::Ptr source = to_pcl("from", from), target = to_pcl("onto", onto);
+  const Cloud::Ptr source = to_pcl("predicted", predicted);
+  const Cloud::Ptr target = to_pcl("positions", positions);
+  if (target->size() < source->size()) {
+    throw_argument("positions", "as many rows as there are predictions, or more",
+                   std::to_string(target->size()) + " for " + std::to_string(source->size()));
+  }
   const QuietPcl quiet;
   pcl::IterativeClosestPoint<pcl::PointXYZ, pcl::PointXYZ> icp;
   icp.setInputSource(source);
@@ -71,6 +91,7 @@ std::vector<Index> pair_by_icp(PointView from, PointView onto, const IcpOptions&
     icp.getSearchMethodTarget()->nearestKSearch(point, 1, nearest, squared);
     pairs.push_back(nearest[0]);
   }
+  check_none_shared(pairs, positions.rows());
   return pairs;
 }
 

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <stdexcept>
+#include <string>
 
 namespace bathyal {
 namespace {
@@ -47,8 +48,32 @@ TEST(VerifyPositions, PairsNameTheRows) {
   std::vector<Index> pairs;
   for (Index i = 7; i >= 0; --i) pairs.push_back(i);
   EXPECT_LT(verify_positions(view(predicted), view(measured), pairs).rms_after, 1e-12);
-  pairs[0] = 8;
-  EXPECT_THROW(verify_positions(view(predicted), view(measured), pairs), std::invalid_argument);
+  const auto refused = [&](std::vector<Index> wrong) {
+    EXPECT_THROW(verify_positions(view(predicted), view(measured), wrong), std::invalid_argument);
+  };
+  refused({8, 6, 5, 4, 3, 2, 1, 0});
+  refused({-1, 6, 5, 4, 3, 2, 1, 0});
+  refused({6, 6, 5, 4, 3, 2, 1, 0});
+  refused({7, 6, 5});
+}
+
+TEST(VerifyPositions, MistakesAreToldByTheCallersNames) {
+  const PointMatrix predicted = corners();
+  PointMatrix measured = predicted.topRows(7);
+  const auto text_of = [&] {
+    try {
+      verify_positions(view(predicted), view(measured));
+    } catch (const std::invalid_argument& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(text_of(), "`positions`: expected as many rows as `predicted` (8), got 7");
+  measured = predicted;
+  measured.rightCols(2).setZero();
+  EXPECT_EQ(text_of().substr(0, 11), "`positions`");
+  measured(3, 1) = std::nan("");
+  EXPECT_EQ(text_of().substr(0, 11), "`positions`");
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "bathyal/base/error.hpp"
 #include "bathyal/base/random.hpp"
 
 namespace bathyal {
@@ -44,6 +45,23 @@ TEST(PairByIcp, RefusesWhatItCannotPair) {
   points(4, 2) = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THROW(pair_by_icp(view(points), view(points)), std::invalid_argument);
   EXPECT_THROW(pair_by_icp(view(two), view(two), {.max_iterations = 0}), std::invalid_argument);
+}
+
+TEST(PairByIcp, LeavesOverWhatNobodyPredicted) {
+  const PointMatrix points = lattice();
+  PointMatrix measured(28, 3);
+  measured << points, Eigen::RowVector3d(1.5, 1.5, 1.5);
+  std::vector<Index> expected(27);
+  std::iota(expected.begin(), expected.end(), Index{0});
+  EXPECT_EQ(pair_by_icp(view(points), view(measured)), expected);
+  EXPECT_THROW(pair_by_icp(view(measured), view(points)), std::invalid_argument);
+}
+
+TEST(PairByIcp, NeverGivesOnePositionTwice) {
+  const PointMatrix points = lattice();
+  PointMatrix measured = points;
+  measured.row(13) += Eigen::RowVector3d(3.0, 3.0, 3.0);  // far from its prediction
+  EXPECT_THROW(pair_by_icp(view(points), view(measured)), Error);
 }
 
 }  // namespace
