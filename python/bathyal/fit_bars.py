@@ -17,10 +17,10 @@ from bathyal.palette import INK, STATUSES
 
 _MOST_LINES = 40
 # Shares of the table's width: right ends of the columns of numbers, the bars, the words.
-_NOMINAL, _VALUE, _CHANGE = 0.215, 0.325, 0.455
-_BARS = (0.475, 0.215)
-_WORDS, _TRADES = 0.705, 0.835
-_TRADES_WIDE = 44
+_NOMINAL, _VALUE, _CHANGE = 0.185, 0.300, 0.455
+_BARS = (0.470, 0.185)
+_WORDS, _TRADES = 0.668, 0.812
+_TRADES_WIDE = 40
 _INTERVAL = 2.0  # standard deviations: 95 %
 
 

@@ -28,7 +28,7 @@ _LINE = 0.0118  # between two lines of text
 _COLUMNS = 128  # letters in a line
 _WARNINGS_SHOWN = 5
 _TOP, _FOOT = 0.975, 0.045
-_GAP = 0.052  # between two rows of plots
+_GAP = 0.047  # between two rows of plots
 _FIRST_ROW, _LAST_ROW = 0.27, 0.19  # shares of what the text leaves; the table has the rest
 _MOST_PANELS = 10
 
@@ -65,7 +65,7 @@ def fit_figure(fit: ArmFit, data: Touches | Tracked, *, title: str = "") -> Figu
     figure = Figure(figsize=_SIZE_IN, dpi=_DPI, facecolor="white")
     FigureCanvasAgg(figure)
     top = _write_words(figure, fit, data, title)
-    height = top - _FOOT - 3 * _GAP + 0.012
+    height = top - _FOOT - 2 * _GAP
     width = _RIGHT - _LEFT
 
     first = _FIRST_ROW * height
@@ -74,7 +74,7 @@ def fit_figure(fit: ArmFit, data: Touches | Tracked, *, title: str = "") -> Figu
     _draw_singular_values(figure.add_axes((_LEFT + 0.70 * width, bottom, 0.30 * width, first)), fit)
     last = _LAST_ROW * height
     table = height - first - last
-    draw_parameters(figure, fit, (_LEFT, bottom - _GAP - table, width, table))
+    draw_parameters(figure, fit, (_LEFT, bottom - 0.8 * _GAP - table, width, table))
     _draw_residuals(figure, fit, data, (_LEFT, _FOOT, width, last))
     return figure
 
@@ -135,7 +135,7 @@ def _draw_curves(axes: Axes, curves: Curves) -> None:
     axes.set(xlim=(-0.5, start - 0.5), yscale="log", ylim=(1e3 * low, 1e3 * high))
     if len(curves.curves) <= 8:
         for curve, left, right in zip(curves.curves, edges[:-1], edges[1:], strict=True):
-            text = f"{curve.name}\n{1e3 * curve.rms_before:.3g} → {1e3 * curve.rms_after:.3g}"
+            text = f"{curve.name}\n{1e3 * curve.rms_before:.3g} → {1e3 * curve.rms_after:.3g} mm"
             axes.text(
                 (left + right) / 2, 1.01, text, transform=axes.get_xaxis_transform(),
                 ha="center", va="bottom", fontsize=6.5, color=INK,

@@ -16,7 +16,7 @@ Floats = NDArray[np.float64]
 # What a status of `FitParameter` says.
 STATUS = {
     "identified": "identified",
-    "gauge": "left to base and tool",
+    "gauge": "base or tool does it",
     "prior": "rests on a prior",
     "not_identifiable": "not told",
     "fixed": "held on request",
@@ -51,7 +51,7 @@ def surely_text(fit: ArmFit) -> str:
             f" In {share:.0%} of its poses the tip moves by something that nobody told, and no "
             "standard deviation can be said."
         )
-    return f"{text} The arm's size is known to {_share(fit.scale_std)}."
+    return f"{text} The arm's size is known to {1e2 * fit.scale_std:.2g} %."
 
 
 def next_touches(fit: ArmFit, data: Touches | Tracked) -> list[str]:
@@ -145,7 +145,3 @@ def _looks(fit: ArmFit) -> tuple[Floats, Floats]:
 
 def _mm(metres: float) -> str:
     return f"{1e3 * metres:.3g} mm"
-
-
-def _share(relative: float) -> str:
-    return f"{1e2 * relative:.2g} %" if relative >= 1e-3 else f"{1e6 * relative:.2g} ppm"
