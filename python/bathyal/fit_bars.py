@@ -11,17 +11,16 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from bathyal._core import ArmFit
-from bathyal.fit_tables import Line, lines
+from bathyal.fit_tables import INTERVAL, Line, bar_limit, lines, number
 from bathyal.fit_words import STATUS
 from bathyal.palette import INK, STATUSES
 
 _MOST_LINES = 40
 # Shares of the table's width: right ends of the columns of numbers, the bars, the words.
-_NOMINAL, _VALUE, _CHANGE = 0.185, 0.300, 0.455
+_NOMINAL, _VALUE, _CHANGE = 0.175, 0.282, 0.458
 _BARS = (0.470, 0.185)
 _WORDS, _TRADES = 0.668, 0.812
 _TRADES_WIDE = 40
-_INTERVAL = 2.0  # standard deviations: 95 %
 
 
 def draw_parameters(figure: Figure, fit: ArmFit, place: tuple[float, float, float, float]) -> None:
@@ -32,7 +31,7 @@ def draw_parameters(figure: Figure, fit: ArmFit, place: tuple[float, float, floa
     axes.set(ylim=(len(shown) - 0.5, -1.6))
     step = height * figure.get_figheight() * 72 / (len(shown) + 1.1)
     size = min(6.8, 0.78 * step)
-    limit = _limit(shown)
+    limit = bar_limit(shown)
     for row, line in enumerate(shown):
         _draw_bar(axes, row, line)
         _write_line(axes, row, line, size)
@@ -47,15 +46,6 @@ def draw_parameters(figure: Figure, fit: ArmFit, place: tuple[float, float, floa
         axes.spines[side].set_visible(False)
 
 
-def changed_text(line: Line) -> str:
-    """ "+0.231 ± 0.052 mrad": what a parameter changed by and its standard deviation."""
-    if line.status in ("gauge", "fixed", "pruned"):
-        return "held"
-    if math.isinf(line.std):
-        return f"{line.change:+.3f} ± ? {line.change_unit}".replace("-", "−")
-    return f"{line.change:+.3f} ± {line.std:.3f} {line.change_unit}".replace("-", "−")
-
-
 def _shown(table: list[Line]) -> list[Line]:
     """All that fit on the sheet; those that are held go first."""
     if len(table) <= _MOST_LINES:
@@ -64,21 +54,13 @@ def _shown(table: list[Line]) -> list[Line]:
     return told[:_MOST_LINES]
 
 
-def _limit(shown: list[Line]) -> float:
-    ends = [
-        abs(line.change) + _INTERVAL * (line.std if math.isfinite(line.std) else 0.0)
-        for line in shown
-    ]
-    return 1.05 * max([*ends, 1e-9])
-
-
 def _draw_bar(axes: Axes, row: int, line: Line) -> None:
     if row % 2 == 0:
         axes.axhspan(row - 0.5, row + 0.5, color="#f4f4f2", lw=0, zorder=0)
     colour = STATUSES[line.status]
     axes.barh(row, line.change, height=0.62, color=colour, zorder=2)
     if math.isfinite(line.std) and line.std > 0:
-        interval = _INTERVAL * line.std
+        interval = INTERVAL * line.std
         ends = [line.change - interval, line.change + interval]
         axes.plot(ends, [row, row], color=INK, lw=0.9, zorder=3)
     elif math.isinf(line.std):
@@ -88,9 +70,9 @@ def _draw_bar(axes: Axes, row: int, line: Line) -> None:
 def _write_line(axes: Axes, row: int, line: Line, size: float) -> None:
     put = _writer(axes, size)
     put(0.0, row, line.name, "left", INK)
-    put(_NOMINAL, row, f"{line.nominal:.3f} {line.unit}".replace("-", "−"), "right", INK)
-    put(_VALUE, row, f"{line.value:.3f} {line.unit}".replace("-", "−"), "right", INK)
-    put(_CHANGE, row, changed_text(line), "right", INK)
+    put(_NOMINAL, row, f"{number(line.nominal)} {line.unit}", "right", INK)
+    put(_VALUE, row, f"{number(line.value)} {line.unit}", "right", INK)
+    put(_CHANGE, row, line.changed, "right", INK)
     put(_WORDS, row, STATUS[line.status], "left", STATUSES[line.status])
     trades = f"with {line.trades}" if line.trades else ""
     if len(trades) > _TRADES_WIDE:

@@ -16,8 +16,7 @@ from matplotlib.ticker import MaxNLocator
 from bathyal._core import ArmFit, Touches, Tracked
 from bathyal.fit_bars import draw_parameters
 from bathyal.fit_curves import AXIS_COLOURS, Curves, curves_of, joint_values, rank_gap, thinned
-from bathyal.fit_tables import distances
-from bathyal.fit_words import found_text, next_touches, surely_text
+from bathyal.fit_words import found_text, known_text, next_touches, surely_text
 from bathyal.palette import AFTER, BEFORE, GAP, INK
 
 # A4 upright; places are shares of the page.
@@ -31,6 +30,7 @@ _TOP, _FOOT = 0.975, 0.045
 _GAP = 0.047  # between two rows of plots
 _FIRST_ROW, _LAST_ROW = 0.27, 0.19  # shares of what the text leaves; the table has the rest
 _MOST_PANELS = 10
+_MOST_TITLES = 8  # of points side by side
 
 
 def fit_figure(fit: ArmFit, data: Touches | Tracked, *, title: str = "") -> Figure:
@@ -89,14 +89,11 @@ def _write_words(figure: Figure, fit: ArmFit, data: Touches | Tracked, title: st
     if len(fit.warnings) > len(warnings):
         warnings.append(f"… and {len(fit.warnings) - len(warnings)} more in report.html")
     top = _write(figure, top, [(f"! {warning}", GAP) for warning in warnings])
-    told = [
-        f"{d.first} – {d.second}: told {1e3 * d.told:.2f} mm, found {1e3 * d.found:.2f} mm"
-        for d in distances(fit, data)
-    ]
+    known = known_text(fit, data)
     paragraphs = [
         found_text(fit),
         surely_text(fit),
-        *(["Known distances. " + "; ".join(told) + "."] if told else []),
+        *([known] if known else []),
         "Next. " + " ".join(next_touches(fit, data)),
     ]
     return _write(figure, top, [(text, INK) for text in paragraphs]) - 0.03
@@ -133,7 +130,7 @@ def _draw_curves(axes: Axes, curves: Curves) -> None:
         axes.axvline(edge - 0.5, color="#bbbbbb", lw=0.6)
     low, high = curves.limits
     axes.set(xlim=(-0.5, start - 0.5), yscale="log", ylim=(1e3 * low, 1e3 * high))
-    if len(curves.curves) <= 8:
+    if len(curves.curves) <= _MOST_TITLES:
         for curve, left, right in zip(curves.curves, edges[:-1], edges[1:], strict=True):
             text = f"{curve.name}\n{1e3 * curve.rms_before:.3g} → {1e3 * curve.rms_after:.3g} mm"
             axes.text(

@@ -13,12 +13,18 @@ from plotly.offline import get_plotlyjs  # type: ignore[import-untyped]
 from bathyal import fit_views
 from bathyal._core import ArmFit, Touches, Tracked
 from bathyal.files import PathLike, replacing
-from bathyal.fit_bars import changed_text
-from bathyal.fit_tables import Line, distances, groups, lines, point_name
+from bathyal.fit_tables import (
+    INTERVAL,
+    Line,
+    bar_limit,
+    distances,
+    groups,
+    lines,
+    number,
+    point_name,
+)
 from bathyal.fit_words import STATUS, found_text, next_touches, surely_text
 from bathyal.palette import GAP, INK, STATUSES
-
-_INTERVAL = 2.0  # standard deviations: 95 %
 
 
 def write_page(
@@ -101,7 +107,7 @@ def _distances(fit: ArmFit, data: Touches | Tracked) -> str:
         return ""
     rows = "".join(
         f"<tr><td>{html.escape(d.first)} – {html.escape(d.second)}</td><td>{1e3 * d.told:.3f}</td>"
-        f"<td>{1e3 * d.found:.3f}</td><td>{_signed(1e3 * (d.found - d.told), 3)}</td></tr>"
+        f"<td>{1e3 * d.found:.3f}</td><td>{number(1e3 * (d.found - d.told), 3, '+')}</td></tr>"
         for d in known
     )
     head = "<tr><th>distance</th><th>told [mm]</th><th>found [mm]</th><th>off [mm]</th></tr>"
@@ -129,22 +135,19 @@ def _outliers(fit: ArmFit, data: Touches | Tracked) -> str:
 
 def _parameters(fit: ArmFit) -> str:
     table = lines(fit)
-    limit = max(
-        [abs(line.change) + _INTERVAL * (line.std if math.isfinite(line.std) else 0)
-         for line in table] + [1e-9]
-    )  # fmt: skip
+    limit = bar_limit(table)
     return "".join(_parameter(line, limit) for line in table)
 
 
 def _parameter(line: Line, limit: float) -> str:
     colour = STATUSES[line.status]
     held = line.status in ("gauge", "fixed")
-    found = "" if held else f"{line.value:.4f} {line.unit}".replace("-", "−")
+    found = "" if held else f"{number(line.value, 4)} {line.unit}"
     trades = f"with {line.trades}" if line.trades else ""
     return (
         f"<tr><td title='{html.escape(line.words)}'>{html.escape(line.name)}</td>"
-        f"<td>{f'{line.nominal:.4f} {line.unit}'.replace('-', '−')}</td><td>{found}</td>"
-        f"<td>{changed_text(line)}</td><td class='bar'>{_bar(line, limit, colour)}</td>"
+        f"<td>{number(line.nominal, 4)} {line.unit}</td><td>{found}</td>"
+        f"<td>{line.changed}</td><td class='bar'>{_bar(line, limit, colour)}</td>"
         f"<td style='color:{colour}'>{STATUS[line.status]}</td>"
         f"<td class='small'>{html.escape(trades)}</td></tr>"
     )
@@ -159,8 +162,9 @@ def _bar(line: Line, limit: float, colour: str) -> str:
     )
     if not math.isfinite(line.std) or line.std == 0:
         return bar
-    half = 50 * _INTERVAL * line.std / limit
-    return f"{bar}<b style='left:{50 + share - half:.2f}%;width:{2 * half:.2f}%'></b>"
+    half = 50 * INTERVAL * line.std / limit
+    low, high = max(50 + share - half, 0), min(50 + share + half, 100)
+    return f"{bar}<b style='left:{low:.2f}%;width:{high - low:.2f}%'></b>"
 
 
 def _unseen(fit: ArmFit) -> str:
@@ -171,10 +175,6 @@ def _unseen(fit: ArmFit) -> str:
         "<p>Moving along any of these, the touches stay as they are. Each number is in the "
         f"parameter's own unit, per unit of the first.</p><ul>{rows}</ul>"
     )
-
-
-def _signed(value: float, digits: int) -> str:
-    return f"{value:+.{digits}f}".replace("-", "−")
 
 
 _PAGE = """<!DOCTYPE html>

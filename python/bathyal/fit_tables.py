@@ -17,7 +17,9 @@ from bathyal.files import PathLike, replacing
 Floats = NDArray[np.float64]
 Rows = NDArray[np.intp]
 
-MOST_TRADES = 4
+INTERVAL = 2.0  # standard deviations: 95 %
+_MOST_TRADES = 4
+_OFF_SCALE = 1.5  # of the longest bar: longer intervals run out of the picture
 
 
 @dataclass(frozen=True)
@@ -64,8 +66,12 @@ class Line:
         return "mm" if self.is_length else "°"
 
     @property
-    def change_unit(self) -> str:
-        return "mm" if self.is_length else "mrad"
+    def changed(self) -> str:
+        """ "+0.231 ± 0.052 mrad": what it changed by and its standard deviation."""
+        if self.status in ("gauge", "fixed", "pruned"):
+            return "held"
+        std = "?" if math.isinf(self.std) else number(self.std)
+        return f"{number(self.change, sign='+')} ± {std} {'mm' if self.is_length else 'mrad'}"
 
 
 @dataclass(frozen=True)
@@ -76,6 +82,21 @@ class Distance:
     second: str
     told: float
     found: float
+
+
+def number(value: float, digits: int = 3, sign: str = "") -> str:
+    """A number as it is printed: with a true minus, and no minus before zeros."""
+    text = f"{value:{sign}.{digits}f}"
+    if not text.strip("+-0."):
+        text = text.lstrip("+-")
+    return text.replace("-", "−")
+
+
+def bar_limit(table: list[Line]) -> float:
+    """Where an axis of changes ends, on either side [mm, mrad]."""
+    longest = max([abs(line.change) for line in table], default=0.0)
+    ends = [abs(line.change) + INTERVAL * line.std for line in table if math.isfinite(line.std)]
+    return max(min(1.05 * max(ends, default=0.0), _OFF_SCALE * longest), 1e-9)
 
 
 def point_name(data: Touches, label: int) -> str:
@@ -187,8 +208,8 @@ def _line(p: FitParameter) -> Line:
 def _trades(p: FitParameter) -> str:
     """ "a_3 +0.93, tool_z −0.43": what moves along with it, unseen, per unit of its own."""
     told = [f"{trade.name} {trade.factor:+.2g}".replace("-", "−") for trade in p.trades]
-    rest = len(told) - MOST_TRADES
-    return ", ".join(told[:MOST_TRADES]) + (f" and {rest} more" if rest > 0 else "")
+    rest = len(told) - _MOST_TRADES
+    return ", ".join(told[:_MOST_TRADES]) + (f" and {rest} more" if rest > 0 else "")
 
 
 def _write_csv(path: PathLike, titles: tuple[str, ...], rows: list[tuple[Any, ...]]) -> None:

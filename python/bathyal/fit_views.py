@@ -16,6 +16,7 @@ from bathyal.palette import AFTER, BEFORE, GAP, INK
 
 _MOST_POSES = 6  # of the arm among its touches
 _MOST_PLACES = 2000
+_MOST_TITLES = 6  # of points side by side
 _HEIGHT = 380
 _PANEL = 230  # height of a row of panels
 _PANELS_ABREAST = 4
@@ -74,18 +75,19 @@ def show_before_and_after(fit: ArmFit, data: Touches | Tracked) -> go.Figure:
                     hovertemplate=f"{curve.name}, %{{text}}: %{{y:.4g}} mm<extra>{name}</extra>",
                 )
             )  # fmt: skip
-        for rms, colour in ((curve.rms_before, BEFORE), (curve.rms_after, AFTER)):
+        for height, colour in ((curve.rms_before, BEFORE), (curve.rms_after, AFTER)):
             figure.add_trace(
                 go.Scatter(
-                    x=[place[0], place[-1]], y=[1e3 * rms] * 2, mode="lines", showlegend=False,
+                    x=[place[0], place[-1]], y=[1e3 * height] * 2, mode="lines", showlegend=False,
                     line={"color": colour, "width": 1.5}, hoverinfo="skip",
                 )
             )  # fmt: skip
-        figure.add_annotation(
-            x=(place[0] + place[-1]) / 2, y=1.0, yref="paper", yanchor="bottom", showarrow=False,
-            text=f"{curve.name}<br>{1e3 * curve.rms_before:.3g} → {1e3 * curve.rms_after:.3g} mm",
-            font={"size": 11},
-        )  # fmt: skip
+        if len(curves.curves) <= _MOST_TITLES:
+            rms = f"{1e3 * curve.rms_before:.3g} → {1e3 * curve.rms_after:.3g} mm"
+            figure.add_annotation(
+                x=(place[0] + place[-1]) / 2, y=1.0, yref="paper", yanchor="bottom",
+                text=f"{curve.name}<br>{rms}", showarrow=False, font={"size": 11},
+            )  # fmt: skip
         start += len(curve.before)
     low, high = (float(np.log10(1e3 * limit)) for limit in curves.limits)
     figure.update_yaxes(type="log", range=[low, high], title=f"{curves.what} [mm]")

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bathyal._core import Arm, ArmFit, Touches, Tracked
-from bathyal.fit_tables import point_name
+from bathyal.fit_tables import distances, number, point_name
 
 Floats = NDArray[np.float64]
 
@@ -27,6 +27,9 @@ _LOOKS = 4000  # poses at which the foretold tip is asked for
 _STILL = math.radians(30.0)  # a turning joint that moved less hardly moved
 _STILL_SHARE = 0.15  # of a sliding joint's way
 _FEW = 20  # degrees of freedom below which noise is known to worse than 16 %
+_MOST_TOLD = 4  # known distances, one by one
+_WEAK = 1e-3  # standard deviation of what is hardly told [m, rad] …
+_WEAK_SHARE = 20.0  # … and so many times the median of all
 _FINE = 3.0  # the worst pose is worth a touch where it is so many times the median
 
 
@@ -54,16 +57,37 @@ def surely_text(fit: ArmFit) -> str:
     return f"{text} The arm's size is known to {1e2 * fit.scale_std:.2g} %."
 
 
+def known_text(fit: ArmFit, data: Touches | Tracked) -> str:
+    """Known distances told and found; empty where there are none."""
+    known = distances(fit, data)
+    if not known:
+        return ""
+    if len(known) > _MOST_TOLD:
+        off = [1e3 * (d.found - d.told) for d in known]
+        ends = f"{number(min(off), sign='+')} … {number(max(off), sign='+')}"
+        return f"{len(known)} known distances were found, off by {ends} mm."
+    told = [
+        f"{d.first} to {d.second} told {1e3 * d.told:.3f} mm, found {1e3 * d.found:.3f} mm"
+        for d in known
+    ]
+    return f"Known distances: {'; '.join(told)}."
+
+
 def next_touches(fit: ArmFit, data: Touches | Tracked) -> list[str]:
     """What would tell more, the most important first; how to check the arm when nothing would."""
     wanting = [
         *_about_size(fit, data),
         *_about_still_joints(fit.arm, data),
         *_about_lost(fit),
+        *_about_weak(fit),
         *_about_worst_pose(fit),
         *_about_count(fit),
     ]
-    return wanting or [
+    if wanting:
+        return wanting
+    if fit.warnings:
+        return ["Look into what the warnings say before you touch more."]
+    return [
         "Nothing in particular is wanting. To check the arm, touch a point that was no part of "
         "this, in a dozen poses, and see that they agree as well."
     ]
@@ -107,6 +131,20 @@ def _about_lost(fit: ArmFit) -> list[str]:
     return [
         f"Nothing tells {names}: touch more points, with every joint far from where it was, or "
         "tell the maker's tolerances as priors."
+    ]
+
+
+def _about_weak(fit: ArmFit) -> list[str]:
+    told = [p for p in fit.parameters if p.status == "identified" and p.std > 0]
+    if not told:
+        return []
+    median = float(np.median([p.std for p in told]))
+    weak = [p.name for p in told if p.std > max(_WEAK, _WEAK_SHARE * median)]
+    if not weak:
+        return []
+    return [
+        f"The touches hardly tell {', '.join(weak)} apart: joints turned further from where they "
+        "were would, or the maker's tolerances as priors."
     ]
 
 

@@ -30,6 +30,8 @@ from bathyal.fit_tables import distances, groups, write_parameters, write_residu
 from bathyal.fit_words import found_text, next_touches, surely_text
 from bathyal.touch_files import read_touches, read_tracked
 
+_MOST_NAMES = 6
+
 
 @dataclass(frozen=True)
 class Identification:
@@ -117,7 +119,9 @@ class Identification:
         if isinstance(self.data, Tracked):
             data = {"poses": f"{len(self.data):,}"}
         else:
-            data = {"touches": f"{len(self.data):,} of {', '.join(group.name for group in where)}"}
+            names = ", ".join(group.name for group in where)
+            points = names if len(where) <= _MOST_NAMES else f"{len(where)} points"
+            data = {"touches": f"{len(self.data):,} of {points}"}
         rms = f"{1e3 * fit.rms_before:.3g} → {1e3 * fit.rms_after:.3g} mm (rms, 3-D)"
         told = {"arm": arm, **data, "scatter": rms}
         if fit.pairs_before > 0:
@@ -297,10 +301,14 @@ def _read(files: Sequence[PathLike], tracked: bool, read: dict[str, Any]) -> Tou
 
 
 def _labelled(files: Sequence[PathLike]) -> dict[str, PathLike]:
-    """A point for each file, called by the file's name; by its whole path where names are alike."""
-    stems = [Path(file).stem for file in files]
-    alike = len(set(stems)) < len(stems)
-    labels = [str(Path(file).with_suffix("")) for file in files] if alike else stems
+    """A point for each file, called by the file's name; where names are alike, with its folders as
+    far as they differ: "front/hole_0", "back/hole_0"."""
+    paths = [Path(file) for file in files]
+    if len({path.stem for path in paths}) < len(paths):
+        common = os.path.commonpath([path.absolute().parent for path in paths])
+        labels = [path.absolute().relative_to(common).with_suffix("").as_posix() for path in paths]
+    else:
+        labels = [path.stem for path in paths]
     if len(set(labels)) < len(labels):
         raise argument_error("source", "each file once", ", ".join(map(str, files)))
     return dict(zip(labels, files, strict=True))

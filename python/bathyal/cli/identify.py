@@ -12,6 +12,8 @@ from bathyal.cli import options as opt
 from bathyal.cli import touch_options as own
 from bathyal.cli.talk import Talk
 
+_MOST_NAMES = 3  # of tables, in a title
+
 
 def identify(
     *,
@@ -84,8 +86,15 @@ def identify(
             step=progress,
         )
         name = nominal.name or Path(arm).stem
-        title = f"{name} from {', '.join(file.name for file in touches)}"
-        files = found.write(out, title=title, ros=ros, ur_calibration=ur_calibration, step=progress)
+        names = [file.name for file in touches]
+        tables = ", ".join(names) if len(names) <= _MOST_NAMES else f"{len(names)} tables"
+        files = found.write(
+            out,
+            title=f"{name} from {tables}",
+            ros=ros,
+            ur_calibration=ur_calibration,
+            step=progress,
+        )
     data = {**found.summary, "next": found.next, "files": [str(file) for file in files]}
     rows = {
         "found": found.words,
