@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -64,14 +64,14 @@ def curves_of(fit: ArmFit, data: Touches | Tracked) -> Curves:
     if pairs:
         found = [_curve(some.group, _pair_marks(some), some.before, some.after) for some in pairs]
         across = "pairs of touches of one point, rising by their distance before"
-        return Curves(_thin(found), "between two touches", across)
+        return _thinned(found, "between two touches", across)
     before, after = (np.linalg.norm(r, axis=1) for r in (fit.residuals_before, fit.residuals))
     found = [
         _curve(group.name, [f"row {i}" for i in group.rows], before[group.rows], after[group.rows])
         for group in groups(fit, data)
     ]
     across = "poses, rising by their distance before"
-    return Curves(_thin(found), "from where it should be", across)
+    return _thinned(found, "from where it should be", across)
 
 
 def rank_gap(fit: ArmFit) -> tuple[Floats, float]:
@@ -105,17 +105,22 @@ def _pair_marks(pairs: Pairs) -> list[str]:
     return [f"rows {i}, {j}" for i, j in zip(pairs.first, pairs.second, strict=True)]
 
 
-def _thin(curves: list[Curve]) -> list[Curve]:
+def _thinned(curves: list[Curve], what: str, across: str) -> Curves:
     """No more marks than a picture shows; each rms is that of all."""
-    share = _MOST_MARKS / max(sum(len(curve.before) for curve in curves), 1)
-    if share >= 1:
-        return curves
+    count = sum(len(curve.before) for curve in curves)
+    if count <= _MOST_MARKS:
+        return Curves(curves, what, across)
     thin = []
     for curve in curves:
-        kept = thinned(len(curve.before), max(2, round(share * len(curve.before))))
-        marks = [curve.marks[k] for k in kept]
+        share = _MOST_MARKS * len(curve.before) / count
+        kept = thinned(len(curve.before), max(2, int(share)))
         thin.append(
-            Curve(curve.name, marks, curve.before[kept], curve.after[kept], curve.rms_before,
-                  curve.rms_after)
-        )  # fmt: skip
-    return thin
+            replace(
+                curve,
+                marks=[curve.marks[k] for k in kept],
+                before=curve.before[kept],
+                after=curve.after[kept],
+            )
+        )
+    shown = sum(len(curve.before) for curve in thin)
+    return Curves(thin, what, f"{across}; {shown:,} of {count:,} shown")

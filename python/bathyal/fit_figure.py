@@ -29,6 +29,7 @@ _WARNINGS_SHOWN = 5
 _TOP, _FOOT = 0.975, 0.045
 _GAP = 0.047  # between two rows of plots
 _FIRST_ROW, _LAST_ROW = 0.27, 0.19  # shares of what the text leaves; the table has the rest
+_CROWD = 1500  # marks that are drawn finer
 _MOST_PANELS = 10
 _MOST_TITLES = 8  # of points side by side
 
@@ -168,11 +169,12 @@ def _draw_residuals(
     residuals = 1e3 * fit.residuals[rows]
     limit = 1.08 * max(float(np.max(np.abs(residuals))), 1e-12)
     step = width / len(joints)
+    size, opacity = (2.2, 0.7) if len(rows) <= _CROWD else (1.2, 0.35)
     for k, joint in enumerate(joints):
         axes = figure.add_axes((left + k * step, bottom, 0.92 * step, height))
         for axis, colour in enumerate(AXIS_COLOURS):
             axes.plot(
-                joint.values[rows], residuals[:, axis], ".", color=colour, ms=2.2, alpha=0.7,
+                joint.values[rows], residuals[:, axis], ".", color=colour, ms=size, alpha=opacity,
                 label="xyz"[axis], rasterized=True,
             )  # fmt: skip
         axes.axhline(0, color="#bbbbbb", lw=0.6, zorder=0)

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bathyal._core import ArmFit, FitParameter, Touches, Tracked
+from bathyal.errors import argument_error
 from bathyal.files import PathLike, replacing
 
 Floats = NDArray[np.float64]
@@ -105,7 +106,14 @@ def point_name(data: Touches, label: int) -> str:
 
 
 def groups(fit: ArmFit, data: Touches | Tracked) -> list[Group]:
-    """Points in the order of their labels, then planes; stations when tracked."""
+    """Points in the order of their labels, then planes; stations when tracked.
+
+    Raises
+    ------
+    ValueError
+        For other data than those that the fit was found from, where that shows.
+    """
+    _need_own(fit, data)
     if isinstance(data, Tracked):
         station = data.station if len(data.station) else np.zeros(len(data), int)
         rows = {f"station {k}": np.flatnonzero(station == k) for k in np.unique(station)}
@@ -145,7 +153,8 @@ def pair_distances(fit: ArmFit, data: Touches) -> list[Pairs]:
 
 
 def distances(fit: ArmFit, data: Touches | Tracked) -> list[Distance]:
-    """Known distances told and found."""
+    """Known distances told and found; as `groups`."""
+    _need_own(fit, data)
     if isinstance(data, Tracked):
         return []
     return [
@@ -183,6 +192,12 @@ def write_residuals(fit: ArmFit, data: Touches | Tracked, path: PathLike) -> Non
         for row, rest in enumerate(fit.residuals.tolist())
     ]
     _write_csv(path, titles, rows)
+
+
+def _need_own(fit: ArmFit, data: Touches | Tracked) -> None:
+    known = set() if isinstance(data, Tracked) else set(data.known_distances)
+    if len(data) != len(fit.residuals) or known != set(fit.distances):
+        raise argument_error("data", "what the fit was found from", f"other data ({data!r})")
 
 
 def _rms(residuals: Floats) -> float:

@@ -42,7 +42,7 @@ def surely_text(fit: ArmFit) -> str:
     """How far the arm that was found may be trusted over the whole of its limits."""
     _, std = _looks(fit)
     share = float(np.mean(np.isinf(std)))
-    text = f"A touch scatters by {_mm(fit.noise)} per axis."
+    text = f"A measurement scatters by {_mm(fit.noise)} per axis."
     if share < 1.0:
         median, most = np.quantile(std[np.isfinite(std)], [0.5, 0.95])
         text += (
@@ -143,7 +143,7 @@ def _about_weak(fit: ArmFit) -> list[str]:
     if not weak:
         return []
     return [
-        f"The touches hardly tell {', '.join(weak)} apart: joints turned further from where they "
+        f"The data hardly tell {', '.join(weak)} apart: joints turned further from where they "
         "were would, or the maker's tolerances as priors."
     ]
 

@@ -28,6 +28,7 @@ from bathyal.errors import argument_error
 from bathyal.files import PathLike, filling
 from bathyal.fit_tables import distances, groups, write_parameters, write_residuals
 from bathyal.fit_words import found_text, next_touches, surely_text
+from bathyal.tables import read_table
 from bathyal.touch_files import read_touches, read_tracked
 
 _MOST_NAMES = 6
@@ -233,7 +234,7 @@ def identify(
     ----------
     source : path or sequence of path
         A table of touches as `read_touches` takes it, or a file for each touched point: then the
-        points are called as the files are.
+        points are called as the files are. Columns may also be called as the arm's joints are.
     arm : Arm or str
         Nominal: an arm, a name of `bathyal.arms`, or a .urdf or .json file.
     tracked : bool
@@ -272,7 +273,7 @@ def identify(
         raise argument_error("source", "a file", "none")
     nominal = find_arm(arm) if isinstance(arm, str) else arm
     with step("Reading"):
-        data = _read(files, tracked, dict(read or {}))
+        data = _read(files, tracked, {**_joints(files[0], nominal), **(read or {})})
     with step("Identifying"):
         fit = identify_arm(nominal, data, **(options or {}))
     return Identification(
@@ -286,6 +287,13 @@ def identify(
             "input": [file_facts(file) for file in files],
         },
     )
+
+
+def _joints(file: PathLike, arm: Arm) -> dict[str, Any]:
+    """The arm's own joints by name, where the table has columns of these names."""
+    table = read_table(file)
+    names = list(arm.joint_names)
+    return {"joints": names} if all(table.find(name) is not None for name in names) else {}
 
 
 def _read(files: Sequence[PathLike], tracked: bool, read: dict[str, Any]) -> Touches | Tracked:
