@@ -74,7 +74,9 @@ class Table:
         place = self.place(name)
         return [row[place] for row in self.cells]
 
-    def numbers(self, name: str, units: dict[str, float], default: str | None) -> NDArray:
+    def numbers(
+        self, name: str, units: dict[str, float], default: str | None
+    ) -> NDArray[np.float64]:
         """A column in SI units.
 
         `units` are those that may stand in its title, with their factors; `default` is taken where

@@ -88,7 +88,7 @@ def simulate_touches(
     >>> import bathyal
     >>> made = simulate_touches(bathyal.arms.ur10e(), count=4)
     >>> made.touches, made.touches.names[0], made.apart
-    (Touches(12 poses, 6 joints), 'left', 0.31)
+    (Touches(12 poses, 6 joints), 'left', 0.35)
     """
     if arm.size < _LEAST_JOINTS:
         raise argument_error("arm", f"{_LEAST_JOINTS} moving joints or more", arm.size)

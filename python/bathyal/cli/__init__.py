@@ -34,8 +34,7 @@ for command in (plan, triangulate, info, survey, identify):
     app.command(epilog=_EXIT_CODES)(spread(command))
 
 touches = typer.Typer(rich_markup_mode="rich", no_args_is_help=True)
-for command in (example,):
-    touches.command(epilog=_EXIT_CODES)(spread(command))
+touches.command(epilog=_EXIT_CODES)(spread(example))
 app.add_typer(touches, name="touches", help="Tables of touches, for `bathyal identify`.")
 
 
