@@ -168,7 +168,8 @@ def read_tracked(
     >>> import bathyal, pathlib, tempfile
     >>> with tempfile.TemporaryDirectory() as folder:
     ...     file = pathlib.Path(folder) / "tracked.csv"
-    ...     _ = file.write_text("q1_deg,x_mm,y_mm,z_mm,temperature_C\\n90,0,1000,5,21.5\\n0,1000,0,5,21.5\\n")
+    ...     _ = file.write_text("q1_deg,x_mm,y_mm,z_mm,temperature_C\\n"
+    ...                         "90,0,1000,5,21.5\\n0,1000,0,5,21.5\\n")
     ...     tracked = bathyal.read_tracked(file)
     >>> tracked.position.tolist(), tracked.covariates["temperature"].tolist()
     ([[0.0, 1.0, 0.005], [1.0, 0.0, 0.005]], [21.5, 21.5])
