@@ -18,6 +18,7 @@ AXIS_COLOURS = ("#d1495b", "#3c9d4e", "#2f6fb5")  # of x, y, z, as those of fram
 _MOST_MARKS = 6000  # in one picture
 _DEEPEST = 1e-18  # a singular value of zero has no logarithm
 _ROOM = 30.0  # below the rms, on a scale of decades
+_NOTHING = 1e-17  # [m]; exact data leave less
 
 
 @dataclass(frozen=True)
@@ -46,7 +47,7 @@ class Curves:
         high = max(float(np.max(curve.before)) for curve in self.curves)
         high = max(high, *(float(np.max(curve.after)) for curve in self.curves))
         low = min(curve.rms_after for curve in self.curves) / _ROOM
-        return max(low, 1e-9 * high, 1e-15), 1.5 * max(high, 1e-14)
+        return max(low, _NOTHING), 1.5 * max(high, 10 * _NOTHING)
 
 
 @dataclass(frozen=True)

@@ -194,5 +194,6 @@ def _dress(axes: Axes, across: str, up: str) -> None:
     axes.set_xlabel(across, fontsize=7, color=INK, labelpad=2)
     axes.set_ylabel(up, fontsize=7, color=INK, labelpad=2)
     axes.tick_params(labelsize=6.5, length=2.5, pad=2)
+    axes.yaxis.get_offset_text().set_fontsize(6)
     for side in ("top", "right"):
         axes.spines[side].set_visible(False)

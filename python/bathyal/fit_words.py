@@ -27,6 +27,7 @@ _LOOKS = 4000  # poses at which the foretold tip is asked for
 _STILL = math.radians(30.0)  # a turning joint that moved less hardly moved
 _STILL_SHARE = 0.15  # of a sliding joint's way
 _FEW = 20  # degrees of freedom below which noise is known to worse than 16 %
+_NO_CHANGE = 1e-6  # of the size [%]
 _MOST_TOLD = 4  # known distances, one by one
 _WEAK = 1e-3  # standard deviation of what is hardly told [m, rad] …
 _WEAK_SHARE = 20.0  # … and so many times the median of all
@@ -50,11 +51,16 @@ def surely_text(fit: ArmFit) -> str:
             f"axes together; median), and to {_mm(most)} or better in 95 of 100 poses."
         )
     if share > 0.0:
+        where = "Everywhere" if share == 1.0 else f"In {share:.0%} of its poses"
         text += (
-            f" In {share:.0%} of its poses the tip moves by something that nobody told, and no "
-            "standard deviation can be said."
+            f" {where} the tip moves by something that nobody told, and no standard deviation can "
+            "be said."
         )
-    return f"{text} The arm's size is known to {1e2 * fit.scale_std:.2g} %."
+    off = 1e2 * (fit.scale - 1.0)
+    size = f"{abs(off):.2g} % {'above' if off > 0 else 'below'} the drawing's"
+    if abs(off) < _NO_CHANGE:
+        size = "the drawing's"
+    return f"{text} The arm's size is {size}, ± {1e2 * fit.scale_std:.2g} %."
 
 
 def known_text(fit: ArmFit, data: Touches | Tracked) -> str:
@@ -78,19 +84,21 @@ def next_touches(fit: ArmFit, data: Touches | Tracked) -> list[str]:
     wanting = [
         *_about_size(fit, data),
         *_about_still_joints(fit.arm, data),
-        *_about_lost(fit),
+        *_about_lost(fit, data),
         *_about_weak(fit),
-        *_about_worst_pose(fit),
-        *_about_count(fit),
+        *_about_worst_pose(fit, data),
+        *_about_count(fit, data),
     ]
     if wanting:
         return wanting
     if fit.warnings:
         return ["Look into what the warnings say before you touch more."]
-    return [
-        "Nothing in particular is wanting. To check the arm, touch a point that was no part of "
-        "this, in a dozen poses, and see that they agree as well."
-    ]
+    check = (
+        "measure a dozen poses that were no part of this, and compare"
+        if isinstance(data, Tracked)
+        else "touch a point that was no part of this, in a dozen poses, and see that they agree"
+    )
+    return [f"Nothing in particular is wanting. To check the arm, {check}."]
 
 
 def _about_size(fit: ArmFit, data: Touches | Tracked) -> list[str]:
@@ -123,14 +131,14 @@ def _about_still_joints(arm: Arm, data: Touches | Tracked) -> list[str]:
     return [f"Spread the joints further: {', '.join(told)}."]
 
 
-def _about_lost(fit: ArmFit) -> list[str]:
+def _about_lost(fit: ArmFit, data: Touches | Tracked) -> list[str]:
     lost = [p for p in fit.parameters if p.status == "not_identifiable"]
     if not lost:
         return []
     names = ", ".join(p.name for p in lost)
     return [
-        f"Nothing tells {names}: touch more points, with every joint far from where it was, or "
-        "tell the maker's tolerances as priors."
+        f"Nothing tells {names}: {_more(data)}, with every joint far from where it was, or tell "
+        "the maker's tolerances as priors."
     ]
 
 
@@ -148,7 +156,7 @@ def _about_weak(fit: ArmFit) -> list[str]:
     ]
 
 
-def _about_worst_pose(fit: ArmFit) -> list[str]:
+def _about_worst_pose(fit: ArmFit, data: Touches | Tracked) -> list[str]:
     q, std = _looks(fit)
     if not np.isfinite(std).all():
         return []
@@ -160,17 +168,17 @@ def _about_worst_pose(fit: ArmFit) -> list[str]:
         for value, kind in zip(q[worst], fit.arm.joint_types, strict=True)
     )
     return [
-        f"The tip is least surely foretold, to {_mm(std[worst])}, near the pose ({pose}): a point "
-        "touched about there would tell most."
+        f"The tip is least surely foretold, to {_mm(std[worst])}, near the pose ({pose}): "
+        f"{_more(data)} about there."
     ]
 
 
-def _about_count(fit: ArmFit) -> list[str]:
+def _about_count(fit: ArmFit, data: Touches | Tracked) -> list[str]:
     if fit.degrees_of_freedom >= _FEW:
         return []
     return [
-        f"Touch more often: {fit.degrees_of_freedom:.0f} degrees of freedom are left to tell the "
-        "noise by, so that every standard deviation is a guess."
+        f"{fit.degrees_of_freedom:.0f} degrees of freedom are left to tell the noise by, so that "
+        f"every standard deviation is a guess: {_more(data)}."
     ]
 
 
@@ -181,5 +189,11 @@ def _looks(fit: ArmFit) -> tuple[Floats, Floats]:
     return q, np.asarray(fit.tip_std(q))
 
 
+def _more(data: Touches | Tracked) -> str:
+    return "measure more poses" if isinstance(data, Tracked) else "touch more points, more often"
+
+
 def _mm(metres: float) -> str:
+    if metres >= 1.0:
+        return f"{metres:.3g} m"
     return f"{1e3 * metres:.3g} mm"

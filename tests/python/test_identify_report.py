@@ -222,7 +222,9 @@ def test_joint_that_stood_still_is_named(made):
 def test_few_touches_are_told():
     made = simulated(count=5)
     fit = bathyal.identify_arm(UR10E, made.touches)
-    assert any("Touch more often" in text for text in fit_words.next_touches(fit, made.touches))
+    assert any(
+        "degrees of freedom are left" in text for text in fit_words.next_touches(fit, made.touches)
+    )
 
 
 def test_known_distances_are_told_beside_what_was_found(data, told):
@@ -234,6 +236,36 @@ def test_data_of_another_fit_are_refused(made, told):
     for other in (made.touches, with_distance(simulated(count=8))):
         with pytest.raises(ValueError, match="`data`: expected what the fit was found from"):
             fit_figure(told, other)
+
+
+def test_unseen_motion_is_no_standard_deviation():
+    """A planar arm tells nothing of what stands across its plane."""
+    arm = bathyal.Arm.from_dh(a=[0.5, 0.4], alpha=[0, 0], d=[0, 0], theta=[0, 0])
+    q = np.random.default_rng(1).uniform(-2, 2, (40, 2))
+    tracked = bathyal.Tracked(q, arm.forward(q)[:, :3, 3])
+    fit = bathyal.identify_arm(arm, tracked)
+    assert "Everywhere the tip moves by something that nobody told" in fit_words.surely_text(fit)
+    lost = [text for text in fit_words.next_touches(fit, tracked) if "Nothing tells" in text]
+    assert "base_z" in lost[0]
+    assert "measure more poses" in lost[0]
+    table = {line.name: line.changed for line in fit_tables.lines(fit)}
+    assert table["base_z"].endswith("± ? mm")
+
+
+@pytest.mark.parametrize("scale", [0.98, 1.02])
+def test_size_is_told_beside_the_drawing(made, scale):
+    """A drawing that is too small, and three known distances."""
+    table = UR10E.to_dh()
+    drawing = bathyal.Arm.from_dh(
+        a=scale * table.a, d=scale * table.d, alpha=table.alpha, theta=table.theta
+    )
+    known = {(i, j): float(np.linalg.norm(made.points[i] - made.points[j]))
+             for i, j in ((0, 1), (0, 2), (1, 2))}  # fmt: skip
+    touches = bathyal.Touches(made.touches.q, made.touches.point, known_distances=known)
+    fit = bathyal.identify_arm(drawing, touches)
+    off = float(re.search(r"size is ([\d.]+) % ", fit_words.surely_text(fit))[1])
+    assert off == pytest.approx(100 * abs(1 / scale - 1), rel=0.1)
+    assert ("above" in fit_words.surely_text(fit)) == (scale < 1)
 
 
 # Picture and page ---------------------------------------------------------------------------------
