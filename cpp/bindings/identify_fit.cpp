@@ -124,6 +124,10 @@ void bind_fit(py::module_& module) {
       .def_property_readonly(
           "residuals", [](const ArmFit& f) { return to_numpy(RowMatrix(f.residuals.transpose())); },
           "(N, 3) tip minus centroid, or minus the measured place, world [m].")
+      .def_property_readonly(
+          "residuals_before",
+          [](const ArmFit& f) { return to_numpy(RowMatrix(f.residuals_before.transpose())); },
+          "(N, 3) the same of what `rms_before` tells [m].")
       .def_readonly("outliers", &ArmFit::outliers)
       .def_readonly("structure_p", &ArmFit::structure_p,
                     "Probability of residuals that depend on the joints so much by chance.")

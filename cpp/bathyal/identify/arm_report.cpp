@@ -69,6 +69,7 @@ void report_misses(const ArmProblem& problem, const Eigen::VectorXd& x, ArmFit& 
   fit.point_rms_before = std::move(before.point_rms);
   fit.rotation_rms_before = before.rotation_rms;
   fit.pairs_before = before.pairs;
+  fit.residuals_before = std::move(before.residuals);
   Misses after = misses_at(*problem.system, x);
   fit.rms_after = after.rms;
   fit.point_rms_after = std::move(after.point_rms);
