@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "bathyal/identify/doubts.hpp"
+#include "bathyal/identify/wording.hpp"
+
+namespace bathyal {
+namespace {
+
+using Warnings = std::vector<std::string>;
+
+bool is_length(const Place& place) { return place.part == Part::kD || place.part == Part::kA; }
+
+double reach(const Arm& arm) {
+  double sum = 0.0;
+  for (const Joint& joint : arm.joints()) sum += std::hypot(joint.row.a, joint.row.d);
+  return sum;
+}
+
+void doubt_search(const Case& seen, Warnings& warnings) {
+  if (seen.fit.converged) return;
+  warnings.push_back("The search had not settled after " + counted(seen.fit.iterations, "step") +
+                     ": the numbers are where it stood. Raise max_iterations, and look for bad "
+                     "rows or a wrong arm first.");
+}
+
+bool looks_foreign(const Case& seen) {
+  constexpr double kShareOfReach = 0.01;
+  return seen.fit.rms_after > kShareOfReach * reach(seen.nominal) || seen.hopeless;
+}
+
+void doubt_machine(const Case& seen, Warnings& warnings) {
+  if (!looks_foreign(seen)) return;
+  std::string text = millimetres(seen.fit.rms_after) + " rms are left, where an arm with " +
+                     three_digits(reach(seen.nominal)) +
+                     " m of links that was drawn right leaves a few. Arm and data look like "
+                     "different machines, or the order, signs, zeros or units of the joints "
+                     "differ. Check what was recorded and use none of these numbers.";
+  if (seen.hopeless) text += " So many rows contradict each other that none can be named.";
+  warnings.push_back(std::move(text));
+}
+
+void doubt_rows(const Case& seen, Warnings& warnings) {
+  constexpr std::size_t kMostNamed = 6;
+  std::map<std::pair<int, int>, std::vector<int>> swapped;
+  std::vector<std::string> far;
+  for (const Outlier& outlier : seen.fit.outliers) {
+    if (outlier.fits) {
+      swapped[{outlier.label, *outlier.fits}].push_back(outlier.row);
+      continue;
+    }
+    far.push_back(std::to_string(outlier.row) + " (" +
+                  (outlier.label < 0 ? "" : "point " + std::to_string(outlier.label) + ", ") +
+                  millimetres(outlier.distance) + ")");
+  }
+  if (!swapped.empty()) {
+    std::vector<std::string> groups;
+    for (const auto& [labels, rows] : swapped) {
+      groups.push_back((rows.size() == 1 ? "row " : "rows ") + listed(rows) + " of point " +
+                       std::to_string(labels.first) + " lie at point " +
+                       std::to_string(labels.second));
+    }
+    warnings.push_back("Labels look swapped: " + listed(groups, kMostNamed) +
+                       ". Mend the labels and identify again.");
+  }
+  if (far.empty()) return;
+  const auto& trust = seen.system.trust();
+  const bool square = std::all_of(trust.begin(), trust.end(), [](double t) { return t == 1.0; });
+  warnings.push_back(
+      std::string(far.size() == 1 ? "One row lies" : std::to_string(far.size()) + " rows lie") +
+      " far from where the others want " + (far.size() == 1 ? "it" : "them") + ": row " +
+      listed(far, kMostNamed) +
+      (square ? ". They pull on this fit: see how they were recorded, leave them out or set "
+                "loss=\"cauchy\", and identify again."
+              : ". The robust loss bounds their pull; see how they were recorded."));
+}
+
+/// "50.1 mm from 0 to 1": neighbours by label, the first three.
+std::string distances_found(const ArmFit& fit) {
+  std::vector<std::string> texts;
+  const auto count = static_cast<Index>(fit.point_labels.size());
+  for (Index p = 0; p + 1 < count && texts.size() < 3; ++p) {
+    texts.push_back(millimetres((fit.points.col(p) - fit.points.col(p + 1)).norm()) + " from " +
+                    std::to_string(fit.point_labels[p]) + " to " +
+                    std::to_string(fit.point_labels[p + 1]));
+  }
+  return listed(texts);
+}
+
+void doubt_size_untold(const Case& seen, Warnings& warnings) {
+  constexpr double kLoosePrior = 3e-3;  // [m] more than makers allow themselves
+  constexpr double kShrunk = 0.01;
+  const ArmFit& fit = seen.fit;
+  const std::string distances = distances_found(fit);
+  warnings.push_back(
+      "Nothing measured tells the arm's size: a smaller arm would agree with itself even better, "
+      "so that a smaller rms proves nothing. The " +
+      fit.scale_source + " set the size; rms " + millimetres(fit.rms_after) + " is " +
+      millimetres(fit.rms_after_scaled) + " at the nominal size. " +
+      (distances.empty() ? "Touch a second point at a measured distance from the first, and give "
+                           "it as known_distances."
+                         : "By this fit the points lie " + distances +
+                               " apart: measure one such distance and give it as "
+                               "known_distances."));
+  double loosest = 0.0;
+  for (std::size_t i = 0; i < fit.columns.columns.size(); ++i) {
+    const double std = fit.columns.columns[i].prior_std;
+    if (is_length(fit.columns.places[i]) && std != Column::kNoPrior) {
+      loosest = std::max(loosest, std);
+    }
+  }
+  if (loosest <= kLoosePrior && std::abs(fit.scale - 1.0) < kShrunk) return;
+  warnings.push_back("The arm came out at " + three_digits(fit.scale) +
+                     " times its nominal size with lengths held to " + millimetres(loosest) +
+                     " only; a looser prior would shrink it further. Set the maker's tolerance, "
+                     "about 1 mm, as length_prior.");
+}
+
+void doubt_size_told(const Case& seen, Warnings& warnings) {
+  constexpr double kMostStretch = 0.02;
+  const ArmFit& fit = seen.fit;
+  const double stretch = std::abs(fit.scale - 1.0);
+  if (stretch < kMostStretch || stretch < 3.0 * fit.scale_std) return;
+  warnings.push_back("By the " + fit.scale_source + " the arm is " + three_digits(fit.scale) +
+                     " times its nominal size (± " + three_digits(fit.scale_std) +
+                     "), which no maker misses by so much: a told length or its unit is wrong, "
+                     "the arm is another one, or more than geometry is at work.");
+}
+
+/// Std of a point's centre per axis, from its touches alone.
+std::vector<double> center_std(const Measurement& m, double noise) {
+  std::vector<double> total(static_cast<std::size_t>(m.points()), 0.0);
+  for (Index i = 0; i < m.rows(); ++i) {
+    if (m.point[i] >= 0) total[m.point[i]] += m.weights[i];
+  }
+  for (double& value : total) value = noise / std::sqrt(value);
+  return total;
+}
+
+void doubt_told(const Case& seen, Warnings& warnings) {
+  constexpr double kMostSigma = 4.0;
+  const Measurement& m = seen.measurement;
+  const std::vector<double> center = center_std(m, seen.fit.noise);
+  std::vector<std::string> texts;
+  for (std::size_t k = 0; k < m.distances.size(); ++k) {
+    const KnownDistance& known = m.distances[k];
+    const FoundDistance& found = seen.fit.distances[k];
+    const double std =
+        std::hypot(m.distance_std, std::hypot(center[known.first], center[known.second]));
+    if (std::abs(found.found - found.told) < kMostSigma * std) continue;
+    texts.push_back("the distance from " + std::to_string(found.first) + " to " +
+                    std::to_string(found.second) + ", told as " + millimetres(found.told) +
+                    ", is found as " + millimetres(found.found));
+  }
+  for (const KnownPoint& known : m.known_points) {
+    const double away = (seen.fit.points.col(known.label) - known.position).norm();
+    const double std = std::hypot(m.point_std, center[known.label]);
+    if (away < kMostSigma * std::sqrt(3.0) * std) continue;
+    texts.push_back("point " + std::to_string(m.labels[known.label]) + " is found " +
+                    millimetres(away) + " from where it was told");
+  }
+  if (texts.empty()) return;
+  warnings.push_back("The touches contradict what was told: " + listed(texts, 4) +
+                     ". Measure again, look for swapped labels, or tell how surely it is known "
+                     "(distance_std, point_std).");
+}
+
+void doubt_noise_told(const Case& seen, Warnings& warnings) {
+  constexpr double kMostRatio = 1.5;
+  const ArmFit& fit = seen.fit;
+  if (fit.degrees_of_freedom < 10.0 || !fit.outliers.empty()) return;
+  double sum = 0.0;
+  for (Index i = 0; i < fit.residuals.cols(); ++i) {
+    sum += seen.measurement.weights[i] * fit.residuals.col(i).squaredNorm();
+  }
+  const auto& trust = seen.system.trust();
+  const bool square = std::all_of(trust.begin(), trust.end(), [](double t) { return t == 1.0; });
+  const double found = std::sqrt(sum / fit.degrees_of_freedom);
+  if (!square || found < kMostRatio * fit.noise) return;
+  warnings.push_back("What is left asks for a noise of " + millimetres(found) +
+                     " per axis, where " + millimetres(fit.noise) +
+                     " was told: standard deviations are too small by that factor. Tell no noise, "
+                     "or find what else is at work.");
+}
+
+void doubt_geometry(const Case& seen, Warnings& warnings) {
+  constexpr double kSurely = 1e-3;
+  constexpr double kWorthTelling = 0.1;  // of the variance
+  const Structure& structure = seen.structure;
+  if (structure.p > kSurely || structure.share < kWorthTelling || looks_foreign(seen)) return;
+  const std::string joint = joint_words(seen.nominal, structure.coordinate);
+  warnings.push_back(
+      "Geometry is not enough: of the " + millimetres(seen.fit.rms_after) + " rms that is left, " +
+      millimetres(std::sqrt(structure.share) * seen.fit.rms_after) +
+      " follows the joints, by itself most with " + joint + " (by chance: p " +
+      (structure.p < 1e-12 ? "< 1e-12" : "= " + three_digits(structure.p)) +
+      "). Elastic links and gears, backlash or eccentric encoders do so; no parameter here can, "
+      "and standard deviations do not count it. Trust the arm near the recorded poses, and "
+      "diagnose these effects before relying on it elsewhere.");
+}
+
+void doubt_parameters(const Case& seen, Warnings& warnings) {
+  constexpr double kFarLength = 10e-3;  // [m]
+  constexpr double kFarAngle = 0.05;    // [rad]
+  constexpr double kSurely = 4.0;
+  if (looks_foreign(seen)) return;
+  std::vector<std::string> far;
+  for (const FitParameter& p : seen.fit.parameters) {
+    const bool row = p.group.rfind("row", 0) == 0;
+    const double change = std::abs(p.value - p.nominal);
+    if (!row || change < (p.unit == "rad" ? kFarAngle : kFarLength) || change < kSurely * p.std) {
+      continue;
+    }
+    far.push_back(p.words + " by " + in_its_unit(p.value - p.nominal, p.unit));
+  }
+  if (far.empty()) return;
+  warnings.push_back("Farther from nominal than makers err: " + listed(far, 6) +
+                     ". Check that this is the arm's type and generation and that joint zeros "
+                     "agree; else these numbers stand in for something that is not geometry.");
+}
+
+void doubt_intervals(const Case& seen, Warnings& warnings) {
+  constexpr double kFew = 10.0;
+  const ArmFit& fit = seen.fit;
+  if (fit.degrees_of_freedom >= kFew) return;
+  const int left = std::max(0, static_cast<int>(std::lround(fit.degrees_of_freedom)));
+  warnings.push_back(
+      (left == 0 ? "As many unknowns as equations: residuals are small whatever is true, and "
+                   "say nothing of noise"
+                 : "Only " + counted(left, "equation") +
+                       " more than unknowns: the noise, and with it every standard deviation, is "
+                       "a rough guess") +
+      ". Touch more poses; 20 and more for each of three points serve well.");
+}
+
+}  // namespace
+
+void doubt_fit(const Case& seen, Warnings& warnings) {
+  doubt_search(seen, warnings);
+  doubt_machine(seen, warnings);
+  doubt_rows(seen, warnings);
+  if (seen.measurement.tells_scale())
+    doubt_size_told(seen, warnings);
+  else
+    doubt_size_untold(seen, warnings);
+  doubt_told(seen, warnings);
+  doubt_geometry(seen, warnings);
+  doubt_parameters(seen, warnings);
+  doubt_noise_told(seen, warnings);
+  doubt_intervals(seen, warnings);
+}
+
+}  // namespace bathyal

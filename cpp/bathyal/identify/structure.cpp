@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bathyal/identify/structure.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "bathyal/identify/f_distribution.hpp"
+
+namespace bathyal {
+namespace {
+
+constexpr Index kMostPoses = 2000;
+constexpr Index kHarmonics = 4;        ///< functions of one joint
+constexpr double kBeside = 1e-3;       ///< what is left of a function once the arm took its part
+constexpr double kLeastFreedom = 5.0;  ///< left for the noise
+
+/// What a joint may do wrong at value q, once for each function.
+class JointFunctions {
+ public:
+  JointFunctions(const Arm& arm, const RowMatrix& q)
+      : low_(q.colwise().minCoeff()), high_(q.colwise().maxCoeff()), slides_(arm.size(), false) {
+    for (const Joint& joint : arm.joints()) {
+      if (joint.type == JointType::kPrismatic) slides_[joint.coordinate] = true;
+    }
+  }
+
+  Eigen::Vector4d operator()(Index joint, double q) const {
+    if (!slides_[joint]) return {std::cos(q), std::sin(q), std::cos(2.0 * q), std::sin(2.0 * q)};
+    const double range = high_[joint] - low_[joint];
+    const double u = range > 0.0 ? 2.0 * (q - low_[joint]) / range - 1.0 : 0.0;
+    const double square = u * u;
+    return {u, 1.5 * square - 0.5, (2.5 * square - 1.5) * u,
+            (4.375 * square - 3.75) * square + 0.375};
+  }
+
+ private:
+  Eigen::RowVectorXd low_;
+  Eigen::RowVectorXd high_;
+  std::vector<bool> slides_;
+};
+
+/// Takes from each row of a touched point what the point's centre takes: the weighted mean.
+void center(const Measurement& m, const std::vector<double>& trust, Eigen::MatrixXd& moves) {
+  std::vector<double> total(static_cast<std::size_t>(m.points()), 0.0);
+  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(3 * m.points(), moves.cols());
+  for (Index i = 0; i < m.rows(); ++i) {
+    if (m.point[i] < 0) continue;
+    total[m.point[i]] += m.weights[i] * trust[i];
+    sum.middleRows(3 * m.point[i], 3) += m.weights[i] * trust[i] * moves.middleRows(3 * i, 3);
+  }
+  for (Index i = 0; i < m.rows(); ++i) {
+    if (m.point[i] < 0) continue;
+    moves.middleRows(3 * i, 3) -= sum.middleRows(3 * m.point[i], 3) / total[m.point[i]];
+  }
+}
+
+/// (3 N, functions) what the functions of all joints do to the residuals, as these are weighed.
+Eigen::MatrixXd joint_moves(const ArmSystem& system, const Eigen::VectorXd& x) {
+  const Measurement& m = system.measurement();
+  const TipWalk walk(system.arm_columns(), x, {});
+  const JointFunctions functions(system.arm_columns().arm, m.q);
+  Eigen::MatrixXd moves(3 * m.rows(), kHarmonics * m.q.cols());
+  RowFrames frames;
+  Vec3 tip;
+  for (Index i = 0; i < m.rows(); ++i) {
+    const Eigen::Matrix3Xd by_joint =
+        walk.joint_jacobian(m.q.row(i).data(), m.tool[i], m.station[i], frames, tip);
+    for (Index j = 0; j < m.q.cols(); ++j) {
+      moves.block<3, kHarmonics>(3 * i, kHarmonics * j) =
+          by_joint.col(j) * functions(j, m.q(i, j)).transpose();
+    }
+  }
+  center(m, system.trust(), moves);
+  for (Index i = 0; i < m.rows(); ++i) {
+    const double scale = std::sqrt(m.weights[i] * system.trust()[i]) / system.noise().position;
+    moves.middleRows(3 * i, 3) *= scale;
+    if (m.tracked || m.plane[i] < 0) continue;
+    const Eigen::RowVectorXd along =
+        walk.state().planes[m.plane[i]].normal.transpose() * moves.middleRows(3 * i, 3);
+    moves.middleRows(3 * i, 3).setZero();
+    moves.row(3 * i) = along;
+  }
+  for (Index c = 0; c < moves.cols(); ++c) {
+    const double length = moves.col(c).norm();
+    if (length > 0.0) moves.col(c) /= length;
+  }
+  return moves;
+}
+
+/// Columns of length 1 at most, by what each adds to those before.
+Eigen::ColPivHouseholderQR<Eigen::MatrixXd> pivoted(const Eigen::MatrixXd& columns, double least) {
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(columns);
+  qr.setThreshold(qr.maxPivot() > 0.0 ? std::min(least / qr.maxPivot(), 1.0) : 1.0);
+  return qr;
+}
+
+struct Explained {
+  double squares = 0.0;
+  double functions = 0.0;
+};
+
+Explained explain(const Eigen::MatrixXd& moves, const Eigen::VectorXd& residuals) {
+  const auto qr = pivoted(moves, kBeside);
+  if (qr.maxPivot() < kBeside) return {};
+  Eigen::VectorXd turned = residuals;
+  turned.applyOnTheLeft(qr.householderQ().adjoint());
+  return {turned.head(qr.rank()).squaredNorm(), static_cast<double>(qr.rank())};
+}
+
+/// Share of the variance that is gone with the functions.
+double share_of(const Explained& explained, double squares, double freedom) {
+  const double left = (squares - explained.squares) / (freedom - explained.functions);
+  return squares > 0.0 ? std::clamp(1.0 - left * freedom / squares, 0.0, 1.0) : 0.0;
+}
+
+double free_rows(const Measurement& m, const std::vector<double>& trust) {
+  double rows = free_position_rows(m);
+  for (Index i = 0; i < m.rows(); ++i) {
+    if (trust[i] < 1e-6) rows -= !m.tracked && m.plane[i] >= 0 ? 1.0 : 3.0;
+  }
+  return rows;
+}
+
+Structure test(const ArmSystem& system, const Eigen::VectorXd& x) {
+  const Measurement& m = system.measurement();
+  Eigen::VectorXd residuals(system.rows());
+  Eigen::MatrixXd jacobian(system.rows(), system.columns());
+  const Eigen::VectorXd y = system.scaled(x);
+  system.evaluate(y.data(), residuals.data(), jacobian.data());
+  const Eigen::MatrixXd positions = jacobian.topRows(3 * m.rows());
+  Eigen::MatrixXd rest(3 * m.rows(), kHarmonics * m.q.cols() + 1);
+  rest.leftCols(rest.cols() - 1) = joint_moves(system, x);
+  rest.rightCols(1) = residuals.head(3 * m.rows());
+
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> arm(positions);
+  arm.setThreshold(1e-9);
+  rest.applyOnTheLeft(arm.householderQ().adjoint());
+  const Eigen::MatrixXd moves = rest.bottomLeftCorner(rest.rows() - arm.rank(), rest.cols() - 1);
+  const Eigen::VectorXd left = rest.rightCols(1).bottomRows(rest.rows() - arm.rank());
+
+  const double freedom = free_rows(m, system.trust()) - static_cast<double>(arm.rank());
+  const double squares = left.squaredNorm();
+  const Explained all = explain(moves, left);
+  const double below = freedom - all.functions;
+  Structure out;
+  if (all.functions < 1.0 || below < kLeastFreedom) return out;
+  const double noise = std::max(squares - all.squares, 0.0) / below;
+  out.p = noise > 0.0 ? f_tail(all.squares / all.functions / noise, all.functions, below) : 1.0;
+  out.share = share_of(all, squares, freedom);
+  for (int j = 0; j < m.q.cols(); ++j) {
+    const double share =
+        share_of(explain(moves.middleCols(kHarmonics * j, kHarmonics), left), squares, freedom);
+    if (share > out.joint_share) {
+      out.coordinate = j;
+      out.joint_share = share;
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+Structure find_structure(const ArmSystem& system, const Eigen::VectorXd& x,
+                         const std::vector<double>& trust) {
+  const Measurement& all = system.measurement();
+  if (all.rows() <= kMostPoses) {
+    ArmSystem asked = system;
+    asked.set_criterion(Criterion::kCentroid, false);
+    asked.set_trust(trust);
+    return test(asked, x);
+  }
+  const Index stride = (all.rows() + kMostPoses - 1) / kMostPoses;
+  const Measurement some = every(all, stride);
+  std::vector<double> some_trust;
+  for (Index i = 0; i < all.rows(); i += stride) some_trust.push_back(trust[i]);
+  ArmSystem asked(system.arm_columns(), some, Criterion::kCentroid, false, 1);
+  asked.set_free(system.free());
+  asked.set_trust(std::move(some_trust));
+  asked.set_noise(system.noise(), x);
+  return test(asked, x);
+}
+
+}  // namespace bathyal
