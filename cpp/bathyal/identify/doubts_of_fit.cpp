@@ -187,12 +187,12 @@ void doubt_noise_told(const Case& seen, Warnings& warnings) {
 
 void doubt_geometry(const Case& seen, Warnings& warnings) {
   constexpr double kSurely = 1e-3;
-  constexpr double kWorthTelling = 0.1;  // of the variance
+  constexpr double kWorthTelling = 0.02;  // of the variance
   const Structure& structure = seen.structure;
   if (structure.p > kSurely || structure.share < kWorthTelling || looks_foreign(seen)) return;
   const std::string joint = joint_words(seen.nominal, structure.coordinate);
   warnings.push_back(
-      "Geometry is not enough: of the " + millimetres(seen.fit.rms_after) + " rms that is left, " +
+      "Geometry is not enough: of the " + millimetres(seen.fit.rms_after) + " rms that is left, at least " +
       millimetres(std::sqrt(structure.share) * seen.fit.rms_after) +
       " follows the joints, by itself most with " + joint + " (by chance: p " +
       (structure.p < 1e-12 ? "< 1e-12" : "= " + three_digits(structure.p)) +

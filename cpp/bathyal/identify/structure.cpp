@@ -2,8 +2,8 @@
 #include "bathyal/identify/structure.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <optional>
 
 #include "bathyal/identify/f_distribution.hpp"
 
@@ -11,27 +11,28 @@ namespace bathyal {
 namespace {
 
 constexpr Index kMostPoses = 2000;
-constexpr Index kHarmonics = 4;        ///< functions of one joint
-constexpr double kBeside = 1e-3;       ///< what is left of a function once the arm took its part
-constexpr double kLeastFreedom = 5.0;  ///< left for the noise
+constexpr Index kFunctions = 2;           ///< of one joint
+constexpr Index kMoves = 3 * kFunctions;  ///< each along three axes
+constexpr double kBeside = 1e-3;          ///< what is left of a move once the arm took its part
+constexpr double kLeastFreedom = 5.0;     ///< left for the noise
 
-/// What a joint may do wrong at value q, once for each function.
+/// What follows joint j alone, at each of its values.
 class JointFunctions {
  public:
   JointFunctions(const Arm& arm, const RowMatrix& q)
-      : low_(q.colwise().minCoeff()), high_(q.colwise().maxCoeff()), slides_(arm.size(), false) {
+      : low_(q.colwise().minCoeff()),
+        high_(q.colwise().maxCoeff()),
+        slides_(static_cast<std::size_t>(arm.size()), false) {
     for (const Joint& joint : arm.joints()) {
       if (joint.type == JointType::kPrismatic) slides_[joint.coordinate] = true;
     }
   }
 
-  Eigen::Vector4d operator()(Index joint, double q) const {
-    if (!slides_[joint]) return {std::cos(q), std::sin(q), std::cos(2.0 * q), std::sin(2.0 * q)};
+  std::array<double, kFunctions> operator()(Index joint, double q) const {
+    if (!slides_[joint]) return {std::cos(q), std::sin(q)};
     const double range = high_[joint] - low_[joint];
     const double u = range > 0.0 ? 2.0 * (q - low_[joint]) / range - 1.0 : 0.0;
-    const double square = u * u;
-    return {u, 1.5 * square - 0.5, (2.5 * square - 1.5) * u,
-            (4.375 * square - 3.75) * square + 0.375};
+    return {u, 1.5 * u * u - 0.5};
   }
 
  private:
@@ -55,29 +56,27 @@ void center(const Measurement& m, const std::vector<double>& trust, Eigen::Matri
   }
 }
 
-/// (3 N, functions) what the functions of all joints do to the residuals, as these are weighed.
+/// (rows, moves) what errors that follow the joints do to the residuals, as these are weighed.
 Eigen::MatrixXd joint_moves(const ArmSystem& system, const Eigen::VectorXd& x) {
   const Measurement& m = system.measurement();
-  const TipWalk walk(system.arm_columns(), x, {});
-  const JointFunctions functions(system.arm_columns().arm, m.q);
-  Eigen::MatrixXd moves(3 * m.rows(), kHarmonics * m.q.cols());
-  RowFrames frames;
-  Vec3 tip;
+  const ArmState state = state_at(system.arm_columns(), x);
+  const JointFunctions functions(state.arm, m.q);
+  Eigen::MatrixXd moves = Eigen::MatrixXd::Zero(system.rows(), kMoves * m.q.cols());
   for (Index i = 0; i < m.rows(); ++i) {
-    const Eigen::Matrix3Xd by_joint =
-        walk.joint_jacobian(m.q.row(i).data(), m.tool[i], m.station[i], frames, tip);
+    const Eigen::Matrix3d axes = state.bases[m.station[i]].linear();
     for (Index j = 0; j < m.q.cols(); ++j) {
-      moves.block<3, kHarmonics>(3 * i, kHarmonics * j) =
-          by_joint.col(j) * functions(j, m.q(i, j)).transpose();
+      const auto values = functions(j, m.q(i, j));
+      for (Index f = 0; f < kFunctions; ++f) {
+        moves.block<3, 3>(3 * i, kMoves * j + 3 * f) = values[f] * axes;
+      }
     }
   }
   center(m, system.trust(), moves);
   for (Index i = 0; i < m.rows(); ++i) {
-    const double scale = std::sqrt(m.weights[i] * system.trust()[i]) / system.noise().position;
-    moves.middleRows(3 * i, 3) *= scale;
+    moves.middleRows(3 * i, 3) *= std::sqrt(m.weights[i] * system.trust()[i]);
     if (m.tracked || m.plane[i] < 0) continue;
     const Eigen::RowVectorXd along =
-        walk.state().planes[m.plane[i]].normal.transpose() * moves.middleRows(3 * i, 3);
+        state.planes[m.plane[i]].normal.transpose() * moves.middleRows(3 * i, 3);
     moves.middleRows(3 * i, 3).setZero();
     moves.row(3 * i) = along;
   }
@@ -114,12 +113,20 @@ double share_of(const Explained& explained, double squares, double freedom) {
   return squares > 0.0 ? std::clamp(1.0 - left * freedom / squares, 0.0, 1.0) : 0.0;
 }
 
-double free_rows(const Measurement& m, const std::vector<double>& trust) {
+/// Position rows of those trusted, less what columns and centres take of them.
+double freedom_of(const ArmSystem& system, const Eigen::MatrixXd& jacobian,
+                  const Eigen::HouseholderQR<Eigen::MatrixXd>& qr) {
+  const Measurement& m = system.measurement();
   double rows = free_position_rows(m);
   for (Index i = 0; i < m.rows(); ++i) {
-    if (trust[i] < 1e-6) rows -= !m.tracked && m.plane[i] >= 0 ? 1.0 : 3.0;
+    if (system.trust()[i] < 1e-6) rows -= !m.tracked && m.plane[i] >= 0 ? 1.0 : 3.0;
   }
-  return rows;
+  return rows - qr.matrixQR()
+                    .topRows(jacobian.cols())
+                    .triangularView<Eigen::Upper>()
+                    .transpose()
+                    .solve(jacobian.topRows(3 * m.rows()).transpose())
+                    .squaredNorm();
 }
 
 Structure test(const ArmSystem& system, const Eigen::VectorXd& x) {
@@ -128,19 +135,19 @@ Structure test(const ArmSystem& system, const Eigen::VectorXd& x) {
   Eigen::MatrixXd jacobian(system.rows(), system.columns());
   const Eigen::VectorXd y = system.scaled(x);
   system.evaluate(y.data(), residuals.data(), jacobian.data());
-  const Eigen::MatrixXd positions = jacobian.topRows(3 * m.rows());
-  Eigen::MatrixXd rest(3 * m.rows(), kHarmonics * m.q.cols() + 1);
+  // With all rows, what was told and priors too: touches alone would leave the arm's size free, and
+  // an arm of size 0 has no residuals.
+  const Eigen::HouseholderQR<Eigen::MatrixXd> arm(jacobian);
+  Eigen::MatrixXd rest(system.rows(), kMoves * m.q.cols() + 1);
   rest.leftCols(rest.cols() - 1) = joint_moves(system, x);
-  rest.rightCols(1) = residuals.head(3 * m.rows());
-
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> arm(positions);
-  arm.setThreshold(1e-9);
+  rest.rightCols(1) = residuals;
   rest.applyOnTheLeft(arm.householderQ().adjoint());
-  const Eigen::MatrixXd moves = rest.bottomLeftCorner(rest.rows() - arm.rank(), rest.cols() - 1);
-  const Eigen::VectorXd left = rest.rightCols(1).bottomRows(rest.rows() - arm.rank());
+  const Index beside = rest.rows() - system.columns();
+  const Eigen::MatrixXd moves = rest.bottomLeftCorner(beside, rest.cols() - 1);
+  const Eigen::VectorXd left = rest.bottomRightCorner(beside, 1);
 
-  const double freedom = free_rows(m, system.trust()) - static_cast<double>(arm.rank());
-  const double squares = left.squaredNorm();
+  const double freedom = freedom_of(system, jacobian, arm);
+  const double squares = residuals.head(3 * m.rows()).squaredNorm();
   const Explained all = explain(moves, left);
   const double below = freedom - all.functions;
   Structure out;
@@ -150,7 +157,7 @@ Structure test(const ArmSystem& system, const Eigen::VectorXd& x) {
   out.share = share_of(all, squares, freedom);
   for (int j = 0; j < m.q.cols(); ++j) {
     const double share =
-        share_of(explain(moves.middleCols(kHarmonics * j, kHarmonics), left), squares, freedom);
+        share_of(explain(moves.middleCols(kMoves * j, kMoves), left), squares, freedom);
     if (share > out.joint_share) {
       out.coordinate = j;
       out.joint_share = share;

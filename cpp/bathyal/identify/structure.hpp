@@ -17,11 +17,12 @@ struct Structure {
   double joint_share = 0.0;  ///< its share
 };
 
-/// Fisher's F test of the position residuals at `x`, rows weighed by `trust`, against errors of
-/// each joint that repeat with it: cos q, sin q, cos 2q, sin 2q of a turning joint (eccentric
-/// encoders, gears, gravity on an elastic joint), Legendre polynomials up to the fourth along a
-/// sliding one. What the arm's parameters themselves can do to first order is taken out of both
-/// before, so that the probability is exact for normal noise: under it `p` is uniform.
+/// Fisher's F test of the position residuals at `x`, rows weighed by `trust`, against errors that
+/// follow one joint each: cos q and sin q of a turning joint, the first two Legendre polynomials
+/// along a sliding one, each along the three axes of the base. (Gravity on elastic links and gears
+/// and eccentric encoders have such parts; harmonics about the joints' own axes alone explain less
+/// of real arms.) What the arm's parameters can do to first order is taken out of both before, so
+/// that under normal noise `p` is uniform.
 ///
 /// Every pose counts as an independent one. Of more than 2000, every k-th is asked.
 Structure find_structure(const ArmSystem& system, const Eigen::VectorXd& x,
