@@ -192,7 +192,8 @@ void doubt_geometry(const Case& seen, Warnings& warnings) {
   if (structure.p > kSurely || structure.share < kWorthTelling || looks_foreign(seen)) return;
   const std::string joint = joint_words(seen.nominal, structure.coordinate);
   warnings.push_back(
-      "Geometry is not enough: of the " + millimetres(seen.fit.rms_after) + " rms that is left, at least " +
+      "Geometry is not enough: of the " + millimetres(seen.fit.rms_after) +
+      " rms that is left, at least " +
       millimetres(std::sqrt(structure.share) * seen.fit.rms_after) +
       " follows the joints, by itself most with " + joint + " (by chance: p " +
       (structure.p < 1e-12 ? "< 1e-12" : "= " + three_digits(structure.p)) +

@@ -56,12 +56,12 @@ void center(const Measurement& m, const std::vector<double>& trust, Eigen::Matri
   }
 }
 
-/// (rows, moves) what errors that follow the joints do to the residuals, as these are weighed.
+/// (3 N, moves) what errors that follow the joints do to the residuals, as these are weighed.
 Eigen::MatrixXd joint_moves(const ArmSystem& system, const Eigen::VectorXd& x) {
   const Measurement& m = system.measurement();
   const ArmState state = state_at(system.arm_columns(), x);
   const JointFunctions functions(state.arm, m.q);
-  Eigen::MatrixXd moves = Eigen::MatrixXd::Zero(system.rows(), kMoves * m.q.cols());
+  Eigen::MatrixXd moves(3 * m.rows(), kMoves * m.q.cols());
   for (Index i = 0; i < m.rows(); ++i) {
     const Eigen::Matrix3d axes = state.bases[m.station[i]].linear();
     for (Index j = 0; j < m.q.cols(); ++j) {
@@ -113,44 +113,69 @@ double share_of(const Explained& explained, double squares, double freedom) {
   return squares > 0.0 ? std::clamp(1.0 - left * freedom / squares, 0.0, 1.0) : 0.0;
 }
 
-/// Position rows of those trusted, less what columns and centres take of them.
-double freedom_of(const ArmSystem& system, const Eigen::MatrixXd& jacobian,
-                  const Eigen::HouseholderQR<Eigen::MatrixXd>& qr) {
-  const Measurement& m = system.measurement();
+double rows_trusted(const Measurement& m, const std::vector<double>& trust) {
   double rows = free_position_rows(m);
   for (Index i = 0; i < m.rows(); ++i) {
-    if (system.trust()[i] < 1e-6) rows -= !m.tracked && m.plane[i] >= 0 ? 1.0 : 3.0;
+    if (trust[i] < 1e-6) rows -= !m.tracked && m.plane[i] >= 0 ? 1.0 : 3.0;
   }
-  return rows - qr.matrixQR()
-                    .topRows(jacobian.cols())
-                    .triangularView<Eigen::Upper>()
-                    .transpose()
-                    .solve(jacobian.topRows(3 * m.rows()).transpose())
-                    .squaredNorm();
+  return rows;
 }
+
+/// What the arm's columns can do to the positions, as a basis of the space of residuals.
+class ArmSpace {
+ public:
+  /// Touches about their centres are what a growing arm does to them: left in, the arm's size would
+  /// take all residuals with it. It is held.
+  ArmSpace(const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& residuals, bool hold_size)
+      : first_(jacobian) {
+    constexpr double kDependent = 1e-9;
+    const Index columns = jacobian.cols();
+    Eigen::MatrixXd triangle = first_.matrixQR().topRows(columns).triangularView<Eigen::Upper>();
+    Eigen::VectorXd turned = residuals;
+    turned.applyOnTheLeft(first_.householderQ().adjoint());
+    if (hold_size) {
+      Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(triangle);
+      qr.setThreshold(kDependent);
+      const Eigen::VectorXd growth = qr.solve(turned.head(columns));
+      const bool grows = (triangle * growth).squaredNorm() > 0.5 * turned.squaredNorm();
+      if (grows) triangle -= (triangle * growth) * (growth.transpose() / growth.squaredNorm());
+    }
+    second_.setThreshold(kDependent);
+    second_.compute(triangle);
+  }
+
+  Index rank() const { return second_.rank(); }
+
+  /// What the columns cannot do of `vectors`, in other axes: (rows - rank) coordinates.
+  Eigen::MatrixXd outside(Eigen::MatrixXd vectors) const {
+    vectors.applyOnTheLeft(first_.householderQ().adjoint());
+    auto top = vectors.topRows(first_.cols());
+    top.applyOnTheLeft(second_.householderQ().adjoint());
+    return vectors.bottomRows(vectors.rows() - rank());
+  }
+
+ private:
+  Eigen::HouseholderQR<Eigen::MatrixXd> first_;
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> second_;
+};
 
 Structure test(const ArmSystem& system, const Eigen::VectorXd& x) {
   const Measurement& m = system.measurement();
+  Structure out;
+  if (3 * m.rows() <= system.columns()) return out;
   Eigen::VectorXd residuals(system.rows());
   Eigen::MatrixXd jacobian(system.rows(), system.columns());
   const Eigen::VectorXd y = system.scaled(x);
   system.evaluate(y.data(), residuals.data(), jacobian.data());
-  // With all rows, what was told and priors too: touches alone would leave the arm's size free, and
-  // an arm of size 0 has no residuals.
-  const Eigen::HouseholderQR<Eigen::MatrixXd> arm(jacobian);
-  Eigen::MatrixXd rest(system.rows(), kMoves * m.q.cols() + 1);
-  rest.leftCols(rest.cols() - 1) = joint_moves(system, x);
-  rest.rightCols(1) = residuals;
-  rest.applyOnTheLeft(arm.householderQ().adjoint());
-  const Index beside = rest.rows() - system.columns();
-  const Eigen::MatrixXd moves = rest.bottomLeftCorner(beside, rest.cols() - 1);
-  const Eigen::VectorXd left = rest.bottomRightCorner(beside, 1);
+  residuals.conservativeResize(3 * m.rows());
+  const ArmSpace arm(jacobian.topRows(3 * m.rows()), residuals, !m.tracked);
+  const Eigen::MatrixXd moves = arm.outside(joint_moves(system, x));
+  const Eigen::VectorXd left = arm.outside(residuals);
 
-  const double freedom = freedom_of(system, jacobian, arm);
-  const double squares = residuals.head(3 * m.rows()).squaredNorm();
+  const double freedom = rows_trusted(m, system.trust()) - static_cast<double>(arm.rank());
+  const double squares = left.squaredNorm();
   const Explained all = explain(moves, left);
   const double below = freedom - all.functions;
-  Structure out;
   if (all.functions < 1.0 || below < kLeastFreedom) return out;
   const double noise = std::max(squares - all.squares, 0.0) / below;
   out.p = noise > 0.0 ? f_tail(all.squares / all.functions / noise, all.functions, below) : 1.0;
