@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "bathyal/identify/arm_fit.hpp"
+#include "bathyal/identify/outliers.hpp"
 #include "bathyal/identify/structure.hpp"
 
 // What a doubting reader would say of a fit. For use inside the room.
@@ -18,7 +19,7 @@ struct Case {
   const Arm& nominal;
   const ArmFit& fit;
   const Structure& structure;
-  bool hopeless;  ///< too many rows contradict each other to name any
+  const OutlierSearch& search;
 };
 
 /// "joint 3 (elbow)".

@@ -11,13 +11,7 @@ namespace {
 
 using Warnings = std::vector<std::string>;
 
-bool is_length(const Place& place) { return place.part == Part::kD || place.part == Part::kA; }
-
-double reach(const Arm& arm) {
-  double sum = 0.0;
-  for (const Joint& joint : arm.joints()) sum += std::hypot(joint.row.a, joint.row.d);
-  return sum;
-}
+bool is_row_length(const Place& place) { return place.part == Part::kD || place.part == Part::kA; }
 
 void doubt_search(const Case& seen, Warnings& warnings) {
   if (seen.fit.converged) return;
@@ -26,20 +20,43 @@ void doubt_search(const Case& seen, Warnings& warnings) {
                      "rows or a wrong arm first.");
 }
 
+/// Rows of the arm that moved out of all proportion.
+std::vector<std::string> folded_rows(const Case& seen) {
+  constexpr double kFolded = 0.5;  // [rad]
+  std::vector<std::string> rows;
+  for (const FitParameter& p : seen.fit.parameters) {
+    const bool row = p.group.rfind("row", 0) == 0;
+    const double change = p.value - p.nominal;
+    if (row && p.unit == "rad" && std::abs(change) > kFolded) {
+      rows.push_back(p.words + " by " + degrees(change));
+    }
+  }
+  return rows;
+}
+
 bool looks_foreign(const Case& seen) {
-  constexpr double kShareOfReach = 0.01;
-  return seen.fit.rms_after > kShareOfReach * reach(seen.nominal) || seen.hopeless;
+  return seen.search.hopeless || seen.fit.rms_after > kForeignShare * reach_of(seen.nominal);
 }
 
 void doubt_machine(const Case& seen, Warnings& warnings) {
   if (!looks_foreign(seen)) return;
-  std::string text = millimetres(seen.fit.rms_after) + " rms are left, where an arm with " +
-                     three_digits(reach(seen.nominal)) +
-                     " m of links that was drawn right leaves a few. Arm and data look like "
-                     "different machines, or the order, signs, zeros or units of the joints "
-                     "differ. Check what was recorded and use none of these numbers.";
-  if (seen.hopeless) text += " So many rows contradict each other that none can be named.";
-  warnings.push_back(std::move(text));
+  const std::string links = three_digits(reach_of(seen.nominal)) + " m of links";
+  warnings.push_back(
+      (seen.search.hopeless
+           ? "No arm near the drawing, with its " + links + ", agrees with most of the rows"
+           : millimetres(seen.fit.rms_after) + " rms are left, where an arm with " + links +
+                 " leaves a few") +
+      ". Arm and data look like different machines; or the order, signs, zeros or units of what "
+      "was recorded differ, or labels are mixed up. Check these and use none of these numbers.");
+}
+
+void doubt_fold(const Case& seen, Warnings& warnings) {
+  const std::vector<std::string> folded = folded_rows(seen);
+  if (folded.empty()) return;
+  warnings.push_back("The search turned " + listed(folded, 4) +
+                     ": no arm is built so far from its drawing, and one that is folded until its "
+                     "tip hardly moves agrees with any touches. Use none of these numbers; mend "
+                     "what else is named here, and identify again.");
 }
 
 void doubt_rows(const Case& seen, Warnings& warnings) {
@@ -107,7 +124,7 @@ void doubt_size_untold(const Case& seen, Warnings& warnings) {
   double loosest = 0.0;
   for (std::size_t i = 0; i < fit.columns.columns.size(); ++i) {
     const double std = fit.columns.columns[i].prior_std;
-    if (is_length(fit.columns.places[i]) && std != Column::kNoPrior) {
+    if (is_row_length(fit.columns.places[i]) && std != Column::kNoPrior) {
       loosest = std::max(loosest, std);
     }
   }
@@ -139,7 +156,75 @@ std::vector<double> center_std(const Measurement& m, double noise) {
   return total;
 }
 
-void doubt_told(const Case& seen, Warnings& warnings) {
+/// A length that was told: a distance, or what two known points are apart.
+struct ToldLength {
+  int first = 0;  ///< indices of points
+  int second = 0;
+  double length = 0.0;
+};
+
+std::vector<ToldLength> told_lengths(const Measurement& m) {
+  std::vector<ToldLength> told;
+  for (const KnownDistance& known : m.distances) {
+    told.push_back({known.first, known.second, known.distance});
+  }
+  for (std::size_t a = 0; a < m.known_points.size(); ++a) {
+    for (std::size_t b = a + 1; b < m.known_points.size(); ++b) {
+      const KnownPoint& first = m.known_points[a];
+      const KnownPoint& second = m.known_points[b];
+      told.push_back({first.label, second.label, (first.position - second.position).norm()});
+    }
+  }
+  return told;
+}
+
+/// Told lengths that the touches alone contradict, with points a and b changed for each other.
+std::vector<ToldLength> contradicted(const std::vector<ToldLength>& told,
+                                     const Eigen::Matrix3Xd& points, int a, int b) {
+  constexpr double kShare = 0.02;  // the arm's size, and with it all, is known no better
+  constexpr double kLeast = 3e-3;  // [m]
+  const auto swap = [a, b](int p) { return p == a ? b : p == b ? a : p; };
+  std::vector<ToldLength> wrong;
+  for (const ToldLength& length : told) {
+    const double found = (points.col(swap(length.first)) - points.col(swap(length.second))).norm();
+    if (std::abs(found - length.length) > kShare * length.length + kLeast) wrong.push_back(length);
+  }
+  return wrong;
+}
+
+/// The two points that told and touched lengths agree about once they are changed for each other.
+std::string swapped_points(const std::vector<ToldLength>& told, const Measurement& m,
+                           const Eigen::Matrix3Xd& points) {
+  for (int a = 0; a < m.points(); ++a) {
+    for (int b = a + 1; b < m.points(); ++b) {
+      if (contradicted(told, points, a, b).empty()) {
+        return " Changed for each other, points " + std::to_string(m.labels[a]) + " and " +
+               std::to_string(m.labels[b]) + " agree with it: their labels look swapped.";
+      }
+    }
+  }
+  return "";
+}
+
+/// Far off: by the touches without what was told, for a fit bends to it.
+std::string gross_contradiction(const Case& seen) {
+  const Measurement& m = seen.measurement;
+  const Eigen::Matrix3Xd& points = seen.search.points;
+  if (points.cols() == 0 || seen.search.hopeless) return "";
+  const std::vector<ToldLength> told = told_lengths(m);
+  std::vector<std::string> texts;
+  for (const ToldLength& wrong : contradicted(told, points, 0, 0)) {
+    texts.push_back("from " + std::to_string(m.labels[wrong.first]) + " to " +
+                    std::to_string(m.labels[wrong.second]) + " told as " +
+                    millimetres(wrong.length) + ", touched as " +
+                    millimetres((points.col(wrong.first) - points.col(wrong.second)).norm()));
+  }
+  if (texts.empty()) return "";
+  return listed(texts, 4) + "." + swapped_points(told, m, points);
+}
+
+/// Of the noise's size: what is left between told and found.
+std::string fine_contradiction(const Case& seen) {
   constexpr double kMostSigma = 4.0;
   const Measurement& m = seen.measurement;
   const std::vector<double> center = center_std(m, seen.fit.noise);
@@ -150,21 +235,26 @@ void doubt_told(const Case& seen, Warnings& warnings) {
     const double std =
         std::hypot(m.distance_std, std::hypot(center[known.first], center[known.second]));
     if (std::abs(found.found - found.told) < kMostSigma * std) continue;
-    texts.push_back("the distance from " + std::to_string(found.first) + " to " +
-                    std::to_string(found.second) + ", told as " + millimetres(found.told) +
-                    ", is found as " + millimetres(found.found));
+    texts.push_back("from " + std::to_string(found.first) + " to " + std::to_string(found.second) +
+                    " told as " + millimetres(found.told) + ", found as " +
+                    millimetres(found.found));
   }
   for (const KnownPoint& known : m.known_points) {
     const double away = (seen.fit.points.col(known.label) - known.position).norm();
     const double std = std::hypot(m.point_std, center[known.label]);
     if (away < kMostSigma * std::sqrt(3.0) * std) continue;
-    texts.push_back("point " + std::to_string(m.labels[known.label]) + " is found " +
+    texts.push_back("point " + std::to_string(m.labels[known.label]) + " found " +
                     millimetres(away) + " from where it was told");
   }
-  if (texts.empty()) return;
-  warnings.push_back("The touches contradict what was told: " + listed(texts, 4) +
-                     ". Measure again, look for swapped labels, or tell how surely it is known "
-                     "(distance_std, point_std).");
+  return texts.empty() ? "" : listed(texts, 4) + ".";
+}
+
+void doubt_told(const Case& seen, Warnings& warnings) {
+  std::string text = gross_contradiction(seen);
+  if (text.empty()) text = fine_contradiction(seen);
+  if (text.empty()) return;
+  warnings.push_back("The touches contradict what was told: " + text +
+                     " Measure again, or tell how surely it is known (distance_std, point_std).");
 }
 
 void doubt_noise_told(const Case& seen, Warnings& warnings) {
@@ -189,7 +279,10 @@ void doubt_geometry(const Case& seen, Warnings& warnings) {
   constexpr double kSurely = 1e-3;
   constexpr double kWorthTelling = 0.02;  // of the variance
   const Structure& structure = seen.structure;
-  if (structure.p > kSurely || structure.share < kWorthTelling || looks_foreign(seen)) return;
+  if (structure.p > kSurely || structure.share < kWorthTelling || looks_foreign(seen) ||
+      !folded_rows(seen).empty()) {
+    return;
+  }
   const std::string joint = joint_words(seen.nominal, structure.coordinate);
   warnings.push_back(
       "Geometry is not enough: of the " + millimetres(seen.fit.rms_after) +
@@ -203,10 +296,8 @@ void doubt_geometry(const Case& seen, Warnings& warnings) {
 }
 
 void doubt_parameters(const Case& seen, Warnings& warnings) {
-  constexpr double kFarLength = 10e-3;  // [m]
-  constexpr double kFarAngle = 0.05;    // [rad]
   constexpr double kSurely = 4.0;
-  if (looks_foreign(seen)) return;
+  if (looks_foreign(seen) || !folded_rows(seen).empty()) return;
   std::vector<std::string> far;
   for (const FitParameter& p : seen.fit.parameters) {
     const bool row = p.group.rfind("row", 0) == 0;
@@ -241,6 +332,7 @@ void doubt_intervals(const Case& seen, Warnings& warnings) {
 void doubt_fit(const Case& seen, Warnings& warnings) {
   doubt_search(seen, warnings);
   doubt_machine(seen, warnings);
+  doubt_fold(seen, warnings);
   doubt_rows(seen, warnings);
   if (seen.measurement.tells_scale())
     doubt_size_told(seen, warnings);

@@ -9,11 +9,12 @@ namespace bathyal {
 
 void examine(const Measurement& measurement, const ArmSystem& system, const Arm& nominal,
              ArmFit& fit) {
-  OutlierSearch search = find_outliers(system, fit.values);
-  fit.outliers = std::move(search.outliers);
-  const Structure structure = find_structure(system, search.x, search.trust);
+  const OutlierSearch search = find_outliers(system, fit.values);
+  const Structure structure =
+      search.hopeless ? Structure{} : find_structure(system, search.x, search.trust);
+  fit.outliers = search.outliers;
   fit.structure_p = structure.p;
-  fit.warnings = find_doubts({measurement, system, nominal, fit, structure, search.hopeless});
+  fit.warnings = find_doubts({measurement, system, nominal, fit, structure, search});
 }
 
 }  // namespace bathyal

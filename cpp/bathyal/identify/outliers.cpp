@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "bathyal/identify/f_distribution.hpp"
 
@@ -153,6 +154,36 @@ void solve(const ArmSystem& system, int steps, Eigen::VectorXd& x) {
   x = system.values(solve_least_squares(system, system.scaled(x), options).y);
 }
 
+bool has_strayed(const ArmSystem& system, const Eigen::VectorXd& x) {
+  const ArmColumns& columns = system.arm_columns();
+  for (const int c : system.free()) {
+    const Part part = columns.places[c].part;
+    if (part > Part::kBeta) continue;
+    const bool length = part == Part::kD || part == Part::kA;
+    const double change = std::abs(x[c] - columns.columns[c].nominal);
+    if (change > (length ? kFarLength : kFarAngle)) return true;
+  }
+  return false;
+}
+
+/// The same search with every row of the arm held loosely to its drawing, the frames hardly.
+ArmSystem near_drawing(const ArmSystem& fitted, const Measurement& untold) {
+  constexpr double kFrame = 10.0;  // [m] or [rad]
+  const ArmColumns& columns = fitted.arm_columns();
+  ArmSystem system(columns, untold, Criterion::kCentroid, false, 1);
+  system.set_free(fitted.free());
+  std::vector<LinearRow> rows;
+  for (const int c : fitted.free()) {
+    const Part part = columns.places[c].part;
+    const bool length = part == Part::kD || part == Part::kA;
+    const double std = part > Part::kBeta ? kFrame : length ? kFarLength : kFarAngle;
+    rows.push_back({Eigen::VectorXd::Unit(columns.nominal().size(), c), std});
+  }
+  system.set_linear_rows(std::move(rows));
+  system.set_noise(fitted.noise(), columns.nominal());
+  return system;
+}
+
 /// Finds the arm again with the pull of every row bounded.
 void solve_bounded(ArmSystem& system, Eigen::VectorXd& x) {
   constexpr int kHuberRounds = 15;
@@ -222,32 +253,51 @@ std::optional<int> point_that_fits(const ArmSystem& system, const Study& study, 
 
 }  // namespace
 
+double reach_of(const Arm& arm) {
+  double sum = 0.0;
+  for (const Joint& joint : arm.joints()) sum += std::hypot(joint.row.a, joint.row.d);
+  return sum;
+}
+
 OutlierSearch find_outliers(const ArmSystem& fitted, const Eigen::VectorXd& x) {
   const Measurement& m = fitted.measurement();
-  OutlierSearch out{{}, false, x, std::vector<double>(static_cast<std::size_t>(m.rows()), 1.0)};
-  ArmSystem system = fitted;
-  system.set_criterion(Criterion::kCentroid, false);
-  system.set_trust(out.trust);
-  Study found = study(system, x);
-  if (found.freedom < 1.0 || looks_normal(found, system)) return out;
+  OutlierSearch out{{}, false, x, std::vector<double>(static_cast<std::size_t>(m.rows()), 1.0), {}};
+  {
+    ArmSystem system = fitted;
+    system.set_criterion(Criterion::kCentroid, false);
+    system.set_trust(out.trust);
+    const Study found = study(system, x);
+    if (!has_strayed(system, x) && (found.freedom < 1.0 || looks_normal(found, system))) return out;
+  }
 
-  solve_bounded(system, out.x);
-  found = settle(system, out.x);
-  const Eigen::Matrix3Xd centers = system.centroids(out.x);
-  const Eigen::Matrix3Xd deviations = system.deviations(out.x);
+  Measurement untold = m;
+  untold.distances.clear();
+  untold.known_points.clear();
+  ArmSystem system = near_drawing(fitted, untold);
+  Eigen::VectorXd found_x = fitted.arm_columns().nominal();
+  solve_bounded(system, found_x);
+  const Study found = settle(system, found_x);
+  out.points = system.centroids(found_x);
+  const Eigen::Matrix3Xd deviations = system.deviations(found_x);
   Index strangers = 0;
   for (Index i = 0; i < m.rows(); ++i) {
     if (is_kept(system.trust()[i])) continue;
     Outlier outlier{static_cast<int>(i), m.point[i] < 0 ? -1 : m.labels[m.point[i]],
                     found.distance[i], std::nullopt};
     if (m.point[i] >= 0) {
-      const Vec3 tip = centers.col(m.point[i]) + deviations.col(i);
-      outlier.fits = point_that_fits(system, found, i, tip, centers);
+      const Vec3 tip = out.points.col(m.point[i]) + deviations.col(i);
+      outlier.fits = point_that_fits(system, found, i, tip, out.points);
     }
     if (!outlier.fits) ++strangers;
     out.outliers.push_back(outlier);
   }
-  if (3 * strangers > m.rows()) return {{}, true, x, std::move(out.trust)};
+  const double left = std::sqrt(3.0 * found.variance) * system.noise().position;
+  if (3 * strangers > m.rows() || left > kForeignShare * reach_of(system.arm_columns().arm)) {
+    out.hopeless = true;
+    out.outliers.clear();
+    return out;
+  }
+  out.x = found_x;
   out.trust = system.trust();
   return out;
 }
