@@ -114,8 +114,11 @@ def moved(
     for _ in range(5):
         left = goal - arm.forward(q)[:, :3, 3]
         jacobian = arm.jacobian(q)[:, :3]
-        q += np.einsum("nji,nj->ni", jacobian, np.linalg.solve(
-            jacobian @ jacobian.transpose(0, 2, 1), left[:, :, None])[:, :, 0])
+        q += np.einsum(
+            "nji,nj->ni",
+            jacobian,
+            np.linalg.solve(jacobian @ jacobian.transpose(0, 2, 1), left[:, :, None])[:, :, 0],
+        )
     return q
 
 

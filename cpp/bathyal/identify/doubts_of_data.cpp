@@ -74,7 +74,7 @@ void doubt_points(const Case& seen, Warnings& warnings) {
 
 void doubt_joints(const Case& seen, Warnings& warnings) {
   constexpr double kStill = 1e-3;         // [rad] or [m]
-  constexpr double kHardly = 0.17;        // [rad], 10 deg
+  constexpr double kHardly = 0.35;        // [rad], 20 deg
   constexpr double kHardlySlides = 0.02;  // [m]
   const RowMatrix& q = seen.measurement.q;
   std::vector<std::string> still;
@@ -163,9 +163,10 @@ void doubt_rank(const Case& seen, Warnings& warnings) {
   if (!lost.empty()) {
     warnings.push_back(
         "Not found, and left at nominal where the data do not tell: " + listed(lost) +
-        ". These move together in ways that no touch here feels (`trades` of each says how). More "
-        "varied poses, a known distance or known points tell them; a tip far from the recorded "
-        "poses may be off by more than any number here.");
+        ". These move together in ways that no pose here feels (`trades` of each says how), and a "
+        "tip far from the recorded poses may be off by more than any number here. Record more "
+        "varied poses" +
+        (seen.measurement.tracked ? "." : ", and tell a distance or the place of a point."));
   }
   if (!held.empty() && seen.measurement.tells_scale()) {
     warnings.push_back("Held by a prior and not told by the data: " + listed(held) +

@@ -75,12 +75,12 @@ void doubt_rows(const Case& seen, Warnings& warnings) {
   if (!swapped.empty()) {
     std::vector<std::string> groups;
     for (const auto& [labels, rows] : swapped) {
-      groups.push_back((rows.size() == 1 ? "row " : "rows ") + listed(rows) + " of point " +
-                       std::to_string(labels.first) + " lie at point " +
+      groups.push_back((rows.size() == 1 ? "row " : "rows ") + listed(rows) + ", labelled " +
+                       std::to_string(labels.first) + ", at point " +
                        std::to_string(labels.second));
     }
-    warnings.push_back("Labels look swapped: " + listed(groups, kMostNamed) +
-                       ". Mend the labels and identify again.");
+    warnings.push_back("Labels look swapped; by the other touches lie " +
+                       listed(groups, kMostNamed) + ". Mend the labels and identify again.");
   }
   if (far.empty()) return;
   const auto& trust = seen.system.trust();
@@ -106,21 +106,31 @@ std::string distances_found(const ArmFit& fit) {
   return listed(texts);
 }
 
+bool is_unusable(const Case& seen) { return looks_foreign(seen) || !folded_rows(seen).empty(); }
+
 void doubt_size_untold(const Case& seen, Warnings& warnings) {
   constexpr double kLoosePrior = 3e-3;  // [m] more than makers allow themselves
   constexpr double kShrunk = 0.01;
   const ArmFit& fit = seen.fit;
-  const std::string distances = distances_found(fit);
-  warnings.push_back(
+  std::string text =
       "Nothing measured tells the arm's size: a smaller arm would agree with itself even better, "
       "so that a smaller rms proves nothing. The " +
-      fit.scale_source + " set the size; rms " + millimetres(fit.rms_after) + " is " +
-      millimetres(fit.rms_after_scaled) + " at the nominal size. " +
-      (distances.empty() ? "Touch a second point at a measured distance from the first, and give "
-                           "it as known_distances."
-                         : "By this fit the points lie " + distances +
-                               " apart: measure one such distance and give it as "
-                               "known_distances."));
+      fit.scale_source + " set the size";
+  if (is_unusable(seen)) {
+    warnings.push_back(text +
+                       ". Measure a distance between touched points, and give it as "
+                       "known_distances.");
+    return;
+  }
+  const std::string distances = distances_found(fit);
+  text += "; rms " + millimetres(fit.rms_after) + " is " + millimetres(fit.rms_after_scaled) +
+          " at the nominal size. ";
+  text += distances.empty() ? "Touch a second point at a measured distance from the first, and "
+                              "give it as known_distances."
+                            : "By this fit the points lie " + distances +
+                                  " apart: measure one such distance and give it as "
+                                  "known_distances.";
+  warnings.push_back(std::move(text));
   double loosest = 0.0;
   for (std::size_t i = 0; i < fit.columns.columns.size(); ++i) {
     const double std = fit.columns.columns[i].prior_std;
@@ -139,7 +149,7 @@ void doubt_size_told(const Case& seen, Warnings& warnings) {
   constexpr double kMostStretch = 0.02;
   const ArmFit& fit = seen.fit;
   const double stretch = std::abs(fit.scale - 1.0);
-  if (stretch < kMostStretch || stretch < 3.0 * fit.scale_std) return;
+  if (is_unusable(seen) || stretch < kMostStretch || stretch < 3.0 * fit.scale_std) return;
   warnings.push_back("By the " + fit.scale_source + " the arm is " + three_digits(fit.scale) +
                      " times its nominal size (± " + three_digits(fit.scale_std) +
                      "), which no maker misses by so much: a told length or its unit is wrong, "
@@ -181,7 +191,7 @@ std::vector<ToldLength> told_lengths(const Measurement& m) {
 /// Told lengths that the touches alone contradict, with points a and b changed for each other.
 std::vector<ToldLength> contradicted(const std::vector<ToldLength>& told,
                                      const Eigen::Matrix3Xd& points, int a, int b) {
-  constexpr double kShare = 0.02;  // the arm's size, and with it all, is known no better
+  constexpr double kShare = 0.03;  // the arm's size, and with it all, is known no better
   constexpr double kLeast = 3e-3;  // [m]
   const auto swap = [a, b](int p) { return p == a ? b : p == b ? a : p; };
   std::vector<ToldLength> wrong;
@@ -195,6 +205,7 @@ std::vector<ToldLength> contradicted(const std::vector<ToldLength>& told,
 /// The two points that told and touched lengths agree about once they are changed for each other.
 std::string swapped_points(const std::vector<ToldLength>& told, const Measurement& m,
                            const Eigen::Matrix3Xd& points) {
+  if (told.size() < 2) return "";  // one length agrees with some pair by chance
   for (int a = 0; a < m.points(); ++a) {
     for (int b = a + 1; b < m.points(); ++b) {
       if (contradicted(told, points, a, b).empty()) {
@@ -279,8 +290,7 @@ void doubt_geometry(const Case& seen, Warnings& warnings) {
   constexpr double kSurely = 1e-3;
   constexpr double kWorthTelling = 0.02;  // of the variance
   const Structure& structure = seen.structure;
-  if (structure.p > kSurely || structure.share < kWorthTelling || looks_foreign(seen) ||
-      !folded_rows(seen).empty()) {
+  if (structure.p > kSurely || structure.share < kWorthTelling || is_unusable(seen)) {
     return;
   }
   const std::string joint = joint_words(seen.nominal, structure.coordinate);
@@ -297,18 +307,21 @@ void doubt_geometry(const Case& seen, Warnings& warnings) {
 
 void doubt_parameters(const Case& seen, Warnings& warnings) {
   constexpr double kSurely = 4.0;
-  if (looks_foreign(seen) || !folded_rows(seen).empty()) return;
+  constexpr double kStrain = 6.0;  // of the prior's std
+  if (is_unusable(seen)) return;
+  const ArmFit& fit = seen.fit;
   std::vector<std::string> far;
-  for (const FitParameter& p : seen.fit.parameters) {
-    const bool row = p.group.rfind("row", 0) == 0;
+  for (std::size_t i = 0; i < fit.parameters.size(); ++i) {
+    const FitParameter& p = fit.parameters[i];
+    if (fit.columns.places[i].part > Part::kBeta) continue;
     const double change = std::abs(p.value - p.nominal);
-    if (!row || change < (p.unit == "rad" ? kFarAngle : kFarLength) || change < kSurely * p.std) {
-      continue;
-    }
+    const double most = std::min(p.unit == "rad" ? kFarAngle : kFarLength,
+                                 kStrain * fit.columns.columns[i].prior_std);
+    if (change < most || change < kSurely * p.std) continue;
     far.push_back(p.words + " by " + in_its_unit(p.value - p.nominal, p.unit));
   }
   if (far.empty()) return;
-  warnings.push_back("Farther from nominal than makers err: " + listed(far, 6) +
+  warnings.push_back("Farther from nominal than makers, or the prior, allow: " + listed(far, 6) +
                      ". Check that this is the arm's type and generation and that joint zeros "
                      "agree; else these numbers stand in for something that is not geometry.");
 }

@@ -168,7 +168,8 @@ bool has_strayed(const ArmSystem& system, const Eigen::VectorXd& x) {
 
 /// The same search with every row of the arm held loosely to its drawing, the frames hardly.
 ArmSystem near_drawing(const ArmSystem& fitted, const Measurement& untold) {
-  constexpr double kFrame = 10.0;  // [m] or [rad]
+  constexpr double kFrame = 10.0;   // [m] or [rad]
+  constexpr double kLength = 2e-3;  // [m] little else holds the size of touches
   const ArmColumns& columns = fitted.arm_columns();
   ArmSystem system(columns, untold, Criterion::kCentroid, false, 1);
   system.set_free(fitted.free());
@@ -176,7 +177,7 @@ ArmSystem near_drawing(const ArmSystem& fitted, const Measurement& untold) {
   for (const int c : fitted.free()) {
     const Part part = columns.places[c].part;
     const bool length = part == Part::kD || part == Part::kA;
-    const double std = part > Part::kBeta ? kFrame : length ? kFarLength : kFarAngle;
+    const double std = part > Part::kBeta ? kFrame : length ? kLength : kFarAngle;
     rows.push_back({Eigen::VectorXd::Unit(columns.nominal().size(), c), std});
   }
   system.set_linear_rows(std::move(rows));
