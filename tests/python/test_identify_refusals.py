@@ -81,7 +81,7 @@ TOUCHES: dict[str, tuple[Any, Any, dict[str, Any], str]] = {
         Q,
         [0, 0, 0],
         {"known_points": {0: (0, NAN, 0)}},
-        "`known_points`: expected finite",
+        "`known_points`: expected three finite",
     ),
     "small_plane": (
         Q,
@@ -145,7 +145,7 @@ def test_degrees_in_a_file_name_the_unit(tmp_path: Path) -> None:
 
 def test_another_number_of_joints_is_refused_with_the_arms_name() -> None:
     data = touched(1, 5)
-    with pytest.raises(ValueError, match="`q`: expected 7 columns, the joints of panda, got 6"):
+    with pytest.raises(ValueError, match="`q`: expected 7 columns, the joints of Panda, got 6"):
         bathyal.identify_arm(bathyal.arms.panda(), data.touches())
 
 

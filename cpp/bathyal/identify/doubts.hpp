@@ -28,9 +28,15 @@ std::string joint_words(const Arm& arm, Index coordinate);
 /// A warning or more each: what it means and what to do next. The gravest first.
 std::vector<std::string> find_doubts(const Case& seen);
 
-/// Those that the fit gives: it belongs to another machine, its size rests on nothing measured, it
-/// contradicts what was told, it leaves too much.
+/// Whether the fit is of another machine, or of an arm that no one would build.
+bool is_unusable(const Case& seen);
+
+/// Those that the fit gives: it belongs to another machine, rows contradict each other, it leaves
+/// too much.
 void doubt_fit(const Case& seen, std::vector<std::string>& warnings);
+
+/// Those about lengths: nothing measured tells the arm's size, or touches contradict what was told.
+void doubt_lengths(const Case& seen, std::vector<std::string>& warnings);
 
 /// Those that the poses give: too few, too alike, joints that stand still, limits exceeded.
 void doubt_data(const Case& seen, std::vector<std::string>& warnings);

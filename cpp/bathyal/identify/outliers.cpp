@@ -154,7 +154,9 @@ void solve(const ArmSystem& system, int steps, Eigen::VectorXd& x) {
   x = system.values(solve_least_squares(system, system.scaled(x), options).y);
 }
 
+/// Of touches, that is: measured positions hold an arm where it is.
 bool has_strayed(const ArmSystem& system, const Eigen::VectorXd& x) {
+  if (system.measurement().tracked) return false;
   const ArmColumns& columns = system.arm_columns();
   for (const int c : system.free()) {
     const Part part = columns.places[c].part;
@@ -185,25 +187,31 @@ ArmSystem near_drawing(const ArmSystem& fitted, const Measurement& untold) {
   return system;
 }
 
-/// Finds the arm again with the pull of every row bounded.
-void solve_bounded(ArmSystem& system, Eigen::VectorXd& x) {
-  constexpr int kHuberRounds = 15;
-  constexpr int kTukeyRounds = 10;
-  constexpr double kHuberWidth = 1.345;
-  constexpr double kTukeyWidth = 4.685;
+double huber(double ratio) {
+  constexpr double kWidth = 1.345;
+  return std::min(1.0, kWidth / std::max(ratio, kWidth));
+}
+
+double tukey(double ratio) {
+  constexpr double kWidth = 4.685;
+  const double bell = 1.0 - ratio * ratio / (kWidth * kWidth);
+  return std::max(bell > 0.0 ? bell * bell : 0.0, kWhisper);
+}
+
+/// Finds the arm again with each row trusted by its distance in units of the noise.
+void reweigh(ArmSystem& system, double (*trust_of)(double), int most_rounds, Eigen::VectorXd& x) {
+  constexpr double kSettled = 0.02;
   std::vector<double> trust = system.trust();
-  for (int round = 0; round < kHuberRounds + kTukeyRounds; ++round) {
+  for (int round = 0; round < most_rounds; ++round) {
     const Eigen::VectorXd norms = weighted_norms(system, x);
     const double noise = median_noise(system, norms);
+    double change = 0.0;
     for (Index i = 0; i < norms.size(); ++i) {
-      const double ratio = norms[i] / noise;
-      if (round < kHuberRounds) {
-        trust[i] = std::min(1.0, kHuberWidth / std::max(ratio, kHuberWidth));
-      } else {
-        const double bell = 1.0 - ratio * ratio / (kTukeyWidth * kTukeyWidth);
-        trust[i] = std::max(bell > 0.0 ? bell * bell : 0.0, kWhisper);
-      }
+      const double next = trust_of(norms[i] / noise);
+      change = std::max(change, std::abs(next - trust[i]));
+      trust[i] = next;
     }
+    if (change < kSettled) return;
     system.set_trust(trust);
     system.set_noise({noise, system.noise().rotation}, x);
     solve(system, 2, x);
@@ -262,7 +270,8 @@ double reach_of(const Arm& arm) {
 
 OutlierSearch find_outliers(const ArmSystem& fitted, const Eigen::VectorXd& x) {
   const Measurement& m = fitted.measurement();
-  OutlierSearch out{{}, false, x, std::vector<double>(static_cast<std::size_t>(m.rows()), 1.0), {}};
+  OutlierSearch out{
+      {}, false, false, x, std::vector<double>(static_cast<std::size_t>(m.rows()), 1.0), {}};
   {
     ArmSystem system = fitted;
     system.set_criterion(Criterion::kCentroid, false);
@@ -271,12 +280,14 @@ OutlierSearch find_outliers(const ArmSystem& fitted, const Eigen::VectorXd& x) {
     if (!has_strayed(system, x) && (found.freedom < 1.0 || looks_normal(found, system))) return out;
   }
 
+  out.looked_twice = true;
   Measurement untold = m;
   untold.distances.clear();
   untold.known_points.clear();
   ArmSystem system = near_drawing(fitted, untold);
   Eigen::VectorXd found_x = fitted.arm_columns().nominal();
-  solve_bounded(system, found_x);
+  reweigh(system, huber, 15, found_x);
+  reweigh(system, tukey, 10, found_x);
   const Study found = settle(system, found_x);
   out.points = system.centroids(found_x);
   const Eigen::Matrix3Xd deviations = system.deviations(found_x);

@@ -22,12 +22,12 @@ double reach_of(const Arm& arm);
 
 struct OutlierSearch {
   std::vector<Outlier> outliers;  ///< by row
+  bool looked_twice = false;      ///< there was reason to find the arm again
   /// Nothing near the drawing agrees with most rows: none is named.
   bool hopeless = false;
   Eigen::VectorXd x;          ///< of all columns, without the outliers
   std::vector<double> trust;  ///< (N,) 1, or next to nothing for an outlier
-  /// (3, n) touched points by the touches alone, without what was told of them; no columns when
-  /// there was no reason to look twice.
+  /// (3, n) touched points by the touches alone, without what was told of them, when looked twice.
   Eigen::Matrix3Xd points;
 };
 

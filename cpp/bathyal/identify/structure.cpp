@@ -14,6 +14,7 @@ constexpr Index kMostPoses = 2000;
 constexpr Index kFunctions = 2;           ///< of one joint
 constexpr Index kMoves = 3 * kFunctions;  ///< each along three axes
 constexpr double kBeside = 1e-3;          ///< what is left of a move once the arm took its part
+constexpr double kWorthAsking = 0.01;     ///< which joint it is
 constexpr double kLeastFreedom = 5.0;     ///< left for the noise
 
 /// What follows joint j alone, at each of its values.
@@ -180,6 +181,7 @@ Structure test(const ArmSystem& system, const Eigen::VectorXd& x) {
   const double noise = std::max(squares - all.squares, 0.0) / below;
   out.p = noise > 0.0 ? f_tail(all.squares / all.functions / noise, all.functions, below) : 1.0;
   out.share = share_of(all, squares, freedom);
+  if (out.p > kWorthAsking) return out;
   for (int j = 0; j < m.q.cols(); ++j) {
     const double share =
         share_of(explain(moves.middleCols(kMoves * j, kMoves), left), squares, freedom);
