@@ -35,7 +35,10 @@ void check_joints(const RowMatrix& q) {
       const std::string place = " at row " + std::to_string(i) + ", joint " + std::to_string(j);
       if (!std::isfinite(q(i, j))) throw_argument("q", "finite numbers", to_text(q(i, j)) + place);
       if (std::abs(q(i, j)) > kMostRadians) {
-        throw_argument("q", "radians; give degrees as `q_deg`", to_text(q(i, j)) + place);
+        throw_argument("q",
+                       "radians within two turns (metres of sliding joints); give degrees as "
+                       "`q_deg`, of a file by unit=\"deg\"",
+                       to_text(q(i, j)) + place);
       }
     }
   }

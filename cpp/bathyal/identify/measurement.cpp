@@ -64,6 +64,30 @@ double pair_sum(const Measurement& m, const Eigen::Matrix3Xd& deviations) {
   return sum;
 }
 
+Measurement every(const Measurement& m, Index stride) {
+  const auto thinned = [stride](const auto& all) {
+    std::decay_t<decltype(all)> some;
+    for (std::size_t i = 0; i < all.size(); i += static_cast<std::size_t>(stride)) {
+      some.push_back(all[i]);
+    }
+    return some;
+  };
+  Measurement out = m;
+  out.weights = thinned(m.weights);
+  out.tool = thinned(m.tool);
+  out.station = thinned(m.station);
+  out.point = thinned(m.point);
+  out.plane = thinned(m.plane);
+  out.rotation = thinned(m.rotation);
+  out.q.resize(static_cast<Index>(out.weights.size()), m.q.cols());
+  if (m.tracked) out.position.resize(3, out.q.rows());
+  for (Index i = 0; i < out.q.rows(); ++i) {
+    out.q.row(i) = m.q.row(stride * i);
+    if (m.tracked) out.position.col(i) = m.position.col(stride * i);
+  }
+  return out;
+}
+
 Measurement to_measurement(const Arm& arm, const Touches& touches) {
   Measurement m = common_part(arm, touches);
   m.plane.assign(static_cast<std::size_t>(m.rows()), -1);

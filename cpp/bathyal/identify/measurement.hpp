@@ -52,6 +52,9 @@ double free_position_rows(const Measurement& measurement);
 /// m Σ about the mean. Touches count alike whatever their weights.
 double pair_sum(const Measurement& measurement, const Eigen::Matrix3Xd& deviations);
 
+/// Rows 0, stride, 2 stride … of it, with all that is known of the points.
+Measurement every(const Measurement& measurement, Index stride);
+
 /// \throw std::invalid_argument when the data are bad by themselves, or have another number of
 ///        joints than the arm.
 Measurement to_measurement(const Arm& arm, const Touches& touches);
