@@ -70,11 +70,12 @@ void warn_of_unknowns(const TouchPlan& plan, const PlanTouchesOptions& options,
   if (forecast.unseen.size() > expected) {
     std::string text = "These touches cannot tell " +
                        number_of(forecast.unseen.size(), "combination", "combinations") +
-                       " of the arm's parameters, which stay with the priors: ";
+                       " of the arm's parameters; with the priors stay ";
     for (std::size_t i = 0; i < forecast.unseen.size(); ++i) {
-      text += (i == 0 ? "" : "; ") + forecast.unseen[i];
+      // A direction's words begin with what leads it.
+      text += (i == 0 ? "" : ", ") + forecast.unseen[i].substr(0, forecast.unseen[i].find(" +1"));
     }
-    out.push_back(text + ".");
+    out.push_back(text + ", each with others.");
   }
 }
 

@@ -138,6 +138,7 @@ Eigen::Matrix3Xd choose_points(const Arm& arm, const TouchModel& model, const Ro
   constexpr Index kPlaces = 80;         // that are looked at
   constexpr Index kTries = 48;          // poses to bring onto each of them
   constexpr double kWellReached = 0.8;  // of what the best place has
+  constexpr double kNear = 0.5;         // of the arm's length: a distance that a person can measure
   const RowMatrix starts = random_poses(arm, kTries, stream(options, kPointStream, 0));
   const Index places = std::min(kPlaces, workspace.rows());
   const Eigen::Matrix3Xd tips =
@@ -158,9 +159,9 @@ Eigen::Matrix3Xd choose_points(const Arm& arm, const TouchModel& model, const Ro
   }
   std::vector<Index> left;
   for (Index i = 0; i < places; ++i) {
-    if (static_cast<double>(reached[i]) >= kWellReached * static_cast<double>(*best)) {
-      left.push_back(i);
-    }
+    const bool well = static_cast<double>(reached[i]) >= kWellReached * static_cast<double>(*best);
+    const double apart = (rounded.col(i) - rounded.col(best - reached.begin())).norm();
+    if (well && apart <= kNear * length_of(arm)) left.push_back(i);
   }
   // The best one, then always the one farthest from those taken.
   std::vector<Index> taken{best - reached.begin()};

@@ -17,8 +17,11 @@ namespace {
 constexpr std::size_t kTouchesPerChunk = 64;
 /// Of variances: high enough that the worst poses rule, low enough that others still steer.
 constexpr double kPower = 12.0;
-constexpr int kShortlist = 6;         ///< candidates of an exchange that are looked at exactly
+constexpr int kShortlist = 4;  ///< candidates of an exchange that are looked at exactly
+// Of what lies between a first choice and all touches at once: where touches can do little, for
+// something that they never tell stands in front, that little is still sought.
 constexpr double kWorthwhile = 1e-5;  ///< change of the value that an exchange must bring
+constexpr double kSettled = 2e-3;     ///< a round that changes the value by less is the last one
 constexpr double kNever = -std::numeric_limits<double>::infinity();
 
 /// What is known with some touches chosen.
@@ -40,8 +43,9 @@ class Selector {
         touched_(static_cast<std::size_t>(design.points), 0) {}
 
   bool add_best(int point);
-  bool exchange(std::size_t slot, Knowledge& now);
+  void exchange(std::size_t slot, double worthwhile, Knowledge& now);
   Knowledge know(const Eigen::MatrixXd& information) const;
+  Knowledge know_all() const;
   const Eigen::MatrixXd& information() const { return information_; }
   const std::vector<int>& chosen() const { return chosen_; }
 
@@ -97,6 +101,15 @@ Knowledge Selector::know(const Eigen::MatrixXd& information) const {
   known.value =
       std::log(worst) + std::log((known.variance / worst).array().pow(kPower).mean()) / kPower;
   return known;
+}
+
+/// With every touch there is.
+Knowledge Selector::know_all() const {
+  Eigen::MatrixXd information = d_.prior;
+  for (int touch = 0; touch < static_cast<int>(d_.point.size()); ++touch) {
+    change(information, touch, 1.0);
+  }
+  return know(information);
 }
 
 /// Gᵀ M G for the rows G of a touch; `product` is the columns' corner of M times theirs of G.
@@ -187,8 +200,8 @@ bool Selector::add_best(int point) {
   return true;
 }
 
-/// Whether another touch in place of that one makes `now` better.
-bool Selector::exchange(std::size_t slot, Knowledge& now) {
+/// Puts another touch in place of that one if that makes `now` better.
+void Selector::exchange(std::size_t slot, double worthwhile, Knowledge& now) {
   const int old = chosen_[slot];
   const int point = d_.point[old];
   Eigen::MatrixXd without = information_;
@@ -202,12 +215,12 @@ bool Selector::exchange(std::size_t slot, Knowledge& now) {
     Eigen::MatrixXd with = without;
     change(with, touch, 1.0);
     Knowledge known = know(with);
-    if (known.value < (best < 0 ? now.value - kWorthwhile : best_known.value)) {
+    if (known.value < (best < 0 ? now.value - worthwhile : best_known.value)) {
       best = touch;
       best_known = std::move(known);
     }
   }
-  if (best < 0) return false;
+  if (best < 0) return;
   change(without, best, 1.0);
   information_ = std::move(without);
   used_[old] = false;
@@ -216,7 +229,6 @@ bool Selector::exchange(std::size_t slot, Knowledge& now) {
   ++touched_[d_.point[best]];
   chosen_[slot] = best;
   now = std::move(best_known);
-  return true;
 }
 
 }  // namespace
@@ -229,12 +241,13 @@ std::vector<int> select_touches(const TouchDesign& design, int count, int passes
     idle = selector.add_best(turn % points) ? 0 : idle + 1;
   }
   Knowledge now = selector.know(selector.information());
+  const double range = now.value - selector.know_all().value;
   for (int pass = 0; pass < passes; ++pass) {
-    bool better = false;
+    const double before = now.value;
     for (std::size_t slot = 0; slot < selector.chosen().size(); ++slot) {
-      better = selector.exchange(slot, now) || better;
+      selector.exchange(slot, kWorthwhile * range, now);
     }
-    if (!better) break;
+    if (now.value > before - kSettled * range) break;
   }
   return selector.chosen();
 }

@@ -44,12 +44,6 @@ Range range_of(const Arm& arm, Index coordinate, double length) {
   return {middle - half, middle + half};
 }
 
-double length_of(const Arm& arm) {
-  double length = (arm.flange() * arm.tool()).translation().norm();
-  for (const Joint& joint : arm.joints()) length += std::hypot(joint.row.a, joint.row.d);
-  return std::max(length, 0.1);
-}
-
 }  // namespace
 
 void check_workspace(const Arm& arm, const ForecastOptions& options) {
@@ -132,6 +126,12 @@ Eigen::Matrix3Xd tips_of(const TouchModel& model, const RowMatrix& q, int num_th
                  }
                });
   return tips;
+}
+
+double length_of(const Arm& arm) {
+  double length = (arm.flange() * arm.tool()).translation().norm();
+  for (const Joint& joint : arm.joints()) length += std::hypot(joint.row.a, joint.row.d);
+  return std::max(length, 0.1);
 }
 
 RowMatrix random_poses(const Arm& arm, Index count, std::uint64_t seed) {

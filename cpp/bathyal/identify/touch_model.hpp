@@ -35,6 +35,9 @@ RowMatrix settled_on(const TouchModel& model, const RowMatrix& q, const Eigen::M
 /// Where the tip stands, (3, N) in the world.
 Eigen::Matrix3Xd tips_of(const TouchModel& model, const RowMatrix& q, int num_threads);
 
+/// Sum of the rows' lengths and the tool's, and not less than a decimetre [m].
+double length_of(const Arm& arm);
+
 /// (count, n) poses drawn uniformly within the limits; of joints that turn further, within a whole
 /// turn about zero or as near to it as may be; of sliding ones without limits, within the arm's
 /// length.
