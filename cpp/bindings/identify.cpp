@@ -172,11 +172,21 @@ std::vector<TouchedPlane> planes_argument(const py::object& object) {
   return out;
 }
 
+std::map<int, std::string> names_argument(const py::object& object) {
+  if (object.is_none()) return {};
+  try {
+    return object.cast<std::map<int, std::string>>();
+  } catch (const py::cast_error&) {
+    throw_argument("names", "a dict of label to text", std::string(py::repr(object)));
+  }
+}
+
 Touches make_touches(const py::object& q, const py::object& point, const py::object& q_deg,
                      const py::object& known_distances, double distance_std,
                      const py::object& known_points, double point_std, const py::object& planes,
                      const py::object& weights, const py::object& tool, const py::object& station,
-                     const py::object& covariates, const py::object& session) {
+                     const py::object& covariates, const py::object& session,
+                     const py::object& names) {
   Touches touches;
   touches.q = joints_argument(q, q_deg);
   touches.point = numbers_argument("point", point);
@@ -189,6 +199,7 @@ Touches make_touches(const py::object& q, const py::object& point, const py::obj
   touches.tool = numbers_argument("tool", tool);
   touches.station = numbers_argument("station", station);
   touches.covariates = covariates_argument(covariates, session);
+  touches.names = names_argument(names);
   touches.check();
   return touches;
 }
@@ -288,7 +299,7 @@ void bind_data(py::module_& module) {
            py::arg("point_std") = touches.point_std, py::arg("planes") = py::none(),
            py::arg("weights") = py::none(), py::arg("tool") = py::none(),
            py::arg("station") = py::none(), py::arg("covariates") = py::none(),
-           py::arg("session") = py::none())
+           py::arg("session") = py::none(), py::arg("names") = py::none())
       .def_property_readonly(
           "point", [](const Touches& t) { return python::to_numpy(t.point); },
           "(N,) label of the point that each row touched.")
@@ -316,6 +327,7 @@ void bind_data(py::module_& module) {
                                }
                                return dict;
                              })
+      .def_readonly("names", &Touches::names, "{label: name}, of the labels that have one.")
       .def_readonly("distance_std", &Touches::distance_std, "[m]")
       .def_readonly("point_std", &Touches::point_std, "[m]")
       .def("__repr__", [](const Touches& t) {
@@ -459,6 +471,9 @@ void bind_fit(py::module_& module) {
       .def_property_readonly(
           "residuals", [](const ArmFit& f) { return columns_to_numpy(f.residuals); },
           "(N, 3) tip minus centroid, or minus the measured place, world [m].")
+      .def_property_readonly(
+          "residuals_before", [](const ArmFit& f) { return columns_to_numpy(f.residuals_before); },
+          "(N, 3) the same of what `rms_before` tells [m].")
       .def_readonly("outliers", &ArmFit::outliers)
       .def_readonly("structure_p", &ArmFit::structure_p,
                     "Probability of residuals that depend on the joints so much by chance.")

@@ -36,6 +36,8 @@ covariates : dict
     {name: (N,) or (N, k) array} recorded beside: temperature, time, payload, direction, gravity …
 session : (N,) int array
     Short for the covariate ``session``.
+names : dict
+    {label: name} of touched points, for people to read; a label may have none.
 
 Raises
 ------

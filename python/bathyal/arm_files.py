@@ -5,13 +5,17 @@ from __future__ import annotations
 
 import json
 import math
+import os
+import re
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from bathyal._core import Arm, Error, arm_from_parts, arm_parts
 from bathyal.arm_exports import write_ros_kinematics, write_ur_calibration
+from bathyal.errors import argument_error
 from bathyal.files import PathLike, known_suffix, opened, reading, replacing
 from bathyal.urdf import arm_from_urdf
 from bathyal.urdf_writer import urdf_of_arm
@@ -103,6 +107,43 @@ def read_arm(path: PathLike, **options: Any) -> Arm:
             raise Error(f"expected at most {_MOST_BYTES >> 20} MB, got {size / 2**20:.0f} MB")
         told = json.loads(stream.read(), parse_constant=_refuse_constant)
         return _arm(told)
+
+
+def find_arm(name: PathLike, **options: Any) -> Arm:
+    """An arm by its name in `bathyal.arms`, or from a file.
+
+    Parameters
+    ----------
+    name : str or path
+        Such as "ur10e" or "Reach Alpha 5"; case, blanks and hyphens do not count. Or a .urdf or
+        .json file.
+    **options
+        As of `read_arm`, for a URDF.
+
+    Raises
+    ------
+    ValueError
+        For a name that no arm has; the text lists those that there are.
+    Error, OSError
+        As `read_arm`.
+
+    Examples
+    --------
+    >>> find_arm("UR10e")
+    Arm("UR10e", 6 joints)
+    """
+    from bathyal import arms
+
+    text = os.fspath(name)
+    known = re.sub(r"[ _-]+", "_", text.strip().lower())
+    if known in arms.__all__:
+        if options:
+            raise argument_error(next(iter(options)), "nothing beside an arm's name", "one")
+        arm: Arm = getattr(arms, known)()
+        return arm
+    if Path(text).suffix.lower() in (".json", ".urdf"):
+        return read_arm(text, **options)
+    raise argument_error("arm", f"{', '.join(arms.__all__)}, or a .urdf or .json file", repr(text))
 
 
 def save_arm(arm: Arm, path: PathLike) -> None:

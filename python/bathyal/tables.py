@@ -114,7 +114,7 @@ def read_table(path: str | os.PathLike[str]) -> Table:
 
     Columns are parted by semicolon, tab, comma or blanks, whichever the first line shows in this
     order; a comma between digits is the decimal sign where something else parts the columns. Lines
-    that begin with ``#`` are comments.
+    that begin with ``#`` are comments; lines of empty cells, as spreadsheets append them, are none.
 
     Raises
     ------
@@ -127,7 +127,7 @@ def read_table(path: str | os.PathLike[str]) -> Table:
     except UnicodeDecodeError as error:
         raise Error(f"{file}: expected text, got bytes that are not UTF-8") from error
     kept = [(number, line) for number, line in enumerate(text.splitlines(), 1)
-            if line.strip() and not line.lstrip().startswith("#")]  # fmt: skip
+            if line.strip(" \t;,") and not line.lstrip().startswith("#")]  # fmt: skip
     if not kept:
         raise Error(f"{file}: expected a table, got no line of it")
     rows = _split([line for _, line in kept])

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bathyal._core import Error, Touches, Tracked
+from bathyal.errors import argument_error
 from bathyal.tables import (
     ACCELERATIONS,
     ANGLES,
@@ -41,6 +42,7 @@ def read_touches(
     joints: Sequence[str] | None = None,
     unit: str | None = None,
     point: str = "point",
+    planes: Sequence[str] = (),
     **touches: Any,
 ) -> Touches:
     """Read touches from a table of text, or from one table for each touched point.
@@ -61,14 +63,17 @@ def read_touches(
         "rad" or "deg", of joints whose column names none.
     point : str
         Column of the touched point's label.
+    planes : sequence of str
+        Labels that stand for a plane touched in many places, not for a point.
     **touches
-        What `Touches` takes beside, such as ``known_distances={("left", "right"): 0.05}``, there by
-        label.
+        What `Touches` takes beside. ``known_distances={("left", "right"): 0.05}`` and
+        ``known_points={"left": (0.5, 0.2, 0.1)}`` by label.
 
     Returns
     -------
     Touches
-        Whole numbers are kept as labels; other labels are numbered in the order they first appear.
+        Whole numbers are kept as labels; other labels are numbered in the order they first appear,
+        and ``.names`` keeps them.
 
     Raises
     ------
@@ -80,10 +85,10 @@ def read_touches(
     >>> import bathyal, pathlib, tempfile
     >>> with tempfile.TemporaryDirectory() as folder:
     ...     file = pathlib.Path(folder) / "touches.csv"
-    ...     _ = file.write_text("point;q1_deg;q2_deg\\nleft;90,0;0\\nright;-90,0;45\\n")
+    ...     _ = file.write_text("point;q1_deg;q2_deg\\nleft;90,0;0\\nleft;90;45\\nright;-90;45\\n")
     ...     touches = bathyal.read_touches(file)
-    >>> touches.q.round(3).tolist(), touches.point.tolist()
-    ([[1.571, 0.0], [-1.571, 0.785]], [0, 1])
+    >>> touches.q.round(3).tolist(), touches.point.tolist(), touches.names
+    ([[1.571, 0.0], [1.571, 0.785], [-1.571, 0.785]], [0, 0, 1], {0: 'left', 1: 'right'})
     """
     if isinstance(path, Mapping):
         tables = [(label, read_table(file)) for label, file in path.items()]
@@ -95,17 +100,18 @@ def read_touches(
     if not tables:
         raise ValueError("`path`: expected a file or one a point, got an empty dict")
     numbers = _numbered(labels)
-    distances = touches.pop("known_distances", None)
-    if distances is not None:
-        touches["known_distances"] = {
-            (_number(numbers, a), _number(numbers, b)): metres
-            for (a, b), metres in distances.items()
-        }
+    rows = np.array([numbers[str(label).strip()] for label in labels], dtype=np.int32)
     columns = [_touch_columns(table, joints, unit) for _, table in tables]
     return Touches(
         np.vstack([column.pop("q") for column in columns]),
-        np.array([numbers[str(label).strip()] for label in labels], dtype=np.int32),
-        **{**_joined([table for _, table in tables], columns), **touches},
+        rows,
+        **{
+            "names": {number: text for text, number in numbers.items() if text != str(number)},
+            **_joined([table for _, table in tables], columns),
+            **touches,
+            **_known(touches, numbers),
+            **_planes(planes, numbers, rows),
+        },
     )
 
 
@@ -287,12 +293,33 @@ def _numbered(labels: Sequence[Any]) -> dict[str, int]:
     return {text: number for number, text in enumerate(texts)}
 
 
-def _number(numbers: Mapping[str, int], label: Any) -> int:
-    if str(label).strip() not in numbers:
-        raise ValueError(
-            f"`known_distances`: expected labels among {', '.join(numbers)}, got {label!r}"
-        )
-    return numbers[str(label).strip()]
+def _known(touches: Mapping[str, Any], numbers: Mapping[str, int]) -> dict[str, Any]:
+    """Known distances and points by number in place of label."""
+    known: dict[str, Any] = {}
+    if touches.get("known_distances") is not None:
+        name = "known_distances"
+        known[name] = {
+            (_number(name, numbers, a), _number(name, numbers, b)): metres
+            for (a, b), metres in touches[name].items()
+        }
+    if touches.get("known_points") is not None:
+        name = "known_points"
+        known[name] = {_number(name, numbers, a): place for a, place in touches[name].items()}
+    return known
+
+
+def _planes(
+    labels: Sequence[str], numbers: Mapping[str, int], rows: NDArray[np.int32]
+) -> dict[str, Any]:
+    found = {label: np.flatnonzero(rows == _number("planes", numbers, label)) for label in labels}
+    return {"planes": found} if found else {}
+
+
+def _number(name: str, numbers: Mapping[str, int], label: Any) -> int:
+    text = str(label).strip()
+    if text not in numbers:
+        raise argument_error(name, f"labels among {', '.join(numbers)}", repr(label))
+    return numbers[text]
 
 
 # Orientations -------------------------------------------------------------------------------------

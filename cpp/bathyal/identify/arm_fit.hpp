@@ -90,7 +90,8 @@ struct ArmFit {
   std::vector<int> point_labels;  ///< of the touched points
   Eigen::Matrix3Xd points;        ///< where they were found, world (3, n) [m]
   std::vector<FoundDistance> distances;
-  Eigen::Matrix3Xd residuals;  ///< (3, N) tip minus centroid, or minus measured [m]
+  Eigen::Matrix3Xd residuals;         ///< (3, N) tip minus centroid, or minus measured [m]
+  Eigen::Matrix3Xd residuals_before;  ///< the same of what `rms_before` tells [m]
   std::vector<Outlier> outliers;
   std::vector<std::string> warnings;  ///< sentences
   /// Probability that residuals without structure would depend on the joints as much as these do;

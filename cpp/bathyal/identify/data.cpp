@@ -130,6 +130,12 @@ void Touches::check() const {
     }
     if (!known.position.allFinite()) throw_argument("known_points", "finite numbers", "nan or inf");
   }
+  for (const auto& [label, name] : names) {
+    if (std::find(point.begin(), point.end(), label) == point.end()) {
+      throw_argument("names", "labels that stand in `point`",
+                     std::to_string(label) + " (" + name + ")");
+    }
+  }
   const bool compared = std::any_of(count.begin(), count.end(),
                                     [](const auto& point_count) { return point_count.second > 1; });
   if (!compared && known_points.empty() && planes.empty()) {

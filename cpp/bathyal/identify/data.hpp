@@ -48,6 +48,7 @@ struct Touches {
   std::vector<int> tool;             ///< (N,) which tool, 0 … ; empty: one
   std::vector<int> station;          ///< (N,) where the base stood, 0 … ; empty: one place
   Covariates covariates;             ///< each (N, k)
+  std::map<int, std::string> names;  ///< of labels, for people to read; a label may have none
 
   /// \throw std::invalid_argument for lengths that differ, numbers that are not finite, joint
   ///        values that only degrees can be, no two touches of one point, poses that are all equal,

@@ -73,9 +73,9 @@ class Search {
   std::vector<int> pruned_;
   std::optional<double> length_prior_;
   std::optional<ArmSystem> system_;
-  RankReport rank_;              ///< of all columns, by the data, at nominal
-  Eigen::MatrixXd unseen_;       ///< (P, k) scaled changes of free columns that the data do not see
-  Eigen::MatrixXd blind_;        ///< those of them that no prior holds either
+  RankReport rank_;         ///< of all columns, by the data, at nominal
+  Eigen::MatrixXd unseen_;  ///< (P, k) scaled changes of free columns that the data do not see
+  Eigen::MatrixXd blind_;   ///< those of them that no prior holds either
   std::vector<LinearRow> holds_;  ///< keep what is blind at nominal
   Eigen::VectorXd x_;
   std::vector<double> history_;
@@ -458,7 +458,7 @@ Eigen::MatrixXd Search::covariance() const {
 }
 
 void Search::report_before(ArmFit& fit) const {
-  const Eigen::Matrix3Xd deviations = system_->deviations(x_);
+  const Eigen::Matrix3Xd& deviations = fit.residuals_before = system_->deviations(x_);
   fit.rms_before = root_mean(deviations.squaredNorm(), static_cast<double>(m_.rows()));
   fit.point_rms_before = group_rms(deviations);
   fit.rotation_rms_before =
