@@ -175,9 +175,9 @@ void bind_plan(py::module_& module) {
           },
           py::arg("path") = py::none(),
           "A picture, written to `path` too (bathyal.touch_plans.plot_plan).")
-      .def("summary", py::overload_cast<const TouchPlan&>(&summarize),
-           "One paragraph in plain words.")
-      .def("__str__", py::overload_cast<const TouchPlan&>(&summarize))
+      .def("summary", py::overload_cast<const TouchPlan&, bool>(&summarize), py::kw_only(),
+           py::arg("warnings") = true, "One paragraph in plain words.")
+      .def("__str__", [](const TouchPlan& p) { return summarize(p); })
       .def("__len__", [](const TouchPlan& p) { return p.point.size(); })
       .def("__repr__", [](const TouchPlan& p) {
         return py::str("TouchPlan({} touches of {} points, worst {:.3g} mm)")

@@ -76,8 +76,8 @@ struct TouchPlan {
 ///        one that nothing feasible touches, a `feasible` that gives another number of answers.
 TouchPlan plan_touches(const Arm& arm, int count, const PlanTouchesOptions& options = {});
 
-/// One paragraph in plain words: what to touch, how right the arm will go afterwards, and every
-/// warning.
-std::string summarize(const TouchPlan& plan);
+/// One paragraph in plain words: what to touch, how right the arm will go afterwards, and, unless
+/// they are told elsewhere, every warning.
+std::string summarize(const TouchPlan& plan, bool with_warnings = true);
 
 }  // namespace bathyal

@@ -132,7 +132,7 @@ std::vector<std::string> warnings_of(const Arm& arm, const TouchPlan& plan, int 
   return out;
 }
 
-std::string summarize(const TouchPlan& plan) {
+std::string summarize(const TouchPlan& plan, bool with_warnings) {
   const TouchForecast& forecast = plan.forecast;
   const std::map<int, int> touches = touches_by_point(plan);
   std::string shares;
@@ -148,6 +148,7 @@ std::string summarize(const TouchPlan& plan) {
       " at the median one (one standard deviation, 3-D), where a touch is true to " +
       millimetres(plan.noise) + " per axis. Touches tell " + std::to_string(forecast.rank) +
       " of the " + std::to_string(forecast.free) + " parameters that base and tool leave.";
+  if (!with_warnings) return text;
   for (const std::string& warning : plan.warnings) text += " " + warning;
   return text;
 }
