@@ -11,13 +11,15 @@ from matplotlib.figure import Figure
 from bathyal._core import TouchPlan, arm_parts
 from bathyal.arm_views import plot_arm
 from bathyal.files import PathLike, known_suffix, replacing
-from bathyal.palette import INK, SEGMENTS
+from bathyal.palette import INK
 
 _HOW_TO = (
     "bathyal touches: bring the tip to the point in about each of these poses, hold it still, and",
     "put what the joints then read in place of the row's numbers. Any tilt near the one planned",
     "will do; rows may be left out or added. Points, world [m]:",
 )
+# Apart from each other, and from the blue of links and the orange of joints.
+_POINTS = ("#c2189b", "#0a8f4f", "#8f5bff", "#7a3b00", "#e3120b")
 _DEGREE_DIGITS, _METRE_DIGITS = 3, 5
 
 
@@ -96,11 +98,11 @@ def plot_plan(plan: TouchPlan, path: PathLike | None = None) -> Figure:
     poses = np.asarray(plan.arm.forward(plan.q))
     size = float(np.linalg.norm(np.ptp(poses[:, :3, 3], axis=0)) + 0.3)
     for number, place in enumerate(plan.points):
-        colour = SEGMENTS[number % len(SEGMENTS)]
+        colour = _POINTS[number % len(_POINTS)]
         mine = plan.point == number
         if not mine.any():
             continue
-        tails = place - 0.16 * size * poses[mine, :3, 2]
+        tails = place - 0.11 * size * poses[mine, :3, 2]
         for tail in tails:
             axes.plot(*np.stack([tail, place]).T, color=colour, linewidth=1.1, zorder=8)
         axes.scatter(*place, s=46, color=colour, edgecolors="white", zorder=9, depthshade=False,
@@ -134,5 +136,6 @@ def _spread(plan: TouchPlan) -> list[int]:
     rows: list[int] = []
     for number in np.unique(plan.point):
         mine = np.flatnonzero(plan.point == number)
-        rows += mine[np.linspace(0, len(mine) - 1, min(most, len(mine))).round().astype(int)]
+        few = np.linspace(0, len(mine) - 1, min(most, len(mine))).round().astype(int)
+        rows.extend(mine[few].tolist())
     return rows

@@ -40,7 +40,7 @@ def test_json_and_every_option(tmp_path, capsys):
     )  # fmt: skip
     assert code == 0, err
     told = json.loads(text)
-    assert told["points_m"] == [[0.7, 0.2, 0.1], [0.8, -0.2, 0.3]]
+    np.testing.assert_allclose(told["points_m"], [[0.7, 0.2, 0.1], [0.8, -0.2, 0.3]], atol=1e-12)
     assert told["touches"] == sum(told["touches_by_point"]) == 10
     tool = np.eye(4)
     tool[2, 3] = 0.15

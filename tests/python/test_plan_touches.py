@@ -107,11 +107,14 @@ def test_the_plan_touches_its_points(arm, plan):
 
 
 def test_the_worst_deviation_at_least_halves_against_hands(arm, plan):
-    for seed in range(5):
-        by = bathyal.forecast_touches(
+    hands = [
+        bathyal.forecast_touches(
             arm, touches(*by_hand(arm, seed)), workspace=plan.forecast.workspace
-        )
-        assert plan.worst_tip_std <= 0.5 * by.worst_tip_std
+        ).worst_tip_std
+        for seed in range(20)
+    ]
+    assert plan.worst_tip_std < 0.45 * np.median(hands)
+    assert plan.worst_tip_std < 0.6 * min(hands)
 
 
 @pytest.mark.parametrize("distances", [DISTANCES, []], ids=["distances", "no distance"])
