@@ -35,8 +35,8 @@ for command in (plan, triangulate, info, survey, identify):
     app.command(epilog=_EXIT_CODES)(spread(command))
 
 touches = typer.Typer(rich_markup_mode="rich", no_args_is_help=True)
-for command in (example, plan_of_touches):
-    touches.command(epilog=_EXIT_CODES)(spread(command))
+for verb in (example, plan_of_touches):
+    touches.command(epilog=_EXIT_CODES)(spread(verb))
 app.add_typer(touches, name="touches", help="Plans and tables of touches, for `bathyal identify`.")
 
 
