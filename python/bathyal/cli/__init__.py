@@ -15,6 +15,7 @@ from bathyal.cli.plan import plan
 from bathyal.cli.survey import survey
 from bathyal.cli.talk import Commands
 from bathyal.cli.touches_example import example
+from bathyal.cli.touches_plan import plan as plan_of_touches
 from bathyal.cli.triangulate import triangulate
 
 _EXIT_CODES = (
@@ -34,8 +35,9 @@ for command in (plan, triangulate, info, survey, identify):
     app.command(epilog=_EXIT_CODES)(spread(command))
 
 touches = typer.Typer(rich_markup_mode="rich", no_args_is_help=True)
-touches.command(epilog=_EXIT_CODES)(spread(example))
-app.add_typer(touches, name="touches", help="Tables of touches, for `bathyal identify`.")
+for verb in (example, plan_of_touches):
+    touches.command(epilog=_EXIT_CODES)(spread(verb))
+app.add_typer(touches, name="touches", help="Plans and tables of touches, for `bathyal identify`.")
 
 
 @app.callback(invoke_without_command=True)

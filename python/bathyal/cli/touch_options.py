@@ -15,7 +15,16 @@ from typing import Annotated, Any
 import typer
 
 import bathyal
-from bathyal.cli.values import angle, default_note, engine_default, given, length, named, quantity
+from bathyal.cli.values import (
+    angle,
+    coordinates,
+    default_note,
+    engine_default,
+    given,
+    length,
+    named,
+    quantity,
+)
 
 _READING = "Reading"
 _KNOWN = "What is known"
@@ -273,12 +282,7 @@ def _distance(text: str) -> tuple[tuple[str, str], float]:
 
 def _place(text: str) -> tuple[str, tuple[float, ...]]:
     name, value = named(text)
-    *first, last = value.split(",")
-    end, kind = quantity(last)
-    unit = last.strip().lstrip("+-0123456789.eE ")
-    if len(first) != 2 or kind != "length":
-        raise ValueError(f"expected three coordinates, as in left=500,200,100mm, got {text!r}")
-    return name, (*(length(f"{part}{unit}") for part in first), end)
+    return name, coordinates(value)
 
 
 def _prior(text: str) -> tuple[str, float]:

@@ -111,6 +111,15 @@ def angle(text: str) -> float:
     return value
 
 
+def coordinates(text: str) -> tuple[float, float, float]:
+    """Three lengths with one unit behind the last, "500,200,100mm" [m]."""
+    *first, last = text.split(",")
+    unit = last.strip().lstrip("+-0123456789.eE ")
+    if len(first) != 2:
+        raise ValueError(f"expected three coordinates, such as 500,200,100mm, got {text!r}")
+    return length(f"{first[0]}{unit}"), length(f"{first[1]}{unit}"), length(last)
+
+
 def named(text: str) -> tuple[str, str]:
     """The two sides of "left,right=50mm"."""
     name, sign, value = text.rpartition("=")
