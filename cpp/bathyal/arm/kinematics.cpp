@@ -97,12 +97,19 @@ std::vector<double> jacobian(const Arm& arm, JointView q, TipFrame frame, int nu
 
 PosesAndJacobians forward_and_jacobian(const Arm& arm, JointView q, TipFrame frame,
                                        int num_threads) {
+  PosesAndJacobians result;
+  compute_forward_and_jacobian(arm, q, result, frame, num_threads);
+  return result;
+}
+
+void compute_forward_and_jacobian(const Arm& arm, JointView q, PosesAndJacobians& result,
+                                  TipFrame frame, int num_threads) {
   check_joint_values(arm, q);
-  PosesAndJacobians result{numbers(q.rows(), 16),
-                           numbers(q.rows(), static_cast<std::size_t>(6 * arm.size()))};
+  const std::size_t rows = static_cast<std::size_t>(q.rows());
+  result.poses.resize(16 * rows);
+  result.jacobians.resize(6 * rows * static_cast<std::size_t>(arm.size()));
   run(arm, q, {.poses = result.poses.data(), .jacobians = result.jacobians.data(), .frame = frame},
       num_threads);
-  return result;
 }
 
 std::vector<bool> within_limits(const Arm& arm, JointView q, double tolerance) {

@@ -41,6 +41,11 @@ struct PosesAndJacobians {
 PosesAndJacobians forward_and_jacobian(const Arm& arm, JointView q,
                                        TipFrame frame = TipFrame::kWorld, int num_threads = 0);
 
+/// The same into `result`, whose memory is used again where it is large enough: of a hundred
+/// thousand poses, most of the time goes into pages that the system hands out anew.
+void compute_forward_and_jacobian(const Arm& arm, JointView q, PosesAndJacobians& result,
+                                  TipFrame frame = TipFrame::kWorld, int num_threads = 0);
+
 /// Whether every coordinate of a pose lies within its limits, widened by `tolerance`.
 std::vector<bool> within_limits(const Arm& arm, JointView q, double tolerance = 1e-9);
 

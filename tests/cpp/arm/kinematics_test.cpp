@@ -120,6 +120,18 @@ TEST(Kinematics, SameBytesOnEveryInstructionSetAndAnyNumberOfThreads) {
   }
 }
 
+TEST(Kinematics, MemoryIsUsedAgain) {
+  PosesAndJacobians result;
+  for (const Arm& arm : {panda(), planar_arm(), ur10e()}) {  // shorter, then longer again
+    const JointMatrix q = random_poses(arm, 40, 8);
+    const double* before = result.poses.data();
+    compute_forward_and_jacobian(arm, view_of(q), result, TipFrame::kTool);
+    EXPECT_TRUE(before == nullptr || before == result.poses.data());
+    EXPECT_EQ(result.poses, forward(arm, view_of(q)));
+    EXPECT_EQ(result.jacobians, jacobian(arm, view_of(q), TipFrame::kTool));
+  }
+}
+
 TEST(Kinematics, APoseDoesNotDependOnItsNeighbours) {
   const Arm arm = odd_arm(3);
   const JointMatrix q = random_poses(arm, 13, 7);
