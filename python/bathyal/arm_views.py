@@ -19,6 +19,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from bathyal._core import Arm
 from bathyal.arm_solid import Part, Posture, posture, resting_pose, size_of, solid
+from bathyal.errors import argument_error
 from bathyal.files import PathLike, replacing
 from bathyal.palette import INK
 
@@ -153,9 +154,9 @@ def _postures(arm: Arm, q: ArrayLike | None) -> list[Posture]:
     poses = np.atleast_2d(resting_pose(arm) if q is None else np.asarray(q, float))
     if poses.ndim != 2 or poses.shape[1] != arm.size or len(poses) == 0:
         expected = f"shape ({arm.size},) or (N, {arm.size}), N at least 1"
-        raise ValueError(f"q: expected {expected}, got {poses.shape}")
+        raise argument_error("q", expected, f"shape {poses.shape}")
     if not np.isfinite(poses).all():
-        raise ValueError("q: expected finite numbers, got nan or inf")
+        raise argument_error("q", "finite numbers", "nan or inf")
     every = np.unique(np.linspace(0, len(poses) - 1, min(len(poses), _MOST_POSES)).round())
     return [posture(arm, poses[int(row)]) for row in every]
 
