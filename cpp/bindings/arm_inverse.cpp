@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "arm_inverse.hpp"
+
+#include "bathyal/arm/inverse.hpp"
 
 #include <pybind11/stl.h>
 
@@ -8,9 +9,9 @@
 #include <optional>
 #include <string>
 
+#include "arm_class.hpp"
 #include "arm_docs.hpp"
 #include "arrays.hpp"
-#include "bathyal/arm/inverse.hpp"
 #include "bathyal/base/error.hpp"
 #include "words.hpp"
 

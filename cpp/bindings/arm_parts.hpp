@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
+
+#include <string_view>
 
 #include "bathyal/arm/arm.hpp"
 #include "words.hpp"
@@ -13,6 +16,12 @@ namespace bathyal::python {
 
 const Words<JointType>& type_words();
 
+/// (3, 3) real numbers.
+Eigen::Matrix3d matrix_argument(std::string_view name, const pybind11::object& object);
+
+/// (3, 3)
+pybind11::array to_numpy(const Eigen::Matrix3d& matrix);
+
 /// {"name", "source", "joints", "links", "root", "flange", "base", "tool"}
 pybind11::dict arm_parts(const Arm& arm);
 
@@ -22,8 +31,5 @@ Arm arm_from_parts(const pybind11::dict& parts);
 
 /// Those functions and their like for chains, private to the package's file formats.
 void bind_arm_parts(pybind11::module_& module);
-
-/// The methods that read, write and draw: Python's, kept in the package.
-void add_arm_files(pybind11::class_<Arm>& cls);
 
 }  // namespace bathyal::python
