@@ -60,7 +60,7 @@ class Fields {
 
   void take(const char* key, Eigen::Matrix3d& matrix) {
     const py::object object = take(key);
-    if (!object.is_none()) matrix = matrix_argument(name(key), object);
+    if (!object.is_none()) matrix = square_argument(name(key), object, 3);
   }
 
   py::list list(const char* key) {
@@ -232,14 +232,6 @@ const Words<JointType>& type_words() {
                                       {"prismatic", JointType::kPrismatic},
                                       {"fixed", JointType::kFixed}};
   return words;
-}
-
-Eigen::Matrix3d matrix_argument(std::string_view name, const py::object& object) {
-  const Points rows = points_argument(name, object);
-  if (rows.rows() != 3) {
-    throw_argument(name, "shape (3, 3)", "shape (" + std::to_string(rows.rows()) + ", 3)");
-  }
-  return rows.view();
 }
 
 py::array to_numpy(const Eigen::Matrix3d& matrix) {

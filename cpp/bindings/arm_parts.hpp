@@ -4,8 +4,6 @@
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 
-#include <string_view>
-
 #include "bathyal/arm/arm.hpp"
 #include "words.hpp"
 
@@ -15,9 +13,6 @@
 namespace bathyal::python {
 
 const Words<JointType>& type_words();
-
-/// (3, 3) real numbers.
-Eigen::Matrix3d matrix_argument(std::string_view name, const pybind11::object& object);
 
 /// (3, 3)
 pybind11::array to_numpy(const Eigen::Matrix3d& matrix);

@@ -76,7 +76,7 @@ Link make_link(const std::string& name, double mass, const py::object& center_of
   link.name = name;
   link.mass = mass;
   link.center_of_mass = vector_argument("center_of_mass", center_of_mass);
-  if (!inertia.is_none()) link.inertia = matrix_argument("inertia", inertia);
+  if (!inertia.is_none()) link.inertia = square_argument("inertia", inertia, 3);
   link.volume = volume;
   link.center_of_buoyancy = vector_argument("center_of_buoyancy", center_of_buoyancy);
   link.row_from_link = pose_argument("frame", frame);

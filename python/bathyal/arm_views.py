@@ -152,9 +152,12 @@ def plot_arm(arm: Arm, q: ArrayLike | None = None, path: PathLike | None = None)
 
 
 def _postures(arm: Arm, q: ArrayLike | None) -> list[Posture]:
-    poses = np.atleast_2d(resting_pose(arm) if q is None else np.asarray(q, float))
+    expected = f"real numbers of shape ({arm.size},) or (N, {arm.size}), N at least 1"
+    try:
+        poses = np.atleast_2d(resting_pose(arm) if q is None else np.asarray(q, float))
+    except (TypeError, ValueError):
+        raise argument_error("q", expected, repr(q)) from None
     if poses.ndim != 2 or poses.shape[1] != arm.size or len(poses) == 0:
-        expected = f"shape ({arm.size},) or (N, {arm.size}), N at least 1"
         raise argument_error("q", expected, f"shape {poses.shape}")
     if not np.isfinite(poses).all():
         raise argument_error("q", "finite numbers", "nan or inf")
