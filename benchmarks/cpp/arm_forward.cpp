@@ -75,8 +75,9 @@ void compare(const char* name, const Arm& arm, int rounds) {
   PosesAndJacobians theirs = ours;
   std::vector<double> mine, anew, pinocchios, kdls, over_pinocchio, over_kdl;
   for (int round = 0; round < rounds; ++round) {
-    mine.push_back(thread_seconds(
-        [&] { compute_forward_and_jacobian(arm, view_of(q), ours, TipFrame::kWorld, 1); }));
+    mine.push_back(thread_seconds([&] {
+      compute_kinematics(arm, view_of(q), {.poses = ours.poses, .jacobians = ours.jacobians}, 1);
+    }));
     anew.push_back(
         thread_seconds([&] { forward_and_jacobian(arm, view_of(q), TipFrame::kWorld, 1); }));
     pinocchios.push_back(thread_seconds([&] {

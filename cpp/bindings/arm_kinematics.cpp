@@ -2,7 +2,10 @@
 #include "bathyal/arm/kinematics.hpp"
 
 #include <algorithm>
+#include <memory>
+#include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "arm_class.hpp"
@@ -36,30 +39,54 @@ JointView view_of(const Rows& rows) {
   return {rows.table.data(), rows.table.rows(), rows.table.cols()};
 }
 
+/// Memory for a result that is written whole: nobody touches its pages before those who write.
+class Fresh {
+ public:
+  Fresh(Index rows, std::vector<py::ssize_t> tail) : shape_(std::move(tail)) {
+    shape_.insert(shape_.begin(), rows);
+    for (const py::ssize_t n : shape_) size_ *= static_cast<std::size_t>(n);
+    data_.reset(new double[size_]);
+  }
+
+  std::span<double> memory() const { return {data_.get(), size_}; }
+
+  /// All rows, or the only one of a single pose.
+  py::array to_numpy(bool single) const {
+    py::array rows = read_only_array(data_.get(), shape_, data_);
+    return single ? py::array(rows[py::int_(0)]) : rows;
+  }
+
+ private:
+  std::vector<py::ssize_t> shape_;
+  std::size_t size_ = 1;
+  std::shared_ptr<double[]> data_;
+};
+
 py::array forward_python(const Arm& arm, const py::object& q, bool links, int num_threads) {
   const Rows rows = rows_argument("q", q, arm.size());
-  std::vector<double> poses;
+  const auto count = static_cast<py::ssize_t>(arm.links().size());
+  const Fresh poses(rows.table.rows(),
+                    links ? std::vector<py::ssize_t>{count, 4, 4} : std::vector<py::ssize_t>{4, 4});
   {
     const py::gil_scoped_release release;
-    poses = links ? forward_links(arm, view_of(rows), num_threads)
-                  : forward(arm, view_of(rows), num_threads);
+    KinematicsOutput output;
+    (links ? output.links : output.poses) = poses.memory();
+    compute_kinematics(arm, view_of(rows), output, num_threads);
   }
-  const auto count = static_cast<py::ssize_t>(arm.links().size());
-  return python::to_numpy(
-      std::move(poses), rows.single,
-      links ? std::vector<py::ssize_t>{count, 4, 4} : std::vector<py::ssize_t>{4, 4});
+  return poses.to_numpy(rows.single);
 }
 
 py::array jacobian_python(const Arm& arm, const py::object& q, const std::string& frame,
                           int num_threads) {
   const Rows rows = rows_argument("q", q, arm.size());
   const TipFrame tip = word_argument("frame", frame, frame_words());
-  std::vector<double> jacobians;
+  const Fresh jacobians(rows.table.rows(), {6, arm.size()});
   {
     const py::gil_scoped_release release;
-    jacobians = jacobian(arm, view_of(rows), tip, num_threads);
+    compute_kinematics(arm, view_of(rows), {.jacobians = jacobians.memory(), .frame = tip},
+                       num_threads);
   }
-  return python::to_numpy(std::move(jacobians), rows.single, {6, arm.size()});
+  return jacobians.to_numpy(rows.single);
 }
 
 py::object manipulability_python(const Arm& arm, const py::object& q, const std::string& kind,
