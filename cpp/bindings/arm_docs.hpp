@@ -247,7 +247,7 @@ task : str
 method : str
     "damped"; or "pseudo_inverse" (also "jacobian_inverse", what it is where J is square), the
     stepping of Maevskiy and Zanin (2020): the way cut into equal `steps`, each by J⁺, without
-    limits, damping or a second start.
+    limits, damping or a second start; whole turns are taken off at its end.
 axis : (3,) array
     Of "position_axis", in the tool's frame: it is to point as that of the target does.
 position_tolerance, angle_tolerance : float, optional

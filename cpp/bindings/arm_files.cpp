@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "arm_parts.hpp"
+#include "arm_class.hpp"
+
+#include <utility>
 
 namespace bathyal::python {
 namespace {

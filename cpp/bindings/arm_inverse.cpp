@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "arm_inverse.hpp"
+
+#include "bathyal/arm/inverse.hpp"
 
 #include <pybind11/stl.h>
 
@@ -8,9 +9,9 @@
 #include <optional>
 #include <string>
 
+#include "arm_class.hpp"
 #include "arm_docs.hpp"
 #include "arrays.hpp"
-#include "bathyal/arm/inverse.hpp"
 #include "bathyal/base/error.hpp"
 #include "words.hpp"
 
@@ -121,7 +122,8 @@ void bind_inverse_result(py::module_& module) {
                            "Joint angles found for poses, and how well; of a single pose each "
                            "array lacks its first dimension.")
       .def_property_readonly("q", &PythonResult::q,
-                             "(N, n) [rad] or [m]; where nothing was reached, the nearest found.")
+                             "(N, n) [rad] or [m], by \"damped\" always within the limits; where "
+                             "nothing was reached, the nearest found.")
       .def_property_readonly("status", &PythonResult::status,
                              "(N,) \"reached\", \"limit\", \"singular\" or \"out_of_reach\".")
       .def_property_readonly(

@@ -60,12 +60,7 @@ class Fields {
 
   void take(const char* key, Eigen::Matrix3d& matrix) {
     const py::object object = take(key);
-    if (object.is_none()) return;
-    const Points rows = points_argument(name(key), object);
-    if (rows.rows() != 3) {
-      throw_argument(name(key), "shape (3, 3)", std::to_string(rows.rows()) + " rows");
-    }
-    matrix = rows.view();
+    if (!object.is_none()) matrix = square_argument(name(key), object, 3);
   }
 
   py::list list(const char* key) {
@@ -177,11 +172,6 @@ Arm arm_from_chain_python(const py::dict& told, double nearly_parallel) {
 
 // To Python -------------------------------------------------------------------------------------
 
-py::array matrix_to_numpy(const Eigen::Matrix3d& matrix) {
-  const Eigen::Matrix<double, 3, 3, Eigen::RowMajor> rows = matrix;
-  return to_numpy(std::vector<double>(rows.data(), rows.data() + 9), {3});
-}
-
 py::dict joint_parts(const Joint& joint) {
   py::dict told;
   told["name"] = joint.name;
@@ -202,7 +192,7 @@ py::dict link_parts(const Link& link) {
   told["name"] = link.name;
   told["mass"] = link.mass;
   told["center_of_mass"] = to_numpy(link.center_of_mass);
-  told["inertia"] = matrix_to_numpy(link.inertia);
+  told["inertia"] = to_numpy(link.inertia);
   told["volume"] = link.volume;
   told["center_of_buoyancy"] = to_numpy(link.center_of_buoyancy);
   return told;
@@ -242,6 +232,11 @@ const Words<JointType>& type_words() {
                                       {"prismatic", JointType::kPrismatic},
                                       {"fixed", JointType::kFixed}};
   return words;
+}
+
+py::array to_numpy(const Eigen::Matrix3d& matrix) {
+  const Eigen::Matrix<double, 3, 3, Eigen::RowMajor> rows = matrix;
+  return to_numpy(std::vector<double>(rows.data(), rows.data() + 9), {3});
 }
 
 py::dict arm_parts(const Arm& arm) {

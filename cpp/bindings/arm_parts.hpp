@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 
 #include "bathyal/arm/arm.hpp"
@@ -13,6 +14,9 @@ namespace bathyal::python {
 
 const Words<JointType>& type_words();
 
+/// (3, 3)
+pybind11::array to_numpy(const Eigen::Matrix3d& matrix);
+
 /// {"name", "source", "joints", "links", "root", "flange", "base", "tool"}
 pybind11::dict arm_parts(const Arm& arm);
 
@@ -22,8 +26,5 @@ Arm arm_from_parts(const pybind11::dict& parts);
 
 /// Those functions and their like for chains, private to the package's file formats.
 void bind_arm_parts(pybind11::module_& module);
-
-/// The methods that read, write and draw: Python's, kept in the package.
-void add_arm_files(pybind11::class_<Arm>& cls);
 
 }  // namespace bathyal::python

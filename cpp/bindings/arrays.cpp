@@ -118,12 +118,20 @@ Vec3 vector_argument(std::string_view name, const py::object& object) {
 Pose pose_argument(std::string_view name, const py::object& object) {
   Pose pose = Pose::Identity();
   if (object.is_none()) return pose;
-  const auto table = table_argument(name, object, 4);
-  if (table.rows() != 4) {
-    throw_argument(name, "shape (4, 4)", "shape (" + std::to_string(table.rows()) + ", 4)");
-  }
-  pose.matrix() = table;
+  pose.matrix() = square_argument(name, object, 4);
   return pose;
+}
+
+Eigen::MatrixXd square_argument(std::string_view name, const py::object& object, Index size) {
+  const std::string width = std::to_string(size);
+  const std::string expected = "real numbers of shape (" + width + ", " + width + ")";
+  const py::array array = any_array(name, object, expected);
+  if (array.ndim() != 2 || array.shape(0) != size || array.shape(1) != size) {
+    throw_argument(name, expected, "shape " + shape_text(array));
+  }
+  const auto typed = typed_array<double>(name, array, "fiu", expected);
+  using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  return Eigen::Map<const Rows>(typed.data(), size, size);
 }
 
 Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> table_argument(

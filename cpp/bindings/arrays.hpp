@@ -37,6 +37,9 @@ Vec3 vector_argument(std::string_view name, const py::object& object);
 /// to say.
 Pose pose_argument(std::string_view name, const py::object& object);
 
+/// (size, size) real numbers.
+Eigen::MatrixXd square_argument(std::string_view name, const py::object& object, Index size);
+
 /// (N, columns) real numbers in row-major order, for tables wider than three.
 Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> table_argument(
     std::string_view name, const py::object& object, Index columns);

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bathyal._core import Arm, arm_from_chain, chain_from_arm
+from bathyal.errors import argument_error
 from bathyal.files import PathLike, replacing
 from bathyal.urdf_writer import rpy_of
 
@@ -93,7 +94,7 @@ def write_ur_calibration(arm: Arm, path: PathLike, nominal: Arm | None) -> None:
         Where the file cannot be written.
     """
     if nominal is None:
-        raise ValueError("nominal: expected the maker's arm, for instance arms.ur10e(), got None")
+        raise argument_error("nominal", "the maker's arm, for instance arms.ur10e()", None)
     (rows, behind), (maker, _) = _plain_rows(arm, "arm"), _plain_rows(nominal, "nominal")
     delta = rows - maker
     delta[:, [0, 3]] = np.remainder(delta[:, [0, 3]] + np.pi, 2 * np.pi) - np.pi
@@ -110,9 +111,10 @@ def _need_six_joints(arm: Arm, name: str = "arm") -> None:
     joints = chain_from_arm(arm)["joints"][:-1]
     kinds = [joint["type"] for joint in joints]
     if kinds != ["revolute"] * 6 or arm.size != 6:
-        raise ValueError(
-            f"{name}: expected six turning joints, each with a coordinate of its own, "
-            f"got {', '.join(kinds)} and {arm.size} coordinates"
+        raise argument_error(
+            name,
+            "six turning joints, each with a coordinate of its own",
+            f"{', '.join(kinds)} and {arm.size} coordinates",
         )
 
 
@@ -137,14 +139,15 @@ def _plain_rows(arm: Arm, name: str) -> tuple[Floats, Floats]:
         plain = arm
     table = plain.to_dh()
     if not np.allclose(table.root, np.eye(4), rtol=0, atol=_NOTHING):
-        raise ValueError(f"{name}: expected a first joint about z of the base, got another axis")
+        raise argument_error(name, "a first joint about z of the base", "another axis")
     rows = np.stack([table.theta, table.a, table.d, table.alpha], axis=1)
     if np.any(np.abs(rows[:, 2]) > _LONGEST):
         sine = np.abs(np.sin(rows[:5, 3]))
         row = int(np.argmin(np.where(sine > _PARALLEL, sine, np.inf)))
-        raise ValueError(
-            f"{name}: expected axes that a table without beta tells to a nanometre, got axes"
-            f" {row + 1} and {row + 2} that are parallel but for {sine[row]:.1e} rad"
+        raise argument_error(
+            name,
+            "axes that a table without beta tells to a nanometre",
+            f"axes {row + 1} and {row + 2} that are parallel but for {sine[row]:.1e} rad",
         )
     behind = np.asarray(table.flange)
     last = _turned(np.arctan2(behind[2, 1], behind[2, 2]), 0, along=behind[0, 3])

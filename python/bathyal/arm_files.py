@@ -101,7 +101,7 @@ def read_arm(path: PathLike, **options: Any) -> Arm:
         return arm_from_urdf(path, **options)
     if options:
         name = next(iter(options))
-        raise ValueError(f"{name}: expected only for a .urdf file, got one for .json")
+        raise argument_error(name, "only for a .urdf file", "one for .json")
     with opened(path) as (stream, size), reading(path, "arm"):
         if size > _MOST_BYTES:
             raise Error(f"expected at most {_MOST_BYTES >> 20} MB, got {size / 2**20:.0f} MB")
@@ -201,7 +201,7 @@ def write_arm(arm: Arm, path: PathLike, *, nominal: Arm | None = None) -> None:
         write_ur_calibration(arm, path, nominal)
         return
     if nominal is not None:
-        raise ValueError(f"nominal: expected only for a .conf file, got one for {suffix}")
+        raise argument_error("nominal", "only for a .conf file", f"one for {suffix}")
     _WRITERS[suffix](arm, path)
 
 

@@ -22,6 +22,7 @@ _FOOT_COLOUR = "#7d8590"
 _TURNING, _SLIDING = SEGMENTS[0], SEGMENTS[1]
 _LINK_RADIUS = 0.017  # of the arm's length, as all of these
 _DRUM_RADIUS, _DRUM_LENGTH = 0.028, 0.08
+_SLIDER_RADIUS, _SLIDER_LENGTH = 0.045, 0.05  # so that a drum on the same axis stays in sight
 _SHORTEST = 1e-9  # [m] of a link that is drawn
 
 
@@ -113,12 +114,12 @@ def solid(at: Posture, size: float) -> list[Part]:
             if np.linalg.norm(end - start) > _SHORTEST:
                 mesh = _capsule(start, end, _LINK_RADIUS * size)
                 parts.append(Part(f"link {k}" if k else "foot", colour, *mesh))
-    half = _DRUM_LENGTH * size / 2
     for name, (point, direction), slides in zip(at.joint_names, at.axes, at.sliding, strict=True):
+        half = (_SLIDER_LENGTH if slides else _DRUM_LENGTH) * size / 2
         mesh = _prism(
             point - half * direction,
             point + half * direction,
-            _DRUM_RADIUS * size,
+            (_SLIDER_RADIUS if slides else _DRUM_RADIUS) * size,
             4 if slides else _SIDES,
         )
         parts.append(Part(name, _SLIDING if slides else _TURNING, *mesh))

@@ -19,6 +19,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from bathyal._core import Arm
 from bathyal.arm_solid import Part, Posture, posture, resting_pose, size_of, solid
+from bathyal.errors import argument_error
 from bathyal.files import PathLike, replacing
 from bathyal.palette import INK
 
@@ -31,6 +32,7 @@ _AXIS_LINE = 0.085  # of a joint's axis, to both sides
 _FAINT = 0.22  # opacity of the poses before the last one
 _MOST_POSES = 40
 _LIGHT = np.array([0.35, -0.45, 0.82])
+_NO_AREA = 1e-9  # of a triangle, as a share of the largest of its part
 _SIZE_IN, _DPI = (8.0, 7.0), 150
 _EYE = {"elev": 22, "azim": -58}
 
@@ -150,12 +152,15 @@ def plot_arm(arm: Arm, q: ArrayLike | None = None, path: PathLike | None = None)
 
 
 def _postures(arm: Arm, q: ArrayLike | None) -> list[Posture]:
-    poses = np.atleast_2d(resting_pose(arm) if q is None else np.asarray(q, float))
+    expected = f"real numbers of shape ({arm.size},) or (N, {arm.size}), N at least 1"
+    try:
+        poses = np.atleast_2d(resting_pose(arm) if q is None else np.asarray(q, float))
+    except (TypeError, ValueError):
+        raise argument_error("q", expected, repr(q)) from None
     if poses.ndim != 2 or poses.shape[1] != arm.size or len(poses) == 0:
-        expected = f"shape ({arm.size},) or (N, {arm.size}), N at least 1"
-        raise ValueError(f"q: expected {expected}, got {poses.shape}")
+        raise argument_error("q", expected, f"shape {poses.shape}")
     if not np.isfinite(poses).all():
-        raise ValueError("q: expected finite numbers, got nan or inf")
+        raise argument_error("q", "finite numbers", "nan or inf")
     every = np.unique(np.linspace(0, len(poses) - 1, min(len(poses), _MOST_POSES)).round())
     return [posture(arm, poses[int(row)]) for row in every]
 
@@ -214,14 +219,16 @@ def _draw_floor(axes: Any, low: Floats, high: Floats) -> None:
 
 def _draw_solid(axes: Any, parts: list[Part], opacity: float, zorder: float) -> None:
     """All parts in one collection, so that near ones hide far ones, lit from one side."""
-    faces = [part.vertices[part.triangles] for part in parts]
-    normals = [np.cross(f[:, 1] - f[:, 0], f[:, 2] - f[:, 0]) for f in faces]
-    colours = []
-    for part, normal in zip(parts, normals, strict=True):
+    faces, colours = [], []
+    for part in parts:
+        corners = part.vertices[part.triangles]
+        normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
         length = np.linalg.norm(normal, axis=1, keepdims=True)
-        unit = np.divide(normal, length, out=np.zeros_like(normal), where=length > 0)
-        light = 0.62 + 0.38 * (unit @ _LIGHT)[:, None]
+        # At the ends of a body of revolution triangles shrink to lines, which would show as edges.
+        seen = length[:, 0] > _NO_AREA * length.max()
+        light = 0.62 + 0.38 * (normal[seen] / length[seen] @ _LIGHT)[:, None]
         tint = np.array(to_rgb(part.colour))
+        faces.append(corners[seen])
         colours.append(np.clip(tint * light + 0.10 * np.clip(light - 0.8, 0, 1), 0, 1))
     shaded = np.column_stack([np.vstack(colours), np.full(sum(map(len, faces)), opacity)])
     # Edges of the faces' own colour close the hairlines between them.

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bathyal._core import Arm, Error, arm_from_chain
+from bathyal.errors import argument_error
 from bathyal.files import PathLike, reading
 from bathyal.formats.robot_xml import read_robot
 
@@ -175,7 +176,7 @@ def _listed(names: list[str]) -> str:
 
 def _known_link(tree: _Tree, link: str) -> str:
     if link not in tree.links:
-        raise ValueError(f"root: expected one of the links {_listed([*tree.links])}, got {link!r}")
+        raise argument_error("root", f"one of the links {_listed([*tree.links])}", repr(link))
     return link
 
 
@@ -184,9 +185,8 @@ def _known(tree: _Tree, tip: str) -> str:
         return tip
     if tip in tree.joints:
         return str(tree.joints[tip].child)
-    raise ValueError(
-        f"tip: expected the name of a link or joint, for instance {_listed(_tips(tree))},"
-        f" got {tip!r}"
+    raise argument_error(
+        "tip", f"the name of a link or joint, for instance {_listed(_tips(tree))}", repr(tip)
     )
 
 
@@ -209,7 +209,7 @@ def _only_tip(tree: _Tree, first: str) -> str:
     told = _listed(
         [f"{tip!r} ({moving[tip]} joints)" for tip in sorted(tips, key=lambda link: moving[link])]
     )
-    raise ValueError(f"tip: expected one of {told}, or any other link, got None")
+    raise argument_error("tip", f"one of {told}, or any other link", None)
 
 
 def _path(tree: _Tree, first: str, last: str) -> list[Any]:
@@ -218,11 +218,11 @@ def _path(tree: _Tree, first: str, last: str) -> list[Any]:
     while link != first:
         joint = tree.above.get(link)
         if joint is None:
-            raise ValueError(f"root: expected a link that carries {last!r}, got {first!r}")
+            raise argument_error("root", f"a link that carries {last!r}", repr(first))
         joints.append(joint)
         link = joint.parent
     if all(joint.type == "fixed" for joint in joints):
-        raise ValueError(f"tip: expected a link behind moving joints, got {last!r}")
+        raise argument_error("tip", "a link behind moving joints", repr(last))
     return joints[::-1]
 
 

@@ -155,18 +155,18 @@ def test_the_least_json_is_an_arm(tmp_path: Path) -> None:
 
 def test_what_is_asked_wrongly(tmp_path: Path) -> None:
     arm = bathyal.arms.ur10e()
-    with pytest.raises(ValueError, match="path: expected a robot file"):
+    with pytest.raises(ValueError, match="`path`: expected a robot file"):
         arm.write(tmp_path / "arm.dae")
-    with pytest.raises(ValueError, match="path: expected a"):
+    with pytest.raises(ValueError, match="`path`: expected a"):
         arm.save(tmp_path / "arm.urdf")
-    with pytest.raises(ValueError, match="path: expected a"):
+    with pytest.raises(ValueError, match="`path`: expected a"):
         bathyal.read_arm(tmp_path / "arm.xml")
     arm.save(tmp_path / "arm.json")
-    with pytest.raises(ValueError, match=r"tip: expected only for a \.urdf file"):
+    with pytest.raises(ValueError, match=r"`tip`: expected only for a \.urdf file"):
         bathyal.read_arm(tmp_path / "arm.json", tip="flange")
-    with pytest.raises(ValueError, match="nominal: expected the maker's arm"):
+    with pytest.raises(ValueError, match="`nominal`: expected the maker's arm"):
         arm.write(tmp_path / "calibration.conf")
-    with pytest.raises(ValueError, match=r"nominal: expected only for a \.conf"):
+    with pytest.raises(ValueError, match=r"`nominal`: expected only for a \.conf"):
         arm.write(tmp_path / "arm.urdf", nominal=arm)
     with pytest.raises(OSError, match="none"):
         arm.write(tmp_path / "none" / "arm.urdf")
@@ -285,9 +285,9 @@ def test_nearly_parallel_axes_have_the_long_d_of_the_makers_own_files(tmp_path: 
 
 def test_calibration_files_are_refused_where_they_would_not_be_true(tmp_path: Path) -> None:
     ur = bathyal.arms.ur10e()
-    with pytest.raises(ValueError, match="arm: expected six turning joints"):
+    with pytest.raises(ValueError, match="`arm`: expected six turning joints"):
         bathyal.arms.panda().write(tmp_path / "k.yaml")
-    with pytest.raises(ValueError, match="nominal: expected six turning joints"):
+    with pytest.raises(ValueError, match="`nominal`: expected six turning joints"):
         ur.write(tmp_path / "c.conf", nominal=bathyal.arms.panda())
     table = ur.to_dh()
     tilted = [[1, 0, 0, 0], [0, 0, -1, 0], [0, 1, 0, 0], [0, 0, 0, 1]]

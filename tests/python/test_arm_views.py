@@ -94,5 +94,5 @@ def test_same_picture_twice_is_the_same_bytes(tmp_path: Path) -> None:
 )
 def test_wrong_poses_are_refused(q: object) -> None:
     for draw in (bathyal.arms.ur10e().show, bathyal.arms.ur10e().plot):
-        with pytest.raises(ValueError, match="q: expected"):
+        with pytest.raises(ValueError, match="`q`: expected"):
             draw(q)

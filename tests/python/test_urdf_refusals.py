@@ -226,7 +226,9 @@ def test_an_end_must_be_named_where_there_are_several(tmp_path: Path) -> None:
         joint("grip_left", "lower", "left", kind="fixed"),
         joint("grip_right", "lower", "right"),
     )
-    with pytest.raises(ValueError, match=r"tip: expected one of 'left' \(2 joints\), 'right' \(3"):
+    with pytest.raises(
+        ValueError, match=r"`tip`: expected one of 'left' \(2 joints\), 'right' \(3"
+    ):
         read_text(tmp_path, text)
     assert read_text(tmp_path, text, tip="left").size == 2
     assert read_text(tmp_path, text, tip="grip_right").size == 3
@@ -235,10 +237,10 @@ def test_an_end_must_be_named_where_there_are_several(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("options", "message"),
     [
-        ({"tip": "hand"}, "tip: expected the name of a link or joint, for instance lower, got"),
-        ({"root": "hull"}, "root: expected one of the links foot, upper, lower, got 'hull'"),
-        ({"root": "lower", "tip": "upper"}, "root: expected a link that carries 'upper'"),
-        ({"tip": "foot"}, "tip: expected a link behind moving joints, got 'foot'"),
+        ({"tip": "hand"}, "`tip`: expected the name of a link or joint, for instance lower, got"),
+        ({"root": "hull"}, "`root`: expected one of the links foot, upper, lower, got 'hull'"),
+        ({"root": "lower", "tip": "upper"}, "`root`: expected a link that carries 'upper'"),
+        ({"tip": "foot"}, "`tip`: expected a link behind moving joints, got 'foot'"),
     ],
 )
 def test_ends_that_are_not_there(options: dict[str, str], message: str, tmp_path: Path) -> None:

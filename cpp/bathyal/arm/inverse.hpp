@@ -60,7 +60,9 @@ struct InverseOptions {
 };
 
 struct InverseResult {
-  JointMatrix q;  ///< (N, n), within the limits; where nothing was reached, the nearest found
+  /// (N, n), within the limits, but by kPseudoInverse; where nothing was reached, the nearest
+  /// found.
+  JointMatrix q;
   std::vector<InverseStatus> status;
   /// Left of position and angle together, a radian weighing a fifth of the lengths of the arm [m].
   std::vector<double> error;
@@ -77,8 +79,8 @@ struct InverseResult {
 /// sliding ones: within the arm's length), those first whose tool lies nearest to the target. Of
 /// several candidates that reach, the one nearest to the start (without one: to the middle of the
 /// limits) is taken. Turning joints whose limits allow a whole turn come out as near to the start
-/// as whole turns bring them. The result of a target does not depend on the others. \throw
-/// std::invalid_argument for targets that are not rigid or not finite, starts of another
+/// as whole turns bring them. The result of a target does not depend on the others.
+/// \throw std::invalid_argument for targets that are not rigid or not finite, starts of another
 ///        shape or beyond the limits (the row is named), options out of range.
 InverseResult inverse(const Arm& arm, std::span<const double> targets, JointView starts,
                       const InverseOptions& options = {});

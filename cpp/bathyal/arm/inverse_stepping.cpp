@@ -56,6 +56,7 @@ class Stepping final : public InverseRows {
       }
       singular = !advance(state, 1.0 / left, q);
     }
+    problem_.unwind({start, problem_.size()}, q.data());
     result.q.row(static_cast<Index>(row)) = q.transpose();
     result.error[row] = state.error();
     result.position_error[row] = state.position_error();

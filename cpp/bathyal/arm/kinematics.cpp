@@ -32,25 +32,15 @@ ForwardKernel kernel() {
   return arm::baseline_forward;
 }
 
-/// What is wanted of a batch; null is not.
-struct Wanted {
-  double* poses = nullptr;
-  double* links = nullptr;
-  double* jacobians = nullptr;
-  TipFrame frame = TipFrame::kWorld;
-};
-
-void run(const Arm& arm, JointView q, const Wanted& wanted, int num_threads) {
-  const Program program(arm);
-  const ForwardKernel forward = kernel();
-  parallel_for(static_cast<std::size_t>(q.rows()), kGrain, num_threads,
-               [&](std::size_t begin, std::size_t end) {
-                 std::vector<double> scratch(scratch_size(program.view));
-                 forward(program.view,
-                         {q.data(), begin, end, wanted.poses, wanted.links, wanted.jacobians,
-                          wanted.frame == TipFrame::kTool, scratch.data()});
-               });
+void check_size(std::string_view name, std::span<double> memory, Index rows, std::size_t width) {
+  const std::size_t expected = static_cast<std::size_t>(rows) * width;
+  if (!memory.empty() && memory.size() != expected) {
+    throw_argument(name, "room for " + std::to_string(expected) + " numbers",
+                   std::to_string(memory.size()));
+  }
 }
+
+double* data_of(std::span<double> memory) { return memory.empty() ? nullptr : memory.data(); }
 
 std::vector<double> numbers(Index rows, std::size_t width) {
   return std::vector<double>(static_cast<std::size_t>(rows) * width);
@@ -75,34 +65,47 @@ void check_joint_values(const Arm& arm, JointView q, std::string_view name) {
 }
 
 std::vector<double> forward(const Arm& arm, JointView q, int num_threads) {
-  check_joint_values(arm, q);
   std::vector<double> poses = numbers(q.rows(), 16);
-  run(arm, q, {.poses = poses.data()}, num_threads);
+  compute_kinematics(arm, q, {.poses = poses}, num_threads);
   return poses;
 }
 
 std::vector<double> forward_links(const Arm& arm, JointView q, int num_threads) {
-  check_joint_values(arm, q);
   std::vector<double> links = numbers(q.rows(), 16 * arm.links().size());
-  run(arm, q, {.links = links.data()}, num_threads);
+  compute_kinematics(arm, q, {.links = links}, num_threads);
   return links;
 }
 
 std::vector<double> jacobian(const Arm& arm, JointView q, TipFrame frame, int num_threads) {
-  check_joint_values(arm, q);
   std::vector<double> jacobians = numbers(q.rows(), static_cast<std::size_t>(6 * arm.size()));
-  run(arm, q, {.jacobians = jacobians.data(), .frame = frame}, num_threads);
+  compute_kinematics(arm, q, {.jacobians = jacobians, .frame = frame}, num_threads);
   return jacobians;
 }
 
 PosesAndJacobians forward_and_jacobian(const Arm& arm, JointView q, TipFrame frame,
                                        int num_threads) {
-  check_joint_values(arm, q);
   PosesAndJacobians result{numbers(q.rows(), 16),
                            numbers(q.rows(), static_cast<std::size_t>(6 * arm.size()))};
-  run(arm, q, {.poses = result.poses.data(), .jacobians = result.jacobians.data(), .frame = frame},
-      num_threads);
+  compute_kinematics(arm, q, {.poses = result.poses, .jacobians = result.jacobians, .frame = frame},
+                     num_threads);
   return result;
+}
+
+void compute_kinematics(const Arm& arm, JointView q, const KinematicsOutput& output,
+                        int num_threads) {
+  check_joint_values(arm, q);
+  check_size("poses", output.poses, q.rows(), 16);
+  check_size("links", output.links, q.rows(), 16 * arm.links().size());
+  check_size("jacobians", output.jacobians, q.rows(), static_cast<std::size_t>(6 * arm.size()));
+  const Program program(arm);
+  const ForwardKernel forward = kernel();
+  parallel_for(static_cast<std::size_t>(q.rows()), kGrain, num_threads,
+               [&](std::size_t begin, std::size_t end) {
+                 std::vector<double> scratch(scratch_size(program.view));
+                 forward(program.view, {q.data(), begin, end, data_of(output.poses),
+                                        data_of(output.links), data_of(output.jacobians),
+                                        output.frame == TipFrame::kTool, scratch.data()});
+               });
 }
 
 std::vector<bool> within_limits(const Arm& arm, JointView q, double tolerance) {

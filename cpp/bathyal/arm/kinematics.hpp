@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -40,6 +41,20 @@ struct PosesAndJacobians {
 /// Both for little more than the Jacobian alone.
 PosesAndJacobians forward_and_jacobian(const Arm& arm, JointView q,
                                        TipFrame frame = TipFrame::kWorld, int num_threads = 0);
+
+/// Memory of the caller for what the functions above return; what is empty is not computed.
+struct KinematicsOutput {
+  std::span<double> poses = {};       ///< (N, 4, 4)
+  std::span<double> links = {};       ///< (N, L, 4, 4)
+  std::span<double> jacobians = {};   ///< (N, 6, n)
+  TipFrame frame = TipFrame::kWorld;  ///< of the Jacobians
+};
+
+/// For those who call often, or have memory that nobody has touched: with many poses more than half
+/// of the time of the functions above goes into the system's new pages.
+/// \throw std::invalid_argument as they do, and for memory of another size.
+void compute_kinematics(const Arm& arm, JointView q, const KinematicsOutput& output,
+                        int num_threads = 0);
 
 /// Whether every coordinate of a pose lies within its limits, widened by `tolerance`.
 std::vector<bool> within_limits(const Arm& arm, JointView q, double tolerance = 1e-9);

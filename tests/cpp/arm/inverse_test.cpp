@@ -168,6 +168,40 @@ TEST(Inverse, SlidingAndMimicJoints) {
   expect_honest(arm, targets, result);
 }
 
+TEST(Inverse, JointsWithoutLimitsStayNearTheStart) {
+  const Arm arm = planar_arm();
+  const JointMatrix q = random_poses(arm, 20, 31);
+  for (const double turns : {-3.0, 0.0, 40.0}) {
+    const JointMatrix start = (q.array() + 0.3 + turns * 2.0 * kPi).matrix();
+    const InverseResult result =
+        inverse(arm, forward(arm, view_of(q)), view_of(start), {.task = InverseTask::kPosition});
+    EXPECT_EQ(count(result, kReached), 20U);
+    EXPECT_LE((result.q - start).cwiseAbs().maxCoeff(), kPi + 1e-9);
+  }
+}
+
+TEST(Inverse, LimitsOfFollowersAreKept) {
+  // Two turns from one coordinate: the second joint stops it at half of what the first allows.
+  std::vector<Joint> joints(3);
+  for (Joint& joint : joints) joint.row.a = 0.4;
+  joints[0].coordinate = joints[1].coordinate = 0;
+  joints[0].lower = -2.0;
+  joints[0].upper = 2.0;
+  joints[1].follows = joints[0].name = "leader";
+  joints[1].lower = -1.0;
+  joints[1].upper = 1.0;
+  joints[2].coordinate = 1;
+  const Arm arm("follower", joints);
+  JointMatrix q(2, 2);
+  q << 0.9, 0.3, 1.4, 0.3;
+  const InverseResult result =
+      inverse(arm, forward(arm, view_of(q)), no_start(arm), {.candidates = 4});
+  EXPECT_EQ(result.status[0], kReached);
+  EXPECT_NEAR(result.q(0, 0), 0.9, 1e-5);
+  EXPECT_EQ(result.status[1], InverseStatus::kLimit);
+  EXPECT_LE(result.q(1, 0), 1.0);
+}
+
 TEST(Inverse, LongChains) {
   DhTable table;
   for (int i = 0; i < 12; ++i) {
@@ -229,6 +263,17 @@ TEST(Inverse, TheSteppingOfThePaper) {
   EXPECT_EQ(inverse(arm, targets, view_of(start), options).status[0], kReached);
   const JointMatrix stretched = JointMatrix::Zero(1, 3);
   EXPECT_EQ(inverse(arm, targets, view_of(stretched), options).status[0], InverseStatus::kSingular);
+}
+
+TEST(Inverse, TheSteppingOfThePaperTakesOffWholeTurns) {
+  const Arm arm = ur10e();
+  JointMatrix start(1, 6), goal(1, 6);
+  start << 6.0, -1.2, 1.4, -0.5, 1.0, 0.2;
+  goal << 6.0 - 2 * kPi + 0.7, -1.2, 1.4, -0.5, 1.0, 0.2;  // the straight way leads beyond 2 pi
+  const InverseResult found = inverse(arm, forward(arm, view_of(goal)), view_of(start),
+                                      {.method = InverseMethod::kPseudoInverse});
+  EXPECT_EQ(found.status[0], kReached);
+  EXPECT_NEAR(found.q(0, 0), goal(0, 0), 0.02);
 }
 
 TEST(Inverse, Refusals) {

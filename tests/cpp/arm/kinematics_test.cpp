@@ -120,6 +120,22 @@ TEST(Kinematics, SameBytesOnEveryInstructionSetAndAnyNumberOfThreads) {
   }
 }
 
+TEST(Kinematics, IntoMemoryOfTheCaller) {
+  const Arm arm = panda();
+  const JointMatrix q = random_poses(arm, 40, 8);
+  std::vector<double> poses(640, NAN), links(640 * 8, NAN), jacobians(40 * 42, NAN);
+  compute_kinematics(arm, view_of(q), {.jacobians = jacobians, .frame = TipFrame::kTool});
+  EXPECT_EQ(jacobians, jacobian(arm, view_of(q), TipFrame::kTool));
+  compute_kinematics(arm, view_of(q), {.poses = poses, .links = links});
+  EXPECT_EQ(poses, forward(arm, view_of(q)));
+  EXPECT_EQ(links, forward_links(arm, view_of(q)));
+  compute_kinematics(arm, view_of(q), {});
+  poses.pop_back();
+  EXPECT_THROW(compute_kinematics(arm, view_of(q), {.poses = poses}), std::invalid_argument);
+  EXPECT_THROW(compute_kinematics(arm, view_of(q), {.links = poses}), std::invalid_argument);
+  EXPECT_THROW(compute_kinematics(arm, view_of(q), {.jacobians = poses}), std::invalid_argument);
+}
+
 TEST(Kinematics, APoseDoesNotDependOnItsNeighbours) {
   const Arm arm = odd_arm(3);
   const JointMatrix q = random_poses(arm, 13, 7);
