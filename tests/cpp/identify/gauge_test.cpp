@@ -37,7 +37,7 @@ Found gauge_of(const Arm& arm, bool tracked, bool base_known, Parametrization pa
   choice.parametrization = parametrization;
   choice.free_base = tracked;
   const ArmColumns columns =
-      make_columns(arm, m, {Pose::Identity()}, {Pose::Identity()}, {}, choice);
+      make_columns(arm, m, {Pose::Identity()}, {pose_of(0.06, 0.02, 0.1, 0, 0)}, {}, choice);
   std::vector<int> held;
   for (const std::string& name : fixed) held.push_back(find_column(columns.columns, name));
   Found found{{}, find_gauge(columns, m, choice, base_known, held), columns.columns};
