@@ -231,6 +231,14 @@ def test_poses_in_a_narrow_range() -> None:
     assert "joint 6 (wrist_3_joint) (11.5 deg)" in warning(fit, "Hardly moved")
 
 
+def test_parameters_that_are_hardly_told_are_named() -> None:
+    q, position = tracked(reach=0.1)
+    fit = bathyal.identify_arm(drawn(), bathyal.Tracked(q, position))
+    weak = [p for p in fit.parameters if p.status == "identified" and p.group[:3] == "row"]
+    worst = max((p for p in weak if p.unit == "rad"), key=lambda p: p.std)
+    assert worst.words in warning(fit, "Told too weakly")
+
+
 def test_poses_within_a_narrow_cone() -> None:
     fit = fit_of(touched(lean=0.3))
     assert "plan_touches" in warning(fit, "from its mean attitude")

@@ -21,11 +21,12 @@ void doubt_search(const Case& seen, Warnings& warnings) {
 /// Rows of the arm that moved out of all proportion.
 std::vector<std::string> folded_rows(const Case& seen) {
   constexpr double kFolded = 0.5;  // [rad]
+  constexpr double kSurely = 3.0;  // else it is not told, and wandered
   std::vector<std::string> rows;
   for (const FitParameter& p : seen.fit.parameters) {
     const bool row = p.group.rfind("row", 0) == 0;
     const double change = p.value - p.nominal;
-    if (row && p.unit == "rad" && std::abs(change) > kFolded) {
+    if (row && p.unit == "rad" && std::abs(change) > std::max(kFolded, kSurely * p.std)) {
       rows.push_back(p.words + " by " + degrees(change));
     }
   }
@@ -151,6 +152,22 @@ void doubt_parameters(const Case& seen, Warnings& warnings) {
                      "agree; else these numbers stand in for something that is not geometry.");
 }
 
+void doubt_weak(const Case& seen, Warnings& warnings) {
+  if (is_unusable(seen)) return;
+  std::vector<std::string> weak;
+  for (std::size_t i = 0; i < seen.fit.parameters.size(); ++i) {
+    const FitParameter& p = seen.fit.parameters[i];
+    if (seen.fit.columns.places[i].part > Part::kBeta || p.status != Status::kIdentified) continue;
+    if (p.std < (p.unit == "rad" ? kFarAngle : kFarLength)) continue;
+    weak.push_back(p.words + " (± " + in_its_unit(p.std, p.unit) + ")");
+  }
+  if (weak.empty()) return;
+  warnings.push_back("Told too weakly to mean anything by themselves: " + listed(weak, 6) +
+                     ". Together they still foretell tips near the recorded poses (fit.tip_std "
+                     "says how well there and elsewhere). Record more varied poses, or hold them "
+                     "by the maker's tolerance with length_prior and angle_prior.");
+}
+
 void doubt_intervals(const Case& seen, Warnings& warnings) {
   constexpr double kFew = 10.0;
   const ArmFit& fit = seen.fit;
@@ -177,6 +194,7 @@ void doubt_fit(const Case& seen, Warnings& warnings) {
   doubt_lengths(seen, warnings);
   doubt_geometry(seen, warnings);
   doubt_parameters(seen, warnings);
+  doubt_weak(seen, warnings);
   doubt_noise_told(seen, warnings);
   doubt_intervals(seen, warnings);
 }
