@@ -29,21 +29,22 @@ struct IdentifyOptions {
   ToolStart tool_start = ToolStart::kAuto;
   /// kAuto: free for tracked poses, fixed for touches.
   BaseChoice base = BaseChoice::kAuto;
-  std::vector<std::string> fixed;  ///< names of parameters to hold at nominal
+  std::vector<std::string> fixed = {};  ///< names of parameters to hold at nominal
 
-  std::optional<double>
-      length_prior;                   ///< std of every a and d about its nominal value [m], above 0
-  std::optional<double> angle_prior;  ///< of every theta, alpha, beta [rad], above 0
-  std::map<std::string, double> priors;  ///< by parameter's name, in its unit, above 0
+  std::optional<double> length_prior =
+      {};  ///< std of every a and d about its nominal value [m], above 0
+  std::optional<double> angle_prior = {};     ///< of every theta, alpha, beta [rad], above 0
+  std::map<std::string, double> priors = {};  ///< by parameter's name, in its unit, above 0
   /// The length prior that stands in where nothing tells the arm's size and none is given [m].
   double size_prior = 1e-3;
 
-  std::optional<double> noise;  ///< known std of a touch or position, per axis [m]; else estimated
-  std::optional<double> rotation_noise;  ///< of a measured rotation, per axis [rad]
+  std::optional<double> noise =
+      {};  ///< known std of a touch or position, per axis [m]; else estimated
+  std::optional<double> rotation_noise = {};  ///< of a measured rotation, per axis [rad]
   Loss loss = Loss::kSquare;
-  std::optional<double> loss_width;   ///< [m], above 0; else 3 × the robust std of a residual
-  std::optional<double> prune_sigma;  ///< puts parameters within so many std back to nominal
-  int num_threads = 0;                ///< 0 = all; the same bytes for any number
+  std::optional<double> loss_width = {};   ///< [m], above 0; else 3 × the robust std of a residual
+  std::optional<double> prune_sigma = {};  ///< puts parameters within so many std back to nominal
+  int num_threads = 0;                     ///< 0 = all; the same bytes for any number
 
   void check() const;
 };
