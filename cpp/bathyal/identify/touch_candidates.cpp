@@ -39,6 +39,21 @@ RowMatrix below(const RowMatrix& above, const RowMatrix& rows) {
   return out;
 }
 
+/// `rows` that are none of `known`, nor of those before them.
+RowMatrix new_rows(const RowMatrix& known, const RowMatrix& rows) {
+  constexpr double kSame = 1e-6;  // [rad], [m]
+  RowMatrix all = below(known, rows);
+  Index count = known.rows();
+  for (Index i = known.rows(); i < all.rows(); ++i) {
+    bool old = false;
+    for (Index j = 0; j < count && !old; ++j) {
+      old = (all.row(j) - all.row(i)).cwiseAbs().maxCoeff() < kSame;
+    }
+    if (!old) all.row(count++) = all.row(i).eval();
+  }
+  return all.middleRows(known.rows(), count - known.rows());
+}
+
 bool above_floor(const Arm& arm, const double* q, double floor, RowFrames& frames) {
   compute_row_frames(arm, {q, static_cast<std::size_t>(arm.size())}, frames);
   // The foot itself stands where it stands.
@@ -116,7 +131,7 @@ RowMatrix poses_on_point(const Arm& arm, const TouchModel& model, const Vec3& po
         random_poses(arm, wanted, stream(options, kCandidateStream + 16 * number, round));
     const RowMatrix there = brought_onto(arm, model, point, starts, options.forecast.num_threads);
     reached += there.rows();
-    out = below(out, allowed_rows(arm, there, options));
+    out = below(out, allowed_rows(arm, new_rows(out, there), options));
   }
   if (reached == 0) {
     throw_argument("points", "points that the arm reaches",

@@ -149,6 +149,9 @@ TEST(ForecastTouches, IsWhatIdentifyArmReports) {
   identify.noise = options.forecast.noise;
   identify.length_prior = options.forecast.length_prior;
   identify.angle_prior = options.forecast.angle_prior;
+  for (const char* name : {"tool_x", "tool_y", "tool_z"}) {
+    identify.priors[name] = options.forecast.tool_prior;
+  }
   const ArmFit fit = identify_arm(arm, touches, identify);
   EXPECT_EQ(fit.rank, plan.forecast.rank);
   EXPECT_EQ(static_cast<int>(fit.parameters.size()), plan.forecast.parameters);
