@@ -6,20 +6,20 @@
 
 #include "bathyal/arm/inverse.hpp"
 #include "bathyal/base/check.hpp"
+#include "bathyal/base/random.hpp"
 
 namespace bathyal {
 namespace {
 
 constexpr int kMostRounds = 8;  ///< of drawing, until there are enough
 // Streams of random numbers, so that what one draws does not depend on what another one did.
-constexpr std::uint64_t kWorkspaceStream = 0x1000;
-constexpr std::uint64_t kPointStream = 0x2000;
-constexpr std::uint64_t kCandidateStream = 0x3000;
+constexpr std::uint64_t kWorkspaceStream = 0;
+constexpr std::uint64_t kPointStream = std::uint64_t{1} << 32U;
+constexpr std::uint64_t kCandidateStream = std::uint64_t{2} << 32U;
 
-std::uint64_t stream(const PlanTouchesOptions& options, std::uint64_t first, int number) {
-  constexpr std::uint64_t kApart = 0x10000;
-  return options.forecast.seed * kApart * kApart + first +
-         static_cast<std::uint64_t>(number) * kApart;
+/// A seed of its own for the `number`-th draw of a kind.
+std::uint64_t stream(const PlanTouchesOptions& options, std::uint64_t kind, int number) {
+  return RandomStream(options.forecast.seed, kind + static_cast<std::uint64_t>(number)).next();
 }
 
 JointView view(const RowMatrix& q) { return {q.data(), q.rows(), q.cols()}; }
@@ -128,7 +128,7 @@ RowMatrix poses_on_point(const Arm& arm, const TouchModel& model, const Vec3& po
   RowMatrix out(0, arm.size());
   for (int round = 0; round < kMostRounds && out.rows() < wanted; ++round) {
     const RowMatrix starts =
-        random_poses(arm, wanted, stream(options, kCandidateStream + 16 * number, round));
+        random_poses(arm, wanted, stream(options, kCandidateStream, kMostRounds * number + round));
     const RowMatrix there = brought_onto(arm, model, point, starts, options.forecast.num_threads);
     reached += there.rows();
     out = below(out, allowed_rows(arm, new_rows(out, there), options));
