@@ -218,7 +218,7 @@ TEST(PlanTouches, TouchesWhatItSaysWithinTheLimits) {
     }
     EXPECT_GT(plan.q(i, 0), -2.0);
     EXPECT_LE(plan.q.row(i).cwiseAbs().maxCoeff(), kPi);
-    if (i > 0) EXPECT_GE(plan.point[i], plan.point[i - 1]);
+    EXPECT_GE(plan.point[i], plan.point[std::max(i - 1, 0)]);
   }
 }
 
