@@ -35,14 +35,16 @@ RowMatrix workspace_argument(const py::object& workspace, const Arm& arm) {
 
 ForecastOptions forecast_argument(const Arm& arm, const std::string& parametrization,
                                   double nearly_parallel, double noise, double length_prior,
-                                  double angle_prior, const py::object& workspace,
-                                  int workspace_poses, std::uint64_t seed, int num_threads) {
+                                  double angle_prior, double tool_prior,
+                                  const py::object& workspace, int workspace_poses,
+                                  std::uint64_t seed, int num_threads) {
   return {
       .parametrization = word_argument("parametrization", parametrization, parametrization_words()),
       .nearly_parallel = nearly_parallel,
       .noise = noise,
       .length_prior = length_prior,
       .angle_prior = angle_prior,
+      .tool_prior = tool_prior,
       .workspace = workspace_argument(workspace, arm),
       .workspace_poses = workspace_poses,
       .seed = seed,
@@ -192,10 +194,11 @@ void bind_functions(py::module_& module) {
       "forecast_touches",
       [](const Arm& arm, const Touches& touches, const std::string& parametrization,
          double nearly_parallel, double noise, double length_prior, double angle_prior,
-         const py::object& workspace, int workspace_poses, std::uint64_t seed, int num_threads) {
-        const ForecastOptions options =
-            forecast_argument(arm, parametrization, nearly_parallel, noise, length_prior,
-                              angle_prior, workspace, workspace_poses, seed, num_threads);
+         double tool_prior, const py::object& workspace, int workspace_poses, std::uint64_t seed,
+         int num_threads) {
+        const ForecastOptions options = forecast_argument(
+            arm, parametrization, nearly_parallel, noise, length_prior, angle_prior, tool_prior,
+            workspace, workspace_poses, seed, num_threads);
         const py::gil_scoped_release release;
         return forecast_touches(arm, touches, options);
       },
@@ -203,9 +206,10 @@ void bind_functions(py::module_& module) {
       py::arg("parametrization") = word_of(forecast.parametrization, parametrization_words()),
       py::arg("nearly_parallel") = forecast.nearly_parallel, py::arg("noise") = forecast.noise,
       py::arg("length_prior") = forecast.length_prior,
-      py::arg("angle_prior") = forecast.angle_prior, py::arg("workspace") = py::none(),
-      py::arg("workspace_poses") = forecast.workspace_poses, py::arg("seed") = forecast.seed,
-      py::arg("num_threads") = forecast.num_threads, kForecastTouchesDoc);
+      py::arg("angle_prior") = forecast.angle_prior, py::arg("tool_prior") = forecast.tool_prior,
+      py::arg("workspace") = py::none(), py::arg("workspace_poses") = forecast.workspace_poses,
+      py::arg("seed") = forecast.seed, py::arg("num_threads") = forecast.num_threads,
+      kForecastTouchesDoc);
   module.def(
       "plan_touches",
       [](const Arm& arm, int count, const py::object& points, int num_points,
@@ -213,8 +217,8 @@ void bind_functions(py::module_& module) {
          double point_std, const py::object& feasible, std::optional<double> floor,
          const std::string& criterion, int candidates, int passes,
          const std::string& parametrization, double nearly_parallel, double noise,
-         double length_prior, double angle_prior, const py::object& workspace, int workspace_poses,
-         std::uint64_t seed, int num_threads) {
+         double length_prior, double angle_prior, double tool_prior, const py::object& workspace,
+         int workspace_poses, std::uint64_t seed, int num_threads) {
         const PlanTouchesOptions options{
             .criterion = word_argument("criterion", criterion, criterion_words()),
             .points = points_to_touch(points),
@@ -227,9 +231,9 @@ void bind_functions(py::module_& module) {
             .floor = floor,
             .candidates = candidates,
             .passes = passes,
-            .forecast =
-                forecast_argument(arm, parametrization, nearly_parallel, noise, length_prior,
-                                  angle_prior, workspace, workspace_poses, seed, num_threads)};
+            .forecast = forecast_argument(arm, parametrization, nearly_parallel, noise,
+                                          length_prior, angle_prior, tool_prior, workspace,
+                                          workspace_poses, seed, num_threads)};
         const py::gil_scoped_release release;
         return plan_touches(arm, count, options);
       },
@@ -243,9 +247,10 @@ void bind_functions(py::module_& module) {
       py::arg("parametrization") = word_of(forecast.parametrization, parametrization_words()),
       py::arg("nearly_parallel") = forecast.nearly_parallel, py::arg("noise") = forecast.noise,
       py::arg("length_prior") = forecast.length_prior,
-      py::arg("angle_prior") = forecast.angle_prior, py::arg("workspace") = py::none(),
-      py::arg("workspace_poses") = forecast.workspace_poses, py::arg("seed") = forecast.seed,
-      py::arg("num_threads") = forecast.num_threads, kPlanTouchesDoc);
+      py::arg("angle_prior") = forecast.angle_prior, py::arg("tool_prior") = forecast.tool_prior,
+      py::arg("workspace") = py::none(), py::arg("workspace_poses") = forecast.workspace_poses,
+      py::arg("seed") = forecast.seed, py::arg("num_threads") = forecast.num_threads,
+      kPlanTouchesDoc);
 }
 
 }  // namespace

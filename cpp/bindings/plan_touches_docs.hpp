@@ -31,6 +31,8 @@ noise : float
 length_prior, angle_prior : float
     The maker's tolerances: standard deviation of every a and d [m], and of every theta, alpha and
     beta [rad]. They hold what touches never tell.
+tool_prior : float
+    How well the tool is told: standard deviation of each coordinate of its tip [m].
 workspace : (S, n) array, optional
     Poses in which the arm must go right [rad] or [m]. Drawn at random within the limits unless
     given.
@@ -105,7 +107,9 @@ candidates : int
     Poses to choose from, for each point.
 passes : int
     At most so many rounds of exchange.
-parametrization, nearly_parallel, noise, length_prior, angle_prior, workspace, workspace_poses
+parametrization, nearly_parallel, noise, length_prior, angle_prior, tool_prior
+    As of `forecast_touches`.
+workspace, workspace_poses
     As of `forecast_touches`; poses of the workspace that are drawn must be feasible, too.
 seed : int
     Of what is drawn.
@@ -128,11 +132,11 @@ ValueError
 Examples
 --------
 >>> import bathyal
->>> arm = bathyal.arms.maevskiy_zanin()
->>> plan = bathyal.plan_touches(arm, 8, num_points=2, known_distances=[(0, 1)])
->>> plan.q.shape, plan.point.tolist()
-((8, 3), [0, 0, 0, 0, 1, 1, 1, 1])
->>> bool(plan.worst_tip_std < 0.01)
+>>> arm = bathyal.arms.ur10e()
+>>> plan = bathyal.plan_touches(arm, 24, num_points=2, known_distances=[(0, 1)], candidates=200)
+>>> plan.q.shape, plan.points.shape
+((24, 6), (2, 3))
+>>> bool(plan.worst_tip_std < 0.001)
 True
 )";
 

@@ -45,10 +45,10 @@ def write_plan(plan: TouchPlan, path: PathLike) -> None:
     --------
     >>> import bathyal, pathlib, tempfile
     >>> path = pathlib.Path(tempfile.mkdtemp()) / "plan.csv"
-    >>> plan = bathyal.plan_touches(bathyal.arms.maevskiy_zanin(), 8, num_points=2)
+    >>> plan = bathyal.plan_touches(bathyal.arms.ur10e(), 8, num_points=2)
     >>> plan.write(path)
     >>> bathyal.read_touches(path)
-    Touches(8 poses, 3 joints)
+    Touches(8 poses, 6 joints)
     """
     known_suffix(path, (".csv",), "table")
     lines = [f"# {line}" for line in _HOW_TO]
@@ -88,7 +88,7 @@ def plot_plan(plan: TouchPlan, path: PathLike | None = None) -> Figure:
     --------
     >>> import bathyal, pathlib, tempfile
     >>> path = pathlib.Path(tempfile.mkdtemp()) / "plan.png"
-    >>> plan = bathyal.plan_touches(bathyal.arms.maevskiy_zanin(), 8, num_points=2)
+    >>> plan = bathyal.plan_touches(bathyal.arms.ur10e(), 8, num_points=2)
     >>> _ = plan.plot(path)
     >>> path.stat().st_size > 10_000
     True

@@ -11,7 +11,7 @@ import pytest
 import bathyal
 from command import run
 
-SMALL = ["touches", "plan", "--arm", "maevskiy_zanin", "--count", 12]
+SMALL = ["touches", "plan", "--arm", "ur10e", "--count", 12]
 
 
 def test_plan_as_in_the_readme(tmp_path, capsys):
@@ -29,7 +29,7 @@ def test_plan_as_in_the_readme(tmp_path, capsys):
 
 
 def test_json_and_every_option(tmp_path, capsys):
-    arm = bathyal.arms.maevskiy_zanin()
+    arm = bathyal.arms.ur10e()
     arm.save(tmp_path / "arm.json")
     code, text, err = run(
         capsys, "touches", "plan", "--arm", tmp_path / "arm.json", "--count", 10,

@@ -3,8 +3,6 @@
 
 from __future__ import annotations
 
-import inspect
-
 import numpy as np
 import pytest
 
@@ -280,6 +278,7 @@ def test_what_goes_wrong_in_feasible_comes_through(arm):
         ({"noise": 0.0}, "`noise`"),
         ({"length_prior": np.inf}, "`length_prior`"),
         ({"angle_prior": -1.0}, "`angle_prior`"),
+        ({"tool_prior": 0.0}, "`tool_prior`"),
         ({"distance_std": 0.0}, "`distance_std`"),
         ({"point_std": np.nan}, "`point_std`"),
         ({"workspace": np.zeros((3, 5))}, "`workspace`"),
@@ -316,6 +315,15 @@ def test_little_may_be_held(arm):
     plan = bathyal.plan_touches(arm, 30, points=POINTS, candidates=5)
     assert len(plan) == 15
     assert "Only 15 poses that may be held were found" in str(plan)
+
+
+def test_three_joints_stand_on_a_point_in_few_ways():
+    arm = bathyal.arms.maevskiy_zanin()
+    plan = bathyal.plan_touches(arm, 30, num_points=3)
+    assert len(plan) < 30
+    assert len(np.unique(plan.q.round(5), axis=0)) == len(plan)
+    assert "More points would give more" in str(plan)
+    assert plan.worst_tip_std < 0.1  # the priors hold, the tool's too
 
 
 def test_a_joint_that_cannot_move():

@@ -17,6 +17,9 @@ namespace bathyal {
 namespace {
 
 constexpr double kUnit = 1e-3;  ///< of lengths among scaled columns [m]
+/// How far a point may lie from where it is said to: so far that it tells nothing beside touches
+/// [m].
+constexpr double kVague = 1.0;
 
 /// Candidates of all points, one below the other.
 struct Candidates {

@@ -44,7 +44,7 @@ void warn_of_poses(const TouchPlan& plan, int count, const PlanTouchesOptions& o
   if (plan.point.size() < static_cast<std::size_t>(count)) {
     out.push_back("Only " + poses(plan.point.size()) +
                   " that may be held were found: the plan has so many, not " +
-                  std::to_string(count) + ".");
+                  std::to_string(count) + ". More points would give more.");
   } else if (static_cast<std::size_t>(plan.candidates) <
              static_cast<std::size_t>(options.candidates) * placed) {
     out.push_back("There were only " + poses(static_cast<std::size_t>(plan.candidates)) +

@@ -6,20 +6,20 @@
 
 #include "bathyal/arm/inverse.hpp"
 #include "bathyal/base/check.hpp"
+#include "bathyal/base/random.hpp"
 
 namespace bathyal {
 namespace {
 
 constexpr int kMostRounds = 8;  ///< of drawing, until there are enough
 // Streams of random numbers, so that what one draws does not depend on what another one did.
-constexpr std::uint64_t kWorkspaceStream = 0x1000;
-constexpr std::uint64_t kPointStream = 0x2000;
-constexpr std::uint64_t kCandidateStream = 0x3000;
+constexpr std::uint64_t kWorkspaceStream = 0;
+constexpr std::uint64_t kPointStream = std::uint64_t{1} << 32U;
+constexpr std::uint64_t kCandidateStream = std::uint64_t{2} << 32U;
 
-std::uint64_t stream(const PlanTouchesOptions& options, std::uint64_t first, int number) {
-  constexpr std::uint64_t kApart = 0x10000;
-  return options.forecast.seed * kApart * kApart + first +
-         static_cast<std::uint64_t>(number) * kApart;
+/// A seed of its own for the `number`-th draw of a kind.
+std::uint64_t stream(const PlanTouchesOptions& options, std::uint64_t kind, int number) {
+  return RandomStream(options.forecast.seed, kind + static_cast<std::uint64_t>(number)).next();
 }
 
 JointView view(const RowMatrix& q) { return {q.data(), q.rows(), q.cols()}; }
@@ -37,6 +37,21 @@ RowMatrix below(const RowMatrix& above, const RowMatrix& rows) {
   RowMatrix out(above.rows() + rows.rows(), rows.cols());
   out << above, rows;
   return out;
+}
+
+/// `rows` that are none of `known`, nor of those before them.
+RowMatrix new_rows(const RowMatrix& known, const RowMatrix& rows) {
+  constexpr double kSame = 1e-6;  // [rad], [m]
+  RowMatrix all = below(known, rows);
+  Index count = known.rows();
+  for (Index i = known.rows(); i < all.rows(); ++i) {
+    bool old = false;
+    for (Index j = 0; j < count && !old; ++j) {
+      old = (all.row(j) - all.row(i)).cwiseAbs().maxCoeff() < kSame;
+    }
+    if (!old) all.row(count++) = all.row(i).eval();
+  }
+  return all.middleRows(known.rows(), count - known.rows());
 }
 
 bool above_floor(const Arm& arm, const double* q, double floor, RowFrames& frames) {
@@ -113,10 +128,10 @@ RowMatrix poses_on_point(const Arm& arm, const TouchModel& model, const Vec3& po
   RowMatrix out(0, arm.size());
   for (int round = 0; round < kMostRounds && out.rows() < wanted; ++round) {
     const RowMatrix starts =
-        random_poses(arm, wanted, stream(options, kCandidateStream + 16 * number, round));
+        random_poses(arm, wanted, stream(options, kCandidateStream, kMostRounds * number + round));
     const RowMatrix there = brought_onto(arm, model, point, starts, options.forecast.num_threads);
     reached += there.rows();
-    out = below(out, allowed_rows(arm, there, options));
+    out = below(out, allowed_rows(arm, new_rows(out, there), options));
   }
   if (reached == 0) {
     throw_argument("points", "points that the arm reaches",

@@ -16,8 +16,8 @@ RowMatrix allowed_rows(const Arm& arm, const RowMatrix& q, const PlanTouchesOpti
 /// \throw std::invalid_argument where nothing is
 RowMatrix allowed_workspace(const Arm& arm, const PlanTouchesOptions& options);
 
-/// Allowed poses with the tip on `point`, to rounding: `options.candidates` of them, or as many as
-/// were found.
+/// Allowed poses with the tip on `point`, to rounding, each once: `options.candidates` of them, or
+/// as many as were found (three joints have a few).
 /// \throw std::invalid_argument that names point `number` where there is none
 RowMatrix poses_on_point(const Arm& arm, const TouchModel& model, const Vec3& point, int number,
                          const PlanTouchesOptions& options);

@@ -95,6 +95,7 @@ void ForecastOptions::check() const {
   check_positive("noise", noise);
   check_positive("length_prior", length_prior);
   check_positive("angle_prior", angle_prior);
+  check_positive("tool_prior", tool_prior);
   if (!workspace.allFinite()) throw_argument("workspace", "finite numbers", "nan or inf");
   if (workspace_poses < 1) {
     throw_argument("workspace_poses", "1 or more", std::to_string(workspace_poses));

@@ -18,6 +18,7 @@ struct ForecastOptions {
   double noise = 1e-4;                       ///< std of one touch, per axis [m], above 0
   double length_prior = 1e-3;                ///< std of every a and d about nominal [m], above 0
   double angle_prior = 2e-3;                 ///< of every theta, alpha, beta [rad], above 0
+  double tool_prior = 1e-2;                  ///< of each coordinate of the tool's tip [m], above 0
   /// (S, n) poses in which the tip's deviation counts; empty: `workspace_poses` drawn at random.
   RowMatrix workspace;
   int workspace_poses = 400;  ///< 1 or more

@@ -20,7 +20,7 @@ void set_priors(ArmColumns& columns, const ForecastOptions& options) {
     const Part part = columns.places[i].part;
     const bool length = part == Part::kD || part == Part::kA;
     const double row = length ? options.length_prior : options.angle_prior;
-    columns.columns[i].prior_std = part <= Part::kBeta ? row : kVague;
+    columns.columns[i].prior_std = part <= Part::kBeta ? row : options.tool_prior;
   }
 }
 

@@ -43,8 +43,4 @@ double length_of(const Arm& arm);
 /// length.
 RowMatrix random_poses(const Arm& arm, Index count, std::uint64_t seed);
 
-/// Variance of a tool centre point's coordinate and of a point's, before anything is touched: a
-/// metre either way, which tells nothing beside touches.
-constexpr double kVague = 1.0;  ///< std [m]
-
 }  // namespace bathyal
