@@ -155,11 +155,11 @@ def test_the_least_json_is_an_arm(tmp_path: Path) -> None:
 
 def test_what_is_asked_wrongly(tmp_path: Path) -> None:
     arm = bathyal.arms.ur10e()
-    with pytest.raises(ValueError, match="path: expected a robot file"):
+    with pytest.raises(ValueError, match="`path`: expected a robot file"):
         arm.write(tmp_path / "arm.dae")
-    with pytest.raises(ValueError, match="path: expected a"):
+    with pytest.raises(ValueError, match="`path`: expected a"):
         arm.save(tmp_path / "arm.urdf")
-    with pytest.raises(ValueError, match="path: expected a"):
+    with pytest.raises(ValueError, match="`path`: expected a"):
         bathyal.read_arm(tmp_path / "arm.xml")
     arm.save(tmp_path / "arm.json")
     with pytest.raises(ValueError, match=r"tip: expected only for a \.urdf file"):
