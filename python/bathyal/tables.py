@@ -127,7 +127,10 @@ def read_table(path: str | os.PathLike[str]) -> Table:
     try:
         text = file.read_text(encoding="utf-8-sig")
     except UnicodeDecodeError as error:
-        raise Error(f"{file}: expected text, got bytes that are not UTF-8") from error
+        raise Error(
+            f"{file}: expected text, got bytes that are not UTF-8 (a spreadsheet program "
+            "saves it as CSV UTF-8)"
+        ) from error
     kept = [(number, line) for number, line in enumerate(text.splitlines(), 1)
             if line.strip(" \t;,") and not line.lstrip().startswith("#")]  # fmt: skip
     if not kept:
