@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "bathyal/base/check.hpp"
@@ -465,17 +466,23 @@ RowMatrix Search::exact_joints() const {
 /// squares is that of an arm too small by (degrees of freedom) · (relative std of its size)², many
 /// std where hundreds of touches lean on a short known distance. The derivatives of exact touches
 /// know nothing of the scatter, so that steps along them end where what is known of the size is
-/// met.
+/// met. Data that no arm fits may let the steps grow: least squares stand then.
 void Search::undo_size_draw() {
+  const Eigen::VectorXd least = x_;
   Eigen::VectorXd residuals(system_->rows());
-  for (int round = 0; round < kMostRounds; ++round) {
+  double last = std::numeric_limits<double>::infinity();
+  while (last > kSizeSettled) {
     ArmSystem exact = *system_;
     exact.set_joints(exact_joints());
     const Eigen::VectorXd y = system_->scaled(x_);
     system_->evaluate(y.data(), residuals.data(), nullptr);
     const Eigen::VectorXd step = jacobian_of(exact).householderQr().solve(-residuals);
+    if (!(step.norm() < last)) {
+      x_ = least;
+      return;
+    }
+    last = step.norm();
     x_ = system_->values(y + step);
-    if (step.norm() < kSizeSettled) break;
   }
 }
 
