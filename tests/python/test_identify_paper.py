@@ -233,6 +233,12 @@ def test_a_slide_that_stands_still_does_not() -> None:
     assert fit.scale_source == "prior on lengths (1 mm)"
 
 
+def test_a_length_that_is_held_is_no_travel() -> None:
+    touches, _ = experiments()[0]
+    held = bathyal.identify_arm(bathyal.arms.ur10e(), touches, fixed=["a_2"])
+    assert "travel" not in held.scale_source
+
+
 # Intervals ----------------------------------------------------------------------------------------
 
 

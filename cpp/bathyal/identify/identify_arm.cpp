@@ -265,7 +265,10 @@ void Search::look() {
 /// The travel of a sliding joint is known, so that touches tell the size of an arm that has one: no
 /// change of the size is among those that the data do not see. The prior that stood in for it goes.
 void Search::ask_for_size() {
-  if (size_told_) return;
+  const bool slides =
+      std::any_of(arm_.joints().begin(), arm_.joints().end(),
+                  [](const Joint& joint) { return joint.type == JointType::kPrismatic; });
+  if (size_told_ || !slides) return;
   Eigen::VectorXd size = size_derivative();
   for (Index i = 0; i < size.size(); ++i) size[i] *= columns_.columns[i].scale;
   if ((unseen_.transpose() * size).norm() > kUnseenShare * size.norm()) return;
