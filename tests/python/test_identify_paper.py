@@ -244,7 +244,7 @@ def test_a_length_that_is_held_is_no_travel() -> None:
 
 @cache
 def sets_of(case: str) -> Any:
-    return CASES[case](100 if case == "sockets" else 300)
+    return CASES[case](100 if case == "sockets" else 200)
 
 
 @pytest.mark.parametrize("case", CASES)
