@@ -29,17 +29,32 @@ def placements(robot: str) -> list[str]:
     return sorted(folder.name for folder in _there(ARMS / "mukca" / "data" / robot).iterdir())
 
 
+@cache
+def _every_socket(robot: str) -> bathyal.Touches:
+    folder = ARMS / "mukca" / "data" / robot
+    names = placements(robot)
+    files = {f"{name}/{k}": folder / name / f"hole_{k}.csv" for name in names for k in (0, 1)}
+    return bathyal.read_touches(files, unit="rad")
+
+
 def sockets(
     robot: str,
     told: Callable[[str], bool] = lambda placement: True,
     used: Callable[[str], bool] = lambda placement: True,
 ) -> bathyal.Touches:
-    """Touches of MUKCa's sockets at the placements `used`, their distance told where `told`."""
-    chosen = [name for name in placements(robot) if used(name)]
-    folder = ARMS / "mukca" / "data" / robot
-    files = {f"{name}/{k}": folder / name / f"hole_{k}.csv" for name in chosen for k in (0, 1)}
-    distances = {(f"{name}/0", f"{name}/1"): SOCKETS_APART for name in chosen if told(name)}
-    return bathyal.read_touches(files, unit="rad", known_distances=distances or None)
+    """Touches of MUKCa's sockets at the placements `used`, their distance told where `told`.
+
+    Placement k's two sockets are points 2 k and 2 k + 1.
+    """
+    names = placements(robot)
+    every = _every_socket(robot)
+    rows = np.isin(every.point // 2, [k for k, name in enumerate(names) if used(name)])
+    distances = {
+        (2 * k, 2 * k + 1): SOCKETS_APART
+        for k, name in enumerate(names)
+        if used(name) and told(name)
+    }
+    return bathyal.Touches(every.q[rows], every.point[rows], known_distances=distances or None)
 
 
 def apart(points: Array) -> Array:

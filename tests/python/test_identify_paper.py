@@ -233,12 +233,18 @@ def test_a_slide_that_stands_still_does_not() -> None:
     assert fit.scale_source == "prior on lengths (1 mm)"
 
 
+def test_a_length_that_is_held_is_no_travel() -> None:
+    touches, _ = experiments()[0]
+    held = bathyal.identify_arm(bathyal.arms.ur10e(), touches, fixed=["a_2"])
+    assert "travel" not in held.scale_source
+
+
 # Intervals ----------------------------------------------------------------------------------------
 
 
 @cache
 def sets_of(case: str) -> Any:
-    return CASES[case](100 if case == "sockets" else 300)
+    return CASES[case](100 if case == "sockets" else 200)
 
 
 @pytest.mark.parametrize("case", CASES)

@@ -83,10 +83,10 @@ def test_distances_told_on_half_of_the_placements_hold_on_the_rest(
 
 
 def test_any_half_of_the_placements_tells_the_size() -> None:
-    """Of all 70 halves of panda_2's eight placements."""
+    """Every other of the 70 halves of panda_2's eight placements."""
     names = placements("panda_2_clean")
     found = []
-    for chosen in combinations(names, 4):
+    for chosen in [*combinations(names, 4)][::2]:
         touches = sockets("panda_2_clean", told=lambda name, chosen=chosen: name in chosen)
         fit = bathyal.identify_arm(bathyal.arms.panda(), touches)
         found.append(apart(fit.points)[[name not in chosen for name in names]].mean())
@@ -104,7 +104,7 @@ def test_a_placement_that_was_left_out_is_met_as_well(robot: str) -> None:
         )
         touches = sockets(robot, used=lambda other, name=name: other == name)
         tips = fit.arm.forward(touches.q)[:, :3, 3]
-        points = np.array([tips[touches.point == k].mean(axis=0) for k in (0, 1)])
+        points = np.array([tips[touches.point == k].mean(axis=0) for k in np.unique(touches.point)])
         held.append(spread(fit.arm, touches))
         distance.append(apart(points)[0])
     assert max(held) < 0.5 * MM
@@ -179,13 +179,15 @@ def test_ur10_where_it_was_not_fitted(series: str) -> None:
 
 
 def test_ur10_of_another_session() -> None:
-    """The rows found in one session, base and target put up anew. A grid and joint configurations
-    carry over; what is fitted to random poses of session C holds less well in B."""
+    """The rows found in one session, base and target put up anew: those of the grid (A) hold in B;
+    those of the random poses (C) take back little of the nominal arm's error there."""
     left_of = {}
     rows = rows_of(bathyal.identify_arm(bathyal.arms.ur10(), ur10("B")))
     nominal = bathyal.identify_arm(bathyal.arms.ur10(), ur10("B"), fixed=rows).rms_after
-    for series in ("A", "C"):
-        found = bathyal.identify_arm(bathyal.arms.ur10(), ur10(series)).arm
+    for series, every in (("A", 4), ("C", 1)):
+        data = ur10(series)
+        chosen = part(data, np.arange(len(data.q)) % every == 0)
+        found = bathyal.identify_arm(bathyal.arms.ur10(), chosen).arm
         left_of[series] = bathyal.identify_arm(found, ur10("B"), fixed=rows).rms_after
     assert nominal == pytest.approx(1.085 * MM, abs=0.01 * MM)
     assert left_of["A"] == pytest.approx(0.498 * MM, abs=0.01 * MM)

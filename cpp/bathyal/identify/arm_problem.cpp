@@ -94,7 +94,11 @@ void ArmProblem::set_priors() {
 }
 
 bool ArmProblem::drop_size_prior(const Eigen::MatrixXd& unseen) {
-  if (size_told) return false;
+  const std::vector<Joint>& joints = columns.arm.joints();
+  const bool slides = std::any_of(joints.begin(), joints.end(), [](const Joint& joint) {
+    return joint.type == JointType::kPrismatic;
+  });
+  if (size_told || !slides) return false;
   Eigen::VectorXd size = size_derivative(columns);
   for (Index i = 0; i < size.size(); ++i) size[i] *= columns.columns[i].scale;
   if ((unseen.transpose() * size).norm() > kUnseenShare * size.norm()) return false;
