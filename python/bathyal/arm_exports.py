@@ -44,7 +44,7 @@ def write_ros_kinematics(arm: Arm, path: PathLike, *, hash: str = "bathyal") -> 
         The file appears whole or not at all.
     hash : str
         The driver compares it with the checksum of the connected controller's own calibration
-        ("calib_…") and warns where they differ, as they must for any other calibration.
+        (``calib_…``) and warns where they differ, as they must for any other calibration.
 
     Raises
     ------
