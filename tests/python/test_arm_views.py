@@ -48,6 +48,19 @@ def test_every_part_is_closed_and_faces_outward() -> None:
         assert (used <= 2).all(), part.name
 
 
+def test_a_slider_on_the_axis_of_a_drum_stays_in_sight() -> None:
+    arm = bathyal.Arm.from_dh(
+        a=[0, 0.4], alpha=[0, 0], d=[0.2, 0], theta=[0, 0],
+        joint_types=["prismatic", "revolute"], names=["lift", "turn"],
+    )  # fmt: skip
+    at = posture(arm, [0.1, 0.3])
+    np.testing.assert_allclose(at.axes[0], at.axes[1])
+    parts = {part.name: part.vertices for part in solid(at, size_of([at]))}
+    lift, turn = parts["lift"], parts["turn"]
+    assert np.hypot(*lift[:, :2].T).max() > 1.2 * np.hypot(*turn[:, :2].T).max()
+    assert np.ptp(turn[:, 2]) > 1.2 * np.ptp(lift[:, 2])
+
+
 def test_rest_keeps_the_limits() -> None:
     arm = bathyal.Arm.from_dh(
         a=[1, 1, 1], alpha=[0] * 3, d=[0] * 3, theta=[0] * 3,
