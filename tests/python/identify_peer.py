@@ -16,7 +16,7 @@ def built(drawing: bathyal.Arm, size: float, seed: int) -> bathyal.Arm:
     """The arm as built: rows off by normal errors of `size`, with a tool."""
     random = np.random.default_rng(seed)
     table = drawing.to_dh()
-    off = {n: np.array(table[n]) + size * random.normal(size=drawing.size) for n in NAMES[:4]}
+    off = {n: getattr(table, n) + size * random.normal(size=drawing.size) for n in NAMES[:4]}
     tool = np.eye(4)
     tool[:3, 3] = 0.02, -0.01, 0.15
     return bathyal.Arm.from_dh(**off, tool=tool)
@@ -33,7 +33,7 @@ def touch(arm: bathyal.Arm, count: int, seed: int) -> tuple[Array, NDArray[np.in
             j = arm.jacobian(q)[:, :3]
             square = j @ j.transpose(0, 2, 1) + 1e-10 * np.eye(3)
             step = np.einsum("nij,ni->nj", j, np.linalg.solve(square, miss[..., None])[..., 0])
-            q = q + step * np.minimum(1, 0.3 / np.linalg.norm(step, axis=1))[:, None]
+            q = q + step * (0.3 / np.maximum(0.3, np.linalg.norm(step, axis=1)))[:, None]
         near = np.linalg.norm(point - arm.forward(q)[:, :3, 3], axis=1) < 1e-12
         q = q[near & (np.abs(q).max(axis=1) < 6)][:count]
         assert len(q) == count
@@ -50,7 +50,7 @@ class Peer:
 
     def __init__(self, arm: bathyal.Arm, fit: bathyal.ArmFit, q: Array, labels: Array) -> None:
         table = arm.to_dh()
-        self.rows = np.array([table[n] if n in table else np.zeros(arm.size) for n in NAMES])
+        self.rows = np.array([getattr(table, n) for n in NAMES])
         self.places = [self._place(p.name) for p in fit.parameters]
         self.nominal = np.array([p.nominal for p in fit.parameters])
         self.q = q

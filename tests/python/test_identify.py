@@ -80,7 +80,7 @@ def test_moving_base_and_points_together_changes_nothing(seed: int) -> None:
     )
     moved_points = POINTS @ motion[:3, :3].T + motion[:3, 3]
     there = bathyal.identify_arm(
-        drawing.with_base(motion) if hasattr(drawing, "with_base") else moved_base(drawing, motion),
+        moved_base(drawing, motion),
         bathyal.Touches(q, point, known_points=dict(enumerate(moved_points))),
     )
     assert there.rank == here.rank
@@ -92,7 +92,7 @@ def test_moving_base_and_points_together_changes_nothing(seed: int) -> None:
 
 def moved_base(arm: bathyal.Arm, base: np.ndarray) -> bathyal.Arm:
     table = arm.to_dh()
-    return bathyal.Arm.from_dh(**{n: table[n] for n in ("a", "alpha", "d", "theta")}, base=base)
+    return bathyal.Arm.from_dh(table.a, table.alpha, table.d, table.theta, base=base)
 
 
 def test_tip_std_is_the_spread_of_many_fits() -> None:
