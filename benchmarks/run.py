@@ -17,9 +17,9 @@ from pathlib import Path
 
 HERE = Path(__file__).parent
 PAGE = HERE / "README.md"
-PYTHON = ["rays.py", "section.py", "read_text.py", "whole_plan.py"]
+PYTHON = ["rays.py", "section.py", "read_text.py", "whole_plan.py", "identify.py"]
 CPP = ["bench_delaunay", "bench_greedy"]
-PACKAGES = ["numpy", "open3d-cpu", "embreex", "vtk", "pandas", "pyarrow"]
+PACKAGES = ["numpy", "scipy", "open3d-cpu", "embreex", "vtk", "pandas", "pyarrow"]
 DEBIAN = ["g++", "libcgal-dev", "libpcl-dev", "libeigen3-dev"]
 
 
