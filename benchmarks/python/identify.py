@@ -66,7 +66,7 @@ def touches_row(rounds: int) -> str:
     ours = float(np.sum(fit.residuals**2))
     differ = max(abs(cost / ours - 1) for cost in costs)
     if differ > 1e-8:
-        sys.exit(f"costs differ by {differ:.1e}")
+        sys.exit(f"costs differ: {[f'{cost / ours - 1:.1e}' for cost in costs]}")
     runs: list[Callable[[], object]] = [
         lambda: bathyal.identify_arm(arm, data, num_threads=1, **HELD),
         lambda: bathyal.identify_arm(arm, data, num_threads=1, criterion="pairs", **HELD),

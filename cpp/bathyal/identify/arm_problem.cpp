@@ -94,7 +94,10 @@ void ArmProblem::set_priors() {
 }
 
 bool ArmProblem::drop_size_prior(const Eigen::MatrixXd& unseen) {
-  if (size_told) return false;
+  // A length that the caller holds hides the change of size from what is unseen.
+  const bool length_held =
+      std::any_of(fixed.begin(), fixed.end(), [&](int c) { return is_length(columns.places[c]); });
+  if (size_told || length_held) return false;
   Eigen::VectorXd size = size_derivative(columns);
   for (Index i = 0; i < size.size(); ++i) size[i] *= columns.columns[i].scale;
   if ((unseen.transpose() * size).norm() > kUnseenShare * size.norm()) return false;
