@@ -97,7 +97,10 @@ bool ArmProblem::drop_size_prior(const Eigen::MatrixXd& unseen) {
   // A length that the caller holds hides the change of size from what is unseen.
   const bool length_held =
       std::any_of(fixed.begin(), fixed.end(), [&](int c) { return is_length(columns.places[c]); });
-  if (size_told || length_held) return false;
+  const bool slides = std::any_of(arm.joints().begin(), arm.joints().end(), [](const Joint& joint) {
+    return joint.type == JointType::kPrismatic;
+  });
+  if (size_told || length_held || !slides) return false;
   Eigen::VectorXd size = size_derivative(columns);
   for (Index i = 0; i < size.size(); ++i) size[i] *= columns.columns[i].scale;
   if ((unseen.transpose() * size).norm() > kUnseenShare * size.norm()) return false;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace bathyal {
 namespace {
@@ -222,17 +223,23 @@ Index Search::least_sure() const {
 /// squares is that of an arm too small by (degrees of freedom) · (relative std of its size)², many
 /// std where hundreds of touches lean on a short known distance. The derivatives of exact touches
 /// know nothing of the scatter, so that steps along them end where what is known of the size is
-/// met.
+/// met. Data that no arm fits may let the steps grow: least squares stand then.
 void Search::undo_size_draw() {
+  const Eigen::VectorXd least = result_.x;
   Eigen::VectorXd residuals(system_.rows());
-  for (int round = 0; round < kMostRounds; ++round) {
+  double last = std::numeric_limits<double>::infinity();
+  while (last > kSizeSettled) {
     ArmSystem exact = system_;
     exact.set_joints(exact_joints(system_, result_.x));
     const Eigen::VectorXd y = system_.scaled(result_.x);
     system_.evaluate(y.data(), residuals.data(), nullptr);
     const Eigen::VectorXd step = exact.jacobian(result_.x).householderQr().solve(-residuals);
+    if (!(step.norm() < last)) {
+      result_.x = least;
+      return;
+    }
+    last = step.norm();
     result_.x = system_.values(y + step);
-    if (step.norm() < kSizeSettled) break;
   }
 }
 
