@@ -94,11 +94,13 @@ void ArmProblem::set_priors() {
 }
 
 bool ArmProblem::drop_size_prior(const Eigen::MatrixXd& unseen) {
-  const std::vector<Joint>& joints = columns.arm.joints();
-  const bool slides = std::any_of(joints.begin(), joints.end(), [](const Joint& joint) {
+  // A length that the caller holds hides the change of size from what is unseen.
+  const bool length_held =
+      std::any_of(fixed.begin(), fixed.end(), [&](int c) { return is_length(columns.places[c]); });
+  const bool slides = std::any_of(arm.joints().begin(), arm.joints().end(), [](const Joint& joint) {
     return joint.type == JointType::kPrismatic;
   });
-  if (size_told || !slides) return false;
+  if (size_told || length_held || !slides) return false;
   Eigen::VectorXd size = size_derivative(columns);
   for (Index i = 0; i < size.size(); ++i) size[i] *= columns.columns[i].scale;
   if ((unseen.transpose() * size).norm() > kUnseenShare * size.norm()) return false;

@@ -38,7 +38,7 @@ struct ArmProblem {
   void set_length_prior(double std);
   /// The travel of a sliding joint is known, so that touches tell the size of an arm that has one:
   /// no change of the size is among those that are `unseen`. The prior that stood in for it goes
-  /// then; true when it did, and what is seen must be asked anew.
+  /// then, unless the caller holds a length; true when it did, and what is seen must be asked anew.
   bool drop_size_prior(const Eigen::MatrixXd& unseen);
 
  private:

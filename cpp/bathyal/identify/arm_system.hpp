@@ -95,6 +95,8 @@ class ArmSystem final : public ResidualModel {
   const ArmColumns& arm_columns() const { return columns_; }
 
  private:
+  static constexpr std::size_t kPosesPerChunk = 256;
+
   Eigen::Matrix3Xd tips(const Eigen::VectorXd& x) const;
   Eigen::Matrix3Xd centroids_of(const Eigen::Ref<const Eigen::Matrix3Xd>& tips) const;
   /// Where the numbers of a range of poses go; what is null is not wanted.

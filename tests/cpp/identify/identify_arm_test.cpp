@@ -204,7 +204,7 @@ TEST(IdentifyArm, BothSolversReachTheSameCost) {
 TEST(IdentifyArm, PairsAndCentroidsAgreeWithTheScaleHeld) {
   Touches touches = touch(built_arm(ur10e(), 1e-3, 1), three_points(), 21, 2);
   add_scatter(1e-4, 3, touches);
-  // Every length that could carry the size is held: what remains is the criterion alone.
+  // One length at nominal holds the size, with a prior that weighs next to nothing.
   const IdentifyOptions centroid{.fixed = {"a_2"}, .length_prior = 1.0, .noise = 1e-4};
   IdentifyOptions pairs = centroid;
   pairs.criterion = Criterion::kPairs;
