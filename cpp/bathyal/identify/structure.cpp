@@ -205,7 +205,9 @@ Structure find_structure(const ArmSystem& system, const Eigen::VectorXd& x,
     return test(asked, x);
   }
   const Index stride = (all.rows() + kMostPoses - 1) / kMostPoses;
-  const Measurement some = every(all, stride);
+  Measurement some = every(all, stride);
+  some.distances.clear();  // a point may have lost its touches
+  some.known_points.clear();
   std::vector<double> some_trust;
   for (Index i = 0; i < all.rows(); i += stride) some_trust.push_back(trust[i]);
   ArmSystem asked(system.arm_columns(), some, Criterion::kCentroid, false, 1);
