@@ -52,6 +52,22 @@ def test_the_chance_of_structure_is_evenly_spread_over_noise() -> None:
     assert p[0] > 1e-4
 
 
+def test_plain_dh_beside_parallel_axes_shows_no_structure() -> None:
+    fit = fit_of(touched())
+    plain = bathyal.identify_arm(
+        drawn(), touched().touches(known_distances=TOLD), parametrization="dh"
+    )
+    assert plain.structure_p == pytest.approx(fit.structure_p, abs=0.3)
+
+
+def test_nothing_unknown_is_nothing_to_doubt() -> None:
+    data = touched().touches(known_distances=TOLD)
+    names = [p.name for p in bathyal.identify_arm(drawn(), data).parameters]
+    fit = bathyal.identify_arm(drawn(), data, fixed=names)
+    assert fit.outliers == []
+    assert fit.structure_p == 1.0
+
+
 # Size ---------------------------------------------------------------------------------------------
 
 
