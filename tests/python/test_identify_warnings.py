@@ -118,6 +118,13 @@ def test_outliers_are_named_by_row_and_nothing_else_is(count: int) -> None:
     )
 
 
+def test_an_outlier_among_exact_touches_is_named_alone() -> None:
+    assert not fit_of(touched(noise=0)).warnings
+    fit = fit_of(touched(noise=0, off={4: 0.05}))
+    assert [o.row for o in fit.outliers] == [4]
+    assert fit.outliers[0].distance == pytest.approx(0.05, rel=1e-3)
+
+
 def test_outliers_are_named_at_a_robust_loss_too() -> None:
     fit = bathyal.identify_arm(
         drawn(), touched(off={5: 0.05, 40: 0.05}).touches(known_distances=TOLD), loss="cauchy"

@@ -116,14 +116,16 @@ void doubt_geometry(const Case& seen, Warnings& warnings) {
   constexpr double kSurely = 1e-3;
   constexpr double kWorthTelling = 0.02;  // of the variance
   const Structure& structure = seen.structure;
-  if (structure.p > kSurely || structure.share < kWorthTelling || is_unusable(seen)) {
+  constexpr double kLeastPart = 1e-5;  // [m] no arm is asked for less
+  const double part = std::sqrt(structure.share) * seen.fit.rms_after;
+  if (structure.p > kSurely || structure.share < kWorthTelling || part < kLeastPart ||
+      is_unusable(seen)) {
     return;
   }
   const std::string joint = joint_words(seen.nominal, structure.coordinate);
   warnings.push_back(
       "Geometry is not enough: of the " + millimetres(seen.fit.rms_after) +
-      " rms that is left, at least " +
-      millimetres(std::sqrt(structure.share) * seen.fit.rms_after) +
+      " rms that is left, at least " + millimetres(part) +
       " follows the joints, by itself most with " + joint + " (by chance: p " +
       (structure.p < 1e-12 ? "< 1e-12" : "= " + three_digits(structure.p)) +
       "). Elastic links and gears, backlash or eccentric encoders do so; no parameter here can, "

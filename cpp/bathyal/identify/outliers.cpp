@@ -16,7 +16,7 @@ constexpr double kLeastSigma = 6.0;   ///< below it a long tail of honest noise 
 constexpr double kMedianOfNorm = 1.5381722544550522;  ///< of a normal 3-vector of unit std
 /// Weight of a row that is left out. Not 0: its residual is read off the same evaluation, and a
 /// point all of whose touches are doubted keeps a centre.
-constexpr double kWhisper = 1e-12;
+constexpr double kWhisper = 1e-20;
 constexpr double kLeastNoise = 1e-9;     ///< [m]
 constexpr double kLeastDistance = 5e-5;  ///< [m] no touch is told apart from its point by less
 constexpr int kMostRounds = 10;
