@@ -148,7 +148,7 @@ double median_noise(const ArmSystem& system, const Eigen::VectorXd& norms) {
   const auto taken = static_cast<double>(system.columns());
   const double all = static_cast<double>(3 * system.measurement().rows());
   const double share = rows > taken ? std::sqrt(all / (rows - taken)) : 1.0;
-  return std::max(*middle / kMedianOfNorm * share, kLeastNoise);
+  return std::max(*middle / kMedianOfNorm * share, kLeastDistance / kLeastSigma);
 }
 
 void solve(const ArmSystem& system, int steps, Eigen::VectorXd& x) {
