@@ -52,6 +52,22 @@ def test_the_chance_of_structure_is_evenly_spread_over_noise() -> None:
     assert p[0] > 1e-4
 
 
+def test_plain_dh_beside_parallel_axes_shows_no_structure() -> None:
+    fit = fit_of(touched())
+    plain = bathyal.identify_arm(
+        drawn(), touched().touches(known_distances=TOLD), parametrization="dh"
+    )
+    assert plain.structure_p == pytest.approx(fit.structure_p, abs=0.3)
+
+
+def test_nothing_unknown_is_nothing_to_doubt() -> None:
+    data = touched().touches(known_distances=TOLD)
+    names = [p.name for p in bathyal.identify_arm(drawn(), data).parameters]
+    fit = bathyal.identify_arm(drawn(), data, fixed=names)
+    assert fit.outliers == []
+    assert fit.structure_p == 1.0
+
+
 # Size ---------------------------------------------------------------------------------------------
 
 
@@ -100,6 +116,13 @@ def test_outliers_are_named_by_row_and_nothing_else_is(count: int) -> None:
     assert f"{min(rows)} (point {data.point[min(rows)]}, " in warning(
         fit, "far from where the others"
     )
+
+
+def test_an_outlier_among_exact_touches_is_named_alone() -> None:
+    assert not fit_of(touched(noise=0)).warnings
+    fit = fit_of(touched(noise=0, off={4: 0.05}))
+    assert [o.row for o in fit.outliers] == [4]
+    assert fit.outliers[0].distance == pytest.approx(0.05, rel=1e-3)
 
 
 def test_outliers_are_named_at_a_robust_loss_too() -> None:

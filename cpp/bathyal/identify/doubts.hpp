@@ -31,6 +31,10 @@ std::vector<std::string> find_doubts(const Case& seen);
 /// Whether the fit is of another machine, or of an arm that no one would build.
 bool is_unusable(const Case& seen);
 
+/// Whether outliers make up most of what is left: what else is odd about the numbers of the fit is
+/// their doing, and is not worth telling before they are mended.
+bool is_swamped(const Case& seen);
+
 /// Those that the fit gives: it belongs to another machine, rows contradict each other, it leaves
 /// too much.
 void doubt_fit(const Case& seen, std::vector<std::string>& warnings);

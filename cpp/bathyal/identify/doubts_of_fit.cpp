@@ -116,14 +116,16 @@ void doubt_geometry(const Case& seen, Warnings& warnings) {
   constexpr double kSurely = 1e-3;
   constexpr double kWorthTelling = 0.02;  // of the variance
   const Structure& structure = seen.structure;
-  if (structure.p > kSurely || structure.share < kWorthTelling || is_unusable(seen)) {
+  constexpr double kLeastPart = 1e-5;  // [m] no arm is asked for less
+  const double part = std::sqrt(structure.share) * seen.fit.rms_after;
+  if (structure.p > kSurely || structure.share < kWorthTelling || part < kLeastPart ||
+      is_unusable(seen)) {
     return;
   }
   const std::string joint = joint_words(seen.nominal, structure.coordinate);
   warnings.push_back(
       "Geometry is not enough: of the " + millimetres(seen.fit.rms_after) +
-      " rms that is left, at least " +
-      millimetres(std::sqrt(structure.share) * seen.fit.rms_after) +
+      " rms that is left, at least " + millimetres(part) +
       " follows the joints, by itself most with " + joint + " (by chance: p " +
       (structure.p < 1e-12 ? "< 1e-12" : "= " + three_digits(structure.p)) +
       "). Elastic links and gears, backlash or eccentric encoders do so; no parameter here can, "
@@ -134,7 +136,7 @@ void doubt_geometry(const Case& seen, Warnings& warnings) {
 void doubt_parameters(const Case& seen, Warnings& warnings) {
   constexpr double kSurely = 4.0;
   constexpr double kStrain = 6.0;  // of the prior's std
-  if (is_unusable(seen)) return;
+  if (is_unusable(seen) || is_swamped(seen)) return;
   const ArmFit& fit = seen.fit;
   std::vector<std::string> far;
   for (std::size_t i = 0; i < fit.parameters.size(); ++i) {
@@ -153,7 +155,7 @@ void doubt_parameters(const Case& seen, Warnings& warnings) {
 }
 
 void doubt_weak(const Case& seen, Warnings& warnings) {
-  if (is_unusable(seen)) return;
+  if (is_unusable(seen) || is_swamped(seen)) return;
   std::vector<std::string> weak;
   for (std::size_t i = 0; i < seen.fit.parameters.size(); ++i) {
     const FitParameter& p = seen.fit.parameters[i];
@@ -185,6 +187,14 @@ void doubt_intervals(const Case& seen, Warnings& warnings) {
 }  // namespace
 
 bool is_unusable(const Case& seen) { return looks_foreign(seen) || !folded_rows(seen).empty(); }
+
+bool is_swamped(const Case& seen) {
+  double far = 0.0;
+  for (const Outlier& outlier : seen.fit.outliers) {
+    far += seen.fit.residuals.col(outlier.row).squaredNorm();
+  }
+  return far > 0.5 * seen.fit.residuals.squaredNorm();
+}
 
 void doubt_fit(const Case& seen, Warnings& warnings) {
   doubt_search(seen, warnings);

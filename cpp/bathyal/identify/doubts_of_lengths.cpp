@@ -65,7 +65,8 @@ void doubt_size_told(const Case& seen, Warnings& warnings) {
   constexpr double kMostStretch = 0.02;
   const ArmFit& fit = seen.fit;
   const double stretch = std::abs(fit.scale - 1.0);
-  if (is_unusable(seen) || stretch < kMostStretch || stretch < 3.0 * fit.scale_std) return;
+  if (is_unusable(seen) || is_swamped(seen)) return;
+  if (stretch < kMostStretch || stretch < 3.0 * fit.scale_std) return;
   warnings.push_back("By the " + fit.scale_source + " the arm is " + three_digits(fit.scale) +
                      " times its nominal size (± " + three_digits(fit.scale_std) +
                      "), which no maker misses by so much: a told length or its unit is wrong, "
@@ -178,7 +179,7 @@ std::string fine_contradiction(const Case& seen) {
 
 void doubt_told(const Case& seen, Warnings& warnings) {
   std::string text = gross_contradiction(seen);
-  if (text.empty()) text = fine_contradiction(seen);
+  if (text.empty() && !is_swamped(seen)) text = fine_contradiction(seen);
   if (text.empty()) return;
   warnings.push_back("The touches contradict what was told: " + text +
                      " Measure again, or tell how surely it is known (distance_std, point_std).");

@@ -16,8 +16,9 @@ constexpr double kLeastSigma = 6.0;   ///< below it a long tail of honest noise 
 constexpr double kMedianOfNorm = 1.5381722544550522;  ///< of a normal 3-vector of unit std
 /// Weight of a row that is left out. Not 0: its residual is read off the same evaluation, and a
 /// point all of whose touches are doubted keeps a centre.
-constexpr double kWhisper = 1e-12;
-constexpr double kLeastNoise = 1e-9;  ///< [m]
+constexpr double kWhisper = 1e-20;
+constexpr double kLeastNoise = 1e-9;     ///< [m]
+constexpr double kLeastDistance = 5e-5;  ///< [m] no touch is told apart from its point by less
 constexpr int kMostRounds = 10;
 
 /// Each row against the others.
@@ -108,6 +109,7 @@ bool stands_apart(const Study& study, const ArmSystem& system, Index i) {
   const double rest = study.variance * study.freedom - (kept ? study.square[i] : 0.0);
   const double floor = kLeastNoise / system.noise().position;
   const double variance = std::max(rest / freedom, floor * floor);
+  if (study.distance[i] < kLeastDistance) return false;
   if (study.square[i] < kLeastSigma * kLeastSigma * variance) return false;
   const double f = study.square[i] / (axes * variance);
   return f_tail(f, axes, freedom) < kFalseAlarm / static_cast<double>(system.measurement().rows());
@@ -146,7 +148,7 @@ double median_noise(const ArmSystem& system, const Eigen::VectorXd& norms) {
   const auto taken = static_cast<double>(system.columns());
   const double all = static_cast<double>(3 * system.measurement().rows());
   const double share = rows > taken ? std::sqrt(all / (rows - taken)) : 1.0;
-  return std::max(*middle / kMedianOfNorm * share, kLeastNoise);
+  return std::max(*middle / kMedianOfNorm * share, kLeastDistance / kLeastSigma);
 }
 
 void solve(const ArmSystem& system, int steps, Eigen::VectorXd& x) {
@@ -272,6 +274,7 @@ OutlierSearch find_outliers(const ArmSystem& fitted, const Eigen::VectorXd& x) {
   const Measurement& m = fitted.measurement();
   OutlierSearch out{
       {}, false, false, x, std::vector<double>(static_cast<std::size_t>(m.rows()), 1.0), {}};
+  if (fitted.columns() == 0) return out;  // nothing was asked of the rows
   {
     ArmSystem system = fitted;
     system.set_criterion(Criterion::kCentroid, false);

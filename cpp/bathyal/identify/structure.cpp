@@ -130,6 +130,7 @@ class ArmSpace {
   ArmSpace(const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& residuals, bool hold_size)
       : first_(jacobian) {
     constexpr double kDependent = 1e-9;
+    constexpr double kWeak = 1e-4;  // what moves so little has no part in residuals of this size
     const Index columns = jacobian.cols();
     Eigen::MatrixXd triangle = first_.matrixQR().topRows(columns).triangularView<Eigen::Upper>();
     Eigen::VectorXd turned = residuals;
@@ -141,7 +142,7 @@ class ArmSpace {
       const bool grows = (triangle * growth).squaredNorm() > 0.5 * turned.squaredNorm();
       if (grows) triangle -= (triangle * growth) * (growth.transpose() / growth.squaredNorm());
     }
-    second_.setThreshold(kDependent);
+    second_.setThreshold(kWeak);
     second_.compute(triangle);
   }
 
@@ -163,7 +164,7 @@ class ArmSpace {
 Structure test(const ArmSystem& system, const Eigen::VectorXd& x) {
   const Measurement& m = system.measurement();
   Structure out;
-  if (3 * m.rows() <= system.columns()) return out;
+  if (system.columns() == 0 || 3 * m.rows() <= system.columns()) return out;
   Eigen::VectorXd residuals(system.rows());
   Eigen::MatrixXd jacobian(system.rows(), system.columns());
   const Eigen::VectorXd y = system.scaled(x);
@@ -205,7 +206,9 @@ Structure find_structure(const ArmSystem& system, const Eigen::VectorXd& x,
     return test(asked, x);
   }
   const Index stride = (all.rows() + kMostPoses - 1) / kMostPoses;
-  const Measurement some = every(all, stride);
+  Measurement some = every(all, stride);
+  some.distances.clear();  // a point may have lost its touches
+  some.known_points.clear();
   std::vector<double> some_trust;
   for (Index i = 0; i < all.rows(); i += stride) some_trust.push_back(trust[i]);
   ArmSystem asked(system.arm_columns(), some, Criterion::kCentroid, false, 1);
