@@ -27,7 +27,6 @@ _LOOKS = 4000  # poses at which the foretold tip is asked for
 _STILL = math.radians(30.0)  # a turning joint that moved less hardly moved
 _STILL_SHARE = 0.15  # of a sliding joint's way
 _FEW = 20  # degrees of freedom below which noise is known to worse than 16 %
-_NO_CHANGE = 1e-6  # of the size [%]
 _MOST_TOLD = 4  # known distances, one by one
 _WEAK = 1e-3  # standard deviation of what is hardly told [m, rad] …
 _WEAK_SHARE = 20.0  # … and so many times the median of all
@@ -36,31 +35,32 @@ _FINE = 3.0  # the worst pose is worth a touch where it is so many times the med
 
 def found_text(fit: ArmFit) -> str:
     """The fit's own paragraph without its warnings, which a report tells first."""
-    return fit.summary().removesuffix("".join(f" {warning}" for warning in fit.warnings))
+    text = fit.summary()
+    begins = [text.find(warning) for warning in fit.warnings if warning in text]
+    if not begins:
+        return text
+    told, lead, _ = text[: min(begins)].rpartition(" But")
+    return told if lead else text[: min(begins)].rstrip()
 
 
 def surely_text(fit: ArmFit) -> str:
     """How far the arm that was found may be trusted over the whole of its limits."""
     _, std = _looks(fit)
     share = float(np.mean(np.isinf(std)))
-    text = f"A measurement scatters by {_mm(fit.noise)} per axis."
+    text = []
     if share < 1.0:
         median, most = np.quantile(std[np.isfinite(std)], [0.5, 0.95])
-        text += (
-            f" Over the arm's limits its tip is foretold to {_mm(median)} (standard deviation, all "
+        text.append(
+            f"Over the arm's limits its tip is foretold to {_mm(median)} (standard deviation, all "
             f"axes together; median), and to {_mm(most)} or better in 95 of 100 poses."
         )
     if share > 0.0:
         where = "Everywhere" if share == 1.0 else f"In {share:.0%} of its poses"
-        text += (
-            f" {where} the tip moves by something that nobody told, and no standard deviation can "
+        text.append(
+            f"{where} the tip moves by something that nobody told, and no standard deviation can "
             "be said."
         )
-    off = 1e2 * (fit.scale - 1.0)
-    size = f"{abs(off):.2g} % {'above' if off > 0 else 'below'} the drawing's"
-    if abs(off) < _NO_CHANGE:
-        size = "the drawing's"
-    return f"{text} The arm's size is {size}, ± {1e2 * fit.scale_std:.2g} %."
+    return " ".join(text)
 
 
 def known_text(fit: ArmFit, data: Touches | Tracked) -> str:

@@ -6,6 +6,7 @@ from __future__ import annotations
 import csv
 import math
 import re
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -252,20 +253,20 @@ def test_unseen_motion_is_no_standard_deviation():
     assert table["base_z"].endswith("± ? mm")
 
 
-@pytest.mark.parametrize("scale", [0.98, 1.02])
-def test_size_is_told_beside_the_drawing(made, scale):
-    """A drawing that is too small, and three known distances."""
-    table = UR10E.to_dh()
-    drawing = bathyal.Arm.from_dh(
-        a=scale * table.a, d=scale * table.d, alpha=table.alpha, theta=table.theta
-    )
-    known = {(i, j): float(np.linalg.norm(made.points[i] - made.points[j]))
-             for i, j in ((0, 1), (0, 2), (1, 2))}  # fmt: skip
-    touches = bathyal.Touches(made.touches.q, made.touches.point, known_distances=known)
-    fit = bathyal.identify_arm(drawing, touches)
-    off = float(re.search(r"size is ([\d.]+) % ", fit_words.surely_text(fit))[1])
-    assert off == pytest.approx(100 * abs(1 / scale - 1), rel=0.1)
-    assert ("above" in fit_words.surely_text(fit)) == (scale < 1)
+@pytest.mark.parametrize(
+    ("warnings", "text"),
+    [
+        ([], "All is found."),
+        (["One."], "All is found. One."),
+        (["One.", "Two."], "All is found. One. Two."),
+        (["One."], "All is found. But: One."),
+        (["One.", "Two."], "All is found. But 2 things speak against it. (1) One. (2) Two."),
+    ],
+)
+def test_warnings_are_told_once(warnings, text):
+    """In whatever words the fit's own paragraph leads over to them."""
+    fit = SimpleNamespace(warnings=warnings, summary=lambda: text)
+    assert fit_words.found_text(fit) == "All is found."
 
 
 # Picture and page ---------------------------------------------------------------------------------
