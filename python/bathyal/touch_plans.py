@@ -96,13 +96,14 @@ def plot_plan(plan: TouchPlan, path: PathLike | None = None) -> Figure:
     figure = plot_arm(plan.arm, plan.q[_spread(plan)])
     axes: Any = figure.axes[0]
     poses = np.asarray(plan.arm.forward(plan.q))
-    size = float(np.linalg.norm(np.ptp(poses[:, :3, 3], axis=0)) + 0.3)
+    box = [axes.get_xlim(), axes.get_ylim(), axes.get_zlim()]
+    stroke = 0.1 * float(np.ptp(box, axis=1).max())
     for number, place in enumerate(plan.points):
         colour = _POINTS[number % len(_POINTS)]
         mine = plan.point == number
         if not mine.any():
             continue
-        tails = place - 0.11 * size * poses[mine, :3, 2]
+        tails = place - stroke * poses[mine, :3, 2]
         for tail in tails:
             axes.plot(*np.stack([tail, place]).T, color=colour, linewidth=1.1, zorder=8)
         axes.scatter(*place, s=46, color=colour, edgecolors="white", zorder=9, depthshade=False,

@@ -122,17 +122,20 @@ TEST_P(Choice, TakesNoTouchTwiceAndAllWhereThereAreNoMore) {
 INSTANTIATE_TEST_SUITE_P(Of, Choice, testing::Bool());
 
 TEST(Choice, LeavesNoPointWithOneTouch) {
-  TouchDesign design = random_design(30, 3, false);
-  for (std::size_t i = 0; i < 30; ++i) design.point[i] = static_cast<int>(i) % 3;
-  design.points = 3;
-  design.prior = 1e-3 * Eigen::MatrixXd::Identity(12, 12);
-  const auto touched = [&](int count) {
-    std::vector<int> by_point(3, 0);
-    for (const int touch : select_touches(design, count, 10, 1)) ++by_point[design.point[touch]];
-    return by_point;
-  };
-  for (const int count : touched(8)) EXPECT_GE(count, 2);
-  EXPECT_EQ(touched(3), (std::vector<int>{3, 0, 0}));
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    TouchDesign design = random_design(30, seed, false);
+    for (std::size_t i = 0; i < 30; ++i) design.point[i] = static_cast<int>(i) % 3;
+    design.points = 3;
+    design.prior = 1e-3 * Eigen::MatrixXd::Identity(12, 12);
+    const auto touched = [&](int count) {
+      std::vector<int> by_point(3, 0);
+      for (const int touch : select_touches(design, count, 10, 1)) ++by_point[design.point[touch]];
+      return by_point;
+    };
+    for (const int count : touched(6)) EXPECT_GE(count, 2) << "seed " << seed;
+    for (const int count : touched(8)) EXPECT_GE(count, 2) << "seed " << seed;
+    EXPECT_EQ(touched(3), (std::vector<int>{3, 0, 0}));
+  }
 }
 
 // Forecast ----------------------------------------------------------------------------------------
