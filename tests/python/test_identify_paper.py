@@ -77,13 +77,12 @@ def test_pairwise_distances_fall_more_than_five_times() -> None:
 
 @pytest.mark.parametrize("criterion", ["centroid", "pairs"])
 def test_five_iterations_are_enough(criterion: str) -> None:
-    for touches, fit in experiments()[:10]:
+    for touches, fit in experiments():
         told = bathyal.identify_arm(bathyal.arms.ur10e(), touches, noise=NOISE, criterion=criterion)
-        assert told.converged
-        assert told.iterations <= 5
+        for found in (fit, told):  # the noise found with the arm, and told
+            assert found.converged
+            assert found.iterations <= 5
         assert told.pairs_after == pytest.approx(fit.pairs_after, rel=0.02)
-        # Where the noise is to be found too, steps that follow only settle it.
-        assert fit.history[5] < 1.1 * fit.history[-1]
 
 
 def test_the_flange_is_found_as_the_papers_tracker_saw_it() -> None:

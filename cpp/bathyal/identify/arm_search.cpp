@@ -8,7 +8,6 @@
 namespace bathyal {
 namespace {
 
-constexpr int kRoughSteps = 2;
 constexpr int kMostRounds = 12;
 constexpr int kMostTrustRounds = 60;
 constexpr double kNoiseSettled = 1e-4;  ///< relative
@@ -80,11 +79,12 @@ void Search::solve(int max_iterations) {
   }
 }
 
-/// The first noise is a guess, and its minimum is not worth more than a few steps.
+/// The first noise is a guess, and what it is weighed into is worth no more than a step: noise and
+/// numbers are found together, a step each, until the noise stands.
 void Search::solve_with_noise() {
-  if (!noise_is_told() && noise_matters()) {
-    solve(std::min(kRoughSteps, options_.max_iterations));
-    update_noise();
+  for (int round = 0; noise_matters() && round < kMostRounds; ++round) {
+    solve(1);
+    if (!update_noise()) break;
   }
   solve();
   for (int round = 0; round < kMostRounds && update_noise(); ++round) solve();

@@ -32,6 +32,7 @@ struct TinyFunction {
 
   const ResidualModel& model;
   std::vector<double>& history;
+  Eigen::VectorXd& derived_at;  ///< where derivatives were last asked for
 
   int NumResiduals() const { return NumParameters() + 1; }
   int NumParameters() const { return static_cast<int>(model.columns()); }
@@ -49,6 +50,7 @@ struct TinyFunction {
     r = root.col(columns);
     Eigen::Map<Eigen::MatrixXd>(jacobian, columns + 1, columns) = root.leftCols(columns);
     history.push_back(square(columns, columns));
+    derived_at = Eigen::Map<const Eigen::VectorXd>(y, columns);
     return true;
   }
 };
@@ -64,10 +66,10 @@ LeastSquaresResult solve_tiny(const ResidualModel& model, const Eigen::VectorXd&
   solver.options.function_tolerance = options.cost_change * static_cast<double>(model.rows());
   solver.options.cost_threshold = 0.0;
   solver.options.initial_trust_region_radius = 1.0 / options.damping;
-  solver.Solve(TinyFunction{model, result.history}, &result.y);
+  Eigen::VectorXd derived_at;
+  solver.Solve(TinyFunction{model, result.history, derived_at}, &result.y);
   // The last step, when it changed next to nothing, is taken without derivatives.
-  const double last = 2.0 * solver.summary.final_cost;
-  if (last < result.history.back()) result.history.push_back(last);
+  if (result.y != derived_at) result.history.push_back(2.0 * solver.summary.final_cost);
   result.converged = solver.summary.status != Tiny::HIT_MAX_ITERATIONS;
   return result;
 }

@@ -36,7 +36,7 @@ struct LeastSquaresOptions {
   int max_iterations = 100;    ///< 1 or more
   double damping = 1e-8;       ///< the first one, relative (paper: absolute), above 0
   double factor = 0.1;         ///< eta of eq 17, in (0, 1)
-  double cost_change = 1e-13;  ///< stops when the mean square changes by less, 0 or more
+  double cost_change = 1e-12;  ///< stops when the mean square changes by less, 0 or more
 
   void check() const;
 };
