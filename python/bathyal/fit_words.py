@@ -169,8 +169,12 @@ def _about_worst_pose(fit: ArmFit, data: Touches | Tracked) -> list[str]:
     )
     return [
         f"The tip is least surely foretold, to {_mm(std[worst])}, near the pose ({pose}): "
-        f"{_more(data)} about there."
+        f"{_more(data)} about there{_planned(data)}."
     ]
+
+
+def _planned(data: Touches | Tracked) -> str:
+    return "" if isinstance(data, Tracked) else "; `bathyal touches plan` chooses such poses"
 
 
 def _about_count(fit: ArmFit, data: Touches | Tracked) -> list[str]:

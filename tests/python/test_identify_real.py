@@ -138,6 +138,7 @@ def test_a_smaller_rms_proves_nothing_where_only_a_prior_tells_the_size(
         assert apart(fit.points).mean() == pytest.approx(distance * MM, rel=0.003)
         assert fit.scale_source == f"prior on lengths ({prior} mm)"
         assert fit.scale_source in str(fit)
+        assert any("a smaller rms proves nothing" in warning for warning in fit.warnings)
         assert fit.rank == 24
         assert fit.rms_after_scaled == pytest.approx(fit.rms_after / fit.scale)
 
@@ -154,6 +155,7 @@ def test_geometry_is_not_enough_for_the_kinovas(
     assert fit.rms_before == pytest.approx(before * MM, abs=0.05 * MM)
     assert after[0] * MM < fit.rms_after < after[1] * MM
     assert fit.noise > 1 * MM
+    assert any(warning.startswith("Geometry is not enough") for warning in fit.warnings)
     held = []
     for name in placements(robot):
         others = sockets(robot, used=lambda other, name=name: other != name)

@@ -80,6 +80,16 @@ def test_untold_size_names_the_prior_and_what_to_measure() -> None:
     assert f"{1e3 * np.linalg.norm(fit.points[0] - fit.points[1]):.3g} mm from 0 to 1" in text
 
 
+def test_points_that_have_names_are_called_by_them() -> None:
+    names = {0: "left", 1: "right"}
+    fit = bathyal.identify_arm(drawn(), touched().touches(names=names))
+    text = warning(fit, "Nothing measured tells the arm's size")
+    assert "mm from left to right" in text
+    assert "mm from right to 2" in text
+    fit = bathyal.identify_arm(drawn(), touched(off={7: 0.05}).touches(names=names))
+    assert "row 7 (point left, 50" in warning(fit, "One row lies far")
+
+
 def test_loose_prior_on_the_size_is_told() -> None:
     fit = bathyal.identify_arm(drawn(), touched().touches(), length_prior=0.1)
     assert "length_prior" in warning(fit, "times its nominal size with lengths held to 100 mm only")

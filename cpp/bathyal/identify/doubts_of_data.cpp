@@ -53,11 +53,11 @@ void doubt_points(const Case& seen, Warnings& warnings) {
   for (const int p : m.point) {
     if (p >= 0) ++touches[p];
   }
-  std::vector<int> lonely;
+  std::vector<std::string> lonely;
   for (int p = 0; p < m.points(); ++p) {
     const bool told = std::any_of(m.known_points.begin(), m.known_points.end(),
                                   [p](const KnownPoint& known) { return known.label == p; });
-    if (touches[p] == 1 && !told) lonely.push_back(m.labels[p]);
+    if (touches[p] == 1 && !told) lonely.push_back(m.name_of(m.labels[p]));
   }
   if (!lonely.empty()) {
     warnings.push_back((lonely.size() == 1 ? "Point " : "Points ") + listed(lonely) +

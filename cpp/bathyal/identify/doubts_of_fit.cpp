@@ -68,16 +68,17 @@ void doubt_rows(const Case& seen, Warnings& warnings) {
       swapped[{outlier.label, *outlier.fits}].push_back(outlier.row);
       continue;
     }
-    far.push_back(std::to_string(outlier.row) + " (" +
-                  (outlier.label < 0 ? "" : "point " + std::to_string(outlier.label) + ", ") +
-                  millimetres(outlier.distance) + ")");
+    far.push_back(
+        std::to_string(outlier.row) + " (" +
+        (outlier.label < 0 ? "" : "point " + seen.measurement.name_of(outlier.label) + ", ") +
+        millimetres(outlier.distance) + ")");
   }
   if (!swapped.empty()) {
     std::vector<std::string> groups;
     for (const auto& [labels, rows] : swapped) {
       groups.push_back((rows.size() == 1 ? "row " : "rows ") + listed(rows) + ", labelled " +
-                       std::to_string(labels.first) + ", at point " +
-                       std::to_string(labels.second));
+                       seen.measurement.name_of(labels.first) + ", at point " +
+                       seen.measurement.name_of(labels.second));
     }
     warnings.push_back("Labels look swapped; by the other touches lie " +
                        listed(groups, kMostNamed) + ". Mend the labels and identify again.");

@@ -12,14 +12,13 @@ using Warnings = std::vector<std::string>;
 
 bool is_row_length(const Place& place) { return place.part == Part::kD || place.part == Part::kA; }
 
-/// "50.1 mm from 0 to 1": neighbours by label, the first three.
-std::string distances_found(const ArmFit& fit) {
+/// "50.1 mm from left to right": neighbours by label, the first three.
+std::string distances_found(const Measurement& m, const ArmFit& fit) {
   std::vector<std::string> texts;
   const auto count = static_cast<Index>(fit.point_labels.size());
   for (Index p = 0; p + 1 < count && texts.size() < 3; ++p) {
     texts.push_back(millimetres((fit.points.col(p) - fit.points.col(p + 1)).norm()) + " from " +
-                    std::to_string(fit.point_labels[p]) + " to " +
-                    std::to_string(fit.point_labels[p + 1]));
+                    m.name_of(fit.point_labels[p]) + " to " + m.name_of(fit.point_labels[p + 1]));
   }
   return listed(texts);
 }
@@ -38,7 +37,7 @@ void doubt_size_untold(const Case& seen, Warnings& warnings) {
                        "known_distances.");
     return;
   }
-  const std::string distances = distances_found(fit);
+  const std::string distances = distances_found(seen.measurement, fit);
   text += "; rms " + millimetres(fit.rms_after) + " is " + millimetres(fit.rms_after_scaled) +
           " at the nominal size. ";
   text += distances.empty() ? "Touch a second point at a measured distance from the first, and "
@@ -126,8 +125,8 @@ std::string swapped_points(const std::vector<ToldLength>& told, const Measuremen
   for (int a = 0; a < m.points(); ++a) {
     for (int b = a + 1; b < m.points(); ++b) {
       if (contradicted(told, points, a, b).empty()) {
-        return " Changed for each other, points " + std::to_string(m.labels[a]) + " and " +
-               std::to_string(m.labels[b]) + " agree with it: their labels look swapped.";
+        return " Changed for each other, points " + m.name_of(m.labels[a]) + " and " +
+               m.name_of(m.labels[b]) + " agree with it: their labels look swapped.";
       }
     }
   }
@@ -142,9 +141,9 @@ std::string gross_contradiction(const Case& seen) {
   const std::vector<ToldLength> told = told_lengths(m);
   std::vector<std::string> texts;
   for (const ToldLength& wrong : contradicted(told, points, 0, 0)) {
-    texts.push_back("from " + std::to_string(m.labels[wrong.first]) + " to " +
-                    std::to_string(m.labels[wrong.second]) + " told as " +
-                    millimetres(wrong.length) + ", touched as " +
+    texts.push_back("from " + m.name_of(m.labels[wrong.first]) + " to " +
+                    m.name_of(m.labels[wrong.second]) + " told as " + millimetres(wrong.length) +
+                    ", touched as " +
                     millimetres((points.col(wrong.first) - points.col(wrong.second)).norm()));
   }
   if (texts.empty()) return "";
@@ -163,7 +162,7 @@ std::string fine_contradiction(const Case& seen) {
     const double std =
         std::hypot(m.distance_std, std::hypot(center[known.first], center[known.second]));
     if (std::abs(found.found - found.told) < kMostSigma * std) continue;
-    texts.push_back("from " + std::to_string(found.first) + " to " + std::to_string(found.second) +
+    texts.push_back("from " + m.name_of(found.first) + " to " + m.name_of(found.second) +
                     " told as " + millimetres(found.told) + ", found as " +
                     millimetres(found.found));
   }
@@ -171,8 +170,8 @@ std::string fine_contradiction(const Case& seen) {
     const double away = (seen.fit.points.col(known.label) - known.position).norm();
     const double std = std::hypot(m.point_std, center[known.label]);
     if (away < kMostSigma * std::sqrt(3.0) * std) continue;
-    texts.push_back("point " + std::to_string(m.labels[known.label]) + " found " +
-                    millimetres(away) + " from where it was told");
+    texts.push_back("point " + m.name_of(m.labels[known.label]) + " found " + millimetres(away) +
+                    " from where it was told");
   }
   return texts.empty() ? "" : listed(texts, 4) + ".";
 }

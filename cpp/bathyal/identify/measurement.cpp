@@ -88,6 +88,11 @@ Measurement every(const Measurement& m, Index stride) {
   return out;
 }
 
+std::string Measurement::name_of(int label) const {
+  const auto found = names.find(label);
+  return found == names.end() ? std::to_string(label) : found->second;
+}
+
 Measurement to_measurement(const Arm& arm, const Touches& touches) {
   Measurement m = common_part(arm, touches);
   m.plane.assign(static_cast<std::size_t>(m.rows()), -1);
@@ -100,6 +105,7 @@ Measurement to_measurement(const Arm& arm, const Touches& touches) {
     if (m.plane[i] < 0) labels.insert(touches.point[i]);
   }
   m.labels.assign(labels.begin(), labels.end());
+  m.names = touches.names;
   const auto index = [&m](int label) {
     return static_cast<int>(std::lower_bound(m.labels.begin(), m.labels.end(), label) -
                             m.labels.begin());

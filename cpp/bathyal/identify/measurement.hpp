@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -22,8 +23,9 @@ struct Measurement {
 
   // Of touches.
   std::vector<int> point;   ///< (N,) index into `labels`, -1 for a plane's row and tracked poses
-  std::vector<int> labels;  ///< as the caller named them, in rising order
-  std::vector<int> plane;   ///< (N,) index into `plane_names`, -1
+  std::vector<int> labels;  ///< as the caller numbered them, in rising order
+  std::map<int, std::string> names;  ///< of labels that the caller named
+  std::vector<int> plane;            ///< (N,) index into `plane_names`, -1
   std::vector<std::string> plane_names;
   std::vector<KnownDistance> distances;  ///< between indices of points
   std::vector<KnownPoint> known_points;  ///< label is an index
@@ -37,6 +39,8 @@ struct Measurement {
 
   Index rows() const { return q.rows(); }
   int points() const { return static_cast<int>(labels.size()); }
+  /// The name of a label, else its number.
+  std::string name_of(int label) const;
   bool has_rotation() const { return !rotation.empty(); }
   /// Whether the frame of the measurements is the world that the caller knows.
   bool in_world() const { return tracked || !known_points.empty(); }
