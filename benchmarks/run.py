@@ -17,10 +17,17 @@ from pathlib import Path
 
 HERE = Path(__file__).parent
 PAGE = HERE / "README.md"
-PYTHON = ["rays.py", "section.py", "read_text.py", "whole_plan.py"]
-CPP = ["bench_delaunay", "bench_greedy"]
-PACKAGES = ["numpy", "open3d-cpu", "embreex", "vtk", "pandas", "pyarrow"]
-DEBIAN = ["g++", "libcgal-dev", "libpcl-dev", "libeigen3-dev"]
+PYTHON = ["rays.py", "section.py", "read_text.py", "whole_plan.py", "identify.py", "intervals.py"]
+CPP = ["bench_delaunay", "bench_greedy", "bench_arm_forward", "bench_arm_inverse"]
+PACKAGES = ["numpy", "scipy", "open3d-cpu", "embreex", "vtk", "pandas", "pyarrow", "pin"]
+DEBIAN = [
+    "g++",
+    "libcgal-dev",
+    "libpcl-dev",
+    "libeigen3-dev",
+    "liborocos-kdl-dev",
+    "libnlopt-cxx-dev",
+]
 
 
 def machine() -> str:

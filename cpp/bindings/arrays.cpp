@@ -116,13 +116,22 @@ Vec3 vector_argument(std::string_view name, const py::object& object) {
 }
 
 Pose pose_argument(std::string_view name, const py::object& object) {
-  const auto table = table_argument(name, object, 4);
-  if (table.rows() != 4) {
-    throw_argument(name, "shape (4, 4)", "shape (" + std::to_string(table.rows()) + ", 4)");
-  }
   Pose pose = Pose::Identity();
-  pose.matrix() = table;
+  if (object.is_none()) return pose;
+  pose.matrix() = square_argument(name, object, 4);
   return pose;
+}
+
+Eigen::MatrixXd square_argument(std::string_view name, const py::object& object, Index size) {
+  const std::string width = std::to_string(size);
+  const std::string expected = "real numbers of shape (" + width + ", " + width + ")";
+  const py::array array = any_array(name, object, expected);
+  if (array.ndim() != 2 || array.shape(0) != size || array.shape(1) != size) {
+    throw_argument(name, expected, "shape " + shape_text(array));
+  }
+  const auto typed = typed_array<double>(name, array, "fiu", expected);
+  using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  return Eigen::Map<const Rows>(typed.data(), size, size);
 }
 
 Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> table_argument(
@@ -135,6 +144,21 @@ Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> table_arg
   const auto typed = typed_array<double>(name, array, "fiu", expected);
   using Table = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   return Eigen::Map<const Table>(typed.data(), typed.shape(0), columns);
+}
+
+Rows rows_argument(std::string_view name, const py::object& object, Index columns) {
+  const std::string width = std::to_string(columns);
+  const std::string expected = "real numbers of shape (N, " + width + ") or (" + width + ",)";
+  const py::array array = any_array(name, object, expected);
+  const bool fits = (array.ndim() == 1 && array.shape(0) == columns) ||
+                    (array.ndim() == 2 && array.shape(1) == columns);
+  if (!fits) throw_argument(name, expected, "shape " + shape_text(array));
+  const auto typed = typed_array<double>(name, array, "fiu", expected);
+  Rows rows;
+  rows.single = array.ndim() == 1;
+  rows.table = Eigen::Map<const decltype(rows.table)>(typed.data(),
+                                                      rows.single ? 1 : array.shape(0), columns);
+  return rows;
 }
 
 }  // namespace bathyal::python

@@ -33,12 +33,23 @@ Triangles triangles_argument(std::string_view name, const py::object& object);
 /// Three real numbers, finite.
 Vec3 vector_argument(std::string_view name, const py::object& object);
 
-/// A rigid motion as (4, 4) real numbers; whether it is rigid is for the engine to say.
+/// A rigid motion as (4, 4) real numbers, None the identity; whether it is rigid is for the engine
+/// to say.
 Pose pose_argument(std::string_view name, const py::object& object);
+
+/// (size, size) real numbers.
+Eigen::MatrixXd square_argument(std::string_view name, const py::object& object, Index size);
 
 /// (N, columns) real numbers in row-major order, for tables wider than three.
 Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> table_argument(
     std::string_view name, const py::object& object, Index columns);
+
+/// (N, columns) rows of real numbers, or one row as (columns,).
+struct Rows {
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> table;
+  bool single = false;
+};
+Rows rows_argument(std::string_view name, const py::object& object, Index columns);
 
 /// A read-only numpy array over memory that `owner` keeps alive.
 template <class Scalar>
@@ -73,6 +84,18 @@ py::array to_numpy(std::vector<Scalar> values, std::vector<py::ssize_t> tail = {
 /// (3,)
 inline py::array to_numpy(const Vec3& vector) {
   return to_numpy(std::vector<double>(vector.begin(), vector.end()));
+}
+
+/// (4, 4)
+inline py::array to_numpy(const Pose& pose) {
+  const Eigen::Matrix<double, 4, 4, Eigen::RowMajor> matrix = pose.matrix();
+  return to_numpy(std::vector<double>(matrix.data(), matrix.data() + 16), {4});
+}
+
+/// Rows of shape `tail`: (N, …), or as (…) the only one of a single argument.
+inline py::array to_numpy(std::vector<double> values, bool single, std::vector<py::ssize_t> tail) {
+  py::array rows = to_numpy(std::move(values), std::move(tail));
+  return single ? py::array(rows[py::int_(0)]) : rows;
 }
 
 }  // namespace bathyal::python

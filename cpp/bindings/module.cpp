@@ -11,4 +11,8 @@ PYBIND11_MODULE(_core, module) {
   bind_terrain(module);
   bind_scene(module);
   bind_toolpath(module);
+  bind_arm(module);
+  bind_identify(module);
+  bind_plan_touches(module);
+  bind_verify(module);
 }

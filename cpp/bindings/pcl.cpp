@@ -2,13 +2,16 @@
 // The optional extension bathyal._pcl: what needs PCL, apart from the engine so that only its users
 // load PCL and VTK.
 #include "arrays.hpp"
+#include "bathyal/identify/registration.hpp"
 #include "bathyal/terrain/greedy.hpp"
 
 PYBIND11_MODULE(_pcl, module) {
   using namespace bathyal;
   using namespace bathyal::python;
   using Options = GreedyOptions;
-  module.doc() = "What needs PCL: `bathyal.triangulate(cloud, method=\"greedy\")`.";
+  module.doc() =
+      "What needs PCL: `bathyal.triangulate(cloud, method=\"greedy\")` and "
+      "`bathyal.verify_arm(…, pairing=\"icp\")`.";
   module.def(
       "triangulate_greedy",
       [](const py::object& points, double search_radius, double mu, int max_neighbours,
@@ -61,5 +64,33 @@ Returns
 -------
 (T, 3) int32 array
     Rows of `points`, turned consistently and up (outward, where a piece is closed).
+)");
+
+  module.def(
+      "pair_by_icp",
+      [](const py::object& predicted, const py::object& measured, int max_iterations) {
+        const Points from = points_argument("predicted", predicted);
+        const Points onto = points_argument("positions", measured);
+        std::vector<Index> pairs;
+        {
+          const py::gil_scoped_release release;
+          pairs = pair_by_icp(from.view(), onto.view(), {.max_iterations = max_iterations});
+        }
+        return to_numpy(std::move(pairs));
+      },
+      py::arg("predicted"), py::arg("positions"), py::kw_only(),
+      py::arg("max_iterations") = IcpOptions{}.max_iterations,
+      R"(Which measured position lies nearest to each predicted one (Besl, McKay 1992).
+
+Parameters
+----------
+predicted, positions : (N, 3) and (M, 3) arrays
+    [m]; three rows or more of each. Their centroids are laid upon each other first.
+max_iterations : int
+
+Returns
+-------
+(N,) int array
+    Rows of `positions`, each once.
 )");
 }

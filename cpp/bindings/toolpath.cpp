@@ -51,9 +51,7 @@ TargetOptions target_options(const py::object& world_from_vehicle, const std::st
                              const std::string& vertical, double grazing_angle, double max_range,
                              int num_threads) {
   TargetOptions options;
-  if (!world_from_vehicle.is_none()) {
-    options.vehicle.world_from_vehicle = pose_argument("world_from_vehicle", world_from_vehicle);
-  }
+  options.vehicle.world_from_vehicle = pose_argument("world_from_vehicle", world_from_vehicle);
   options.vehicle.frame = word_argument("frame", frame, frame_words());
   options.vehicle.vertical = word_argument("vertical", vertical, vertical_words());
   options.grazing_angle = grazing_angle;

@@ -7,7 +7,7 @@ import numpy
 import numpy.typing
 import os
 import typing
-__all__: list[str] = ['CleanReport', 'CleanResult', 'Error', 'Hits', 'MeshReport', 'Nearest', 'Plane', 'PlaneFit', 'PointCloud', 'Polyline', 'Scene', 'SheetPatch', 'SheetReport', 'Targets', 'TextTable', 'ToolPath', 'TriangleMesh', 'clean_cloud', 'cover_polygon', 'find_sheets', 'find_targets', 'fit_plane', 'generate_survey', 'intersect_moller_trumbore', 'mesh_report', 'plan_toolpath', 'read_pcd', 'read_text_table', 'set_simd_level', 'simd_level', 'survey_height', 'triangulate', 'triangulate_delaunay', 'write_xyz']
+__all__: list[str] = ['Arm', 'ArmFit', 'CleanReport', 'CleanResult', 'DhTable', 'Error', 'FitParameter', 'Hits', 'InverseResult', 'Link', 'MeshReport', 'Nearest', 'Outlier', 'Plane', 'PlaneFit', 'PointCloud', 'Polyline', 'Scene', 'SheetPatch', 'SheetReport', 'Targets', 'TextTable', 'ToolPath', 'TouchForecast', 'TouchPlan', 'Touches', 'Tracked', 'Trade', 'TriangleMesh', 'Verification', 'arm_from_chain', 'arm_from_parts', 'arm_parts', 'chain_from_arm', 'clean_cloud', 'cover_polygon', 'find_sheets', 'find_targets', 'fit_plane', 'forecast_touches', 'generate_survey', 'identify_arm', 'intersect_moller_trumbore', 'mesh_report', 'plan_toolpath', 'plan_touches', 'read_pcd', 'read_text_table', 'set_simd_level', 'simd_level', 'survey_height', 'triangulate', 'triangulate_delaunay', 'verify_positions', 'write_xyz']
 class Error(RuntimeError):
     """
     A broken file, a solver that failed or a part that is not installed.
@@ -1033,6 +1033,1205 @@ class ToolPath:
         """
         What a person should know before the path is followed: list of str.
         """
+class Link:
+    """
+    What hangs on an arm behind one of its joints.
+    
+    Link 0 is the foot, before any joint; link k moves with joint k. All numbers but `frame` are told in
+    the link's own frame.
+    
+    Parameters
+    ----------
+    name : str
+    mass : float
+        [kg]; 0 is unknown.
+    center_of_mass : (3,) array
+        [m]
+    inertia : (3, 3) array, optional
+        About the centre of mass [kg m²].
+    volume : float
+        Displaced water [m³]; 0 is unknown.
+    center_of_buoyancy : (3,) array
+        [m]
+    frame : (4, 4) array, optional
+        row_from_link; the frame behind the joint's row itself unless given.
+    
+    Examples
+    --------
+    >>> import bathyal
+    >>> bathyal.Link("forearm", mass=2.5, center_of_mass=(-0.1, 0, 0), volume=1.2e-3)
+    Link("forearm", mass=2.5)
+    """
+    def __init__(self, name: str = '', *, mass: typing.SupportsFloat | typing.SupportsIndex = 0.0, center_of_mass: typing.Any = (0, 0, 0), inertia: typing.Any = None, volume: typing.SupportsFloat | typing.SupportsIndex = 0.0, center_of_buoyancy: typing.Any = (0, 0, 0), frame: typing.Any = None) -> None:
+        ...
+    def __repr__(self) -> str:
+        ...
+    @property
+    def center_of_buoyancy(self) -> numpy.ndarray:
+        """
+        (3,) in the link's frame [m].
+        """
+    @property
+    def center_of_mass(self) -> numpy.ndarray:
+        """
+        (3,) in the link's frame [m].
+        """
+    @property
+    def frame(self) -> numpy.ndarray:
+        """
+        (4, 4) row_from_link: the link's frame, seen from the frame behind its row.
+        """
+    @property
+    def inertia(self) -> numpy.ndarray:
+        """
+        (3, 3) about the centre of mass, along the link's axes [kg m²].
+        """
+    @property
+    def mass(self) -> float:
+        """
+        [kg]; 0 is unknown.
+        """
+    @property
+    def name(self) -> str:
+        ...
+    @property
+    def volume(self) -> float:
+        """
+        Displaced [m³]; 0 is unknown.
+        """
+class DhTable:
+    """
+    The Denavit-Hartenberg table of an arm.
+    
+    base_from_flange = root · row 1 · … · row m · flange, where a row is
+    Rz(theta) Tz(d) Tx(a) Rx(alpha) Ry(beta) in the standard convention and
+    Tx(a) Rx(alpha) Ry(beta) Rz(theta) Tz(d) in the modified one.
+    """
+    def __len__(self) -> int:
+        ...
+    def __repr__(self) -> str:
+        ...
+    @property
+    def a(self) -> numpy.ndarray:
+        """
+        (m,) [m]
+        """
+    @property
+    def alpha(self) -> numpy.ndarray:
+        """
+        (m,) [rad]
+        """
+    @property
+    def beta(self) -> numpy.ndarray:
+        """
+        (m,) [rad]; Hayati and Mirmirani's angle.
+        """
+    @property
+    def convention(self) -> str:
+        """
+        "standard" or "modified".
+        """
+    @property
+    def d(self) -> numpy.ndarray:
+        """
+        (m,) [m]; a sliding joint adds its value.
+        """
+    @property
+    def flange(self) -> numpy.ndarray:
+        """
+        (4, 4) behind the last row.
+        """
+    @property
+    def joint_types(self) -> list[str]:
+        """
+        One word a row: "revolute", "prismatic" or "fixed".
+        """
+    @property
+    def root(self) -> numpy.ndarray:
+        """
+        (4, 4) before the first row.
+        """
+    @property
+    def theta(self) -> numpy.ndarray:
+        """
+        (m,) [rad]; a turning joint adds its value.
+        """
+class InverseResult:
+    """
+    Joint angles found for poses, and how well; of a single pose each array lacks its first dimension.
+    """
+    def __len__(self) -> int:
+        ...
+    def __repr__(self) -> str:
+        ...
+    @property
+    def angle_error(self) -> typing.Any:
+        """
+        (N,) angle left [rad]; 0 where the task has none.
+        """
+    @property
+    def error(self) -> typing.Any:
+        """
+        (N,) left of position and angle together, a radian weighing a fifth of the arm's length [m].
+        """
+    @property
+    def iterations(self) -> typing.Any:
+        """
+        (N,) over all starts.
+        """
+    @property
+    def position_error(self) -> typing.Any:
+        """
+        (N,) distance left [m].
+        """
+    @property
+    def q(self) -> typing.Any:
+        """
+        (N, n) [rad] or [m], by "damped" always within the limits; where nothing was reached, the nearest found.
+        """
+    @property
+    def starts(self) -> typing.Any:
+        """
+        (N,) that were tried.
+        """
+    @property
+    def status(self) -> typing.Any:
+        """
+        (N,) "reached", "limit", "singular" or "out_of_reach".
+        """
+class Arm:
+    """
+    A serial arm: its geometry, limits, masses and volumes.
+    
+    Made by ``Arm.from_dh`` and the functions of ``bathyal.arms``. world_from_tool = base · arm · tool:
+    `base` (world_from_base) and `tool` (flange_from_tool) are yours to set and the identity until then;
+    all else stays as it was made. Metres and radians.
+    
+    Examples
+    --------
+    >>> import bathyal
+    >>> arm = bathyal.Arm.from_dh(a=[0.5, 0.4], alpha=[0, 0], d=[0, 0], theta=[0, 0])
+    >>> arm
+    Arm(2 joints)
+    >>> arm.forward([0.0, 0.0])[:3, 3].round(6)
+    array([0.9, 0. , 0. ])
+    """
+    @staticmethod
+    def from_dh(a: typing.Any, alpha: typing.Any, d: typing.Any, theta: typing.Any, *, beta: typing.Any = None, joint_types: collections.abc.Sequence[str] | None = None, convention: str = 'standard', lower: typing.Any = None, upper: typing.Any = None, velocity: typing.Any = None, effort: typing.Any = None, names: collections.abc.Sequence[str] = [], links: collections.abc.Sequence[Link] = [], root: typing.Any = None, flange: typing.Any = None, base: typing.Any = None, tool: typing.Any = None, name: str = '', source: str = '') -> Arm:
+        """
+        An arm from its Denavit-Hartenberg table.
+        
+        Parameters
+        ----------
+        a, alpha, d, theta : (m,) arrays
+            One value a row [m], [rad]. A turning joint adds its value to theta, a sliding one to d.
+        beta : (m,) array, optional
+            Hayati and Mirmirani's fifth angle (1985), for neighbouring axes that are nearly parallel [rad].
+        joint_types : list of str, optional
+            "revolute" (all, unless given), "prismatic" or "fixed".
+        convention : str
+            "standard", a row is Rz(theta) Tz(d) Tx(a) Rx(alpha) Ry(beta); or "modified" (Craig), a row is
+            Tx(a) Rx(alpha) Ry(beta) Rz(theta) Tz(d).
+        lower, upper, velocity, effort : (m,) arrays, optional
+            Limits of each row's joint; infinite unless given. A turning joint without limits wraps.
+        names : list of str, optional
+            Of the rows; "joint_1" and so on unless given.
+        links : list of Link, optional
+            m + 1 of them, the foot first.
+        root, flange, base, tool : (4, 4) arrays, optional
+            What lies before the first row and behind the last, as part of the arm; and the user's
+            world_from_base and flange_from_tool.
+        name, source : str
+            Of the arm, and where its numbers come from.
+        
+        Raises
+        ------
+        ValueError
+            For columns of unequal length, a value that is not finite, crossed limits, no moving joint.
+        
+        Examples
+        --------
+        >>> import bathyal, math
+        >>> arm = bathyal.Arm.from_dh(a=[0, 0.3], alpha=[math.pi / 2, 0], d=[0.2, 0], theta=[0, 0],
+        ...                           lower=[-1, -2], upper=[1, 2], name="small")
+        >>> arm.size, arm.joint_names
+        (2, ['joint_1', 'joint_2'])
+        >>> arm.within_limits([[0, 0], [0, 3]])
+        array([ True, False])
+        """
+    @staticmethod
+    def from_urdf(path: typing.Any, *, tip: typing.Any = None, root: typing.Any = None, name: typing.Any = None) -> Arm:
+        """
+        An arm from one path of a URDF's tree (bathyal.urdf.arm_from_urdf).
+        """
+    def __copy__(self) -> Arm:
+        ...
+    def __deepcopy__(self, memo: dict) -> Arm:
+        ...
+    def __getstate__(self) -> dict:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def __setstate__(self, arg0: dict) -> None:
+        ...
+    def copy(self) -> Arm:
+        """
+        An arm of its own, base and tool too.
+        """
+    def forward(self, q: typing.Any, *, links: bool = False, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> numpy.ndarray:
+        """
+        Poses of the tool in the world.
+        
+        Parameters
+        ----------
+        q : (N, n) or (n,) array
+            Joint angles [rad] or [m]. Values beyond the limits are taken: a measured pose may lie there.
+        links : bool
+            Poses of every link instead, in the order of `link_names`.
+        num_threads : int
+            0 is all.
+        
+        Returns
+        -------
+        (N, 4, 4) or (4, 4) array; with `links` (N, L, 4, 4) or (L, 4, 4)
+            world_from_tool, world_from_link.
+        
+        Examples
+        --------
+        >>> import bathyal
+        >>> arm = bathyal.arms.ur10e()
+        >>> arm.forward([[0, 0, 0, 0, 0, 0]])[0, :3, 3].round(4)
+        array([-1.1842, -0.2906,  0.0609])
+        """
+    def inverse(self, poses: typing.Any, start: typing.Any = None, *, task: str = 'pose', method: str = 'damped', axis: typing.Any = (0.0, 0.0, 1.0), position_tolerance: typing.SupportsFloat | typing.SupportsIndex | None = None, angle_tolerance: typing.SupportsFloat | typing.SupportsIndex | None = None, max_iterations: typing.SupportsInt | typing.SupportsIndex = 60, max_starts: typing.SupportsInt | typing.SupportsIndex = 64, candidates: typing.SupportsInt | typing.SupportsIndex = 1, centering_steps: typing.SupportsInt | typing.SupportsIndex | None = None, steps: typing.SupportsInt | typing.SupportsIndex = 100, seed: typing.SupportsInt | typing.SupportsIndex = 0, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> InverseResult:
+        """
+        Joint angles that bring the tool to poses.
+        
+        Damped least squares (Sugihara 2011) within the limits, from `start` and then from poses drawn
+        within the limits, those first whose tool lies nearest. The result of a pose does not depend on the
+        others, nor on the number of threads.
+        
+        Parameters
+        ----------
+        poses : (N, 4, 4) or (4, 4) array
+            world_from_tool. With task "position" also (N, 3) or (3,) places.
+        start : (n,) or (N, n) array, optional
+            Where the search begins, within the limits; the answer stays near it where it can, also by whole
+            turns. Unless given, near the middle of the limits.
+        task : str
+            "pose"; "position", the tool centre point alone; "position_axis", and one axis of the tool.
+        method : str
+            "damped"; or "pseudo_inverse" (also "jacobian_inverse", what it is where J is square), the
+            stepping of Maevskiy and Zanin (2020): the way cut into equal `steps`, each by J⁺, without
+            limits, damping or a second start; whole turns are taken off at its end.
+        axis : (3,) array
+            Of "position_axis", in the tool's frame: it is to point as that of the target does.
+        position_tolerance, angle_tolerance : float, optional
+            [m], [rad]. 1e-6 unless given; with "pseudo_inverse" 1e-2, as in the paper.
+        max_iterations : int
+            Of one start.
+        max_starts : int
+            Tried at most, the given one among them.
+        candidates : int
+            The search goes on until so many starts have reached; the one nearest to `start` is taken.
+        centering_steps : int, optional
+            Steps that a redundant arm, having reached, takes towards the middle of its limits. Unless
+            given, 0 from a start, which it would leave, else 10.
+        steps : int
+            Of "pseudo_inverse".
+        seed : int
+            Of the drawn starts.
+        num_threads : int
+            0 is all.
+        
+        Returns
+        -------
+        InverseResult
+            .q (N, n), .status, .error, .position_error, .angle_error, .iterations, .starts. Statuses:
+            "reached"; "limit", reached only beyond the limits; "singular", the search was stuck though the
+            pose lies within reach; "out_of_reach".
+        
+        Examples
+        --------
+        >>> import bathyal
+        >>> arm = bathyal.arms.ur10e()
+        >>> q = [0.3, -1.2, 1.4, -0.5, 1.0, 0.2]
+        >>> found = arm.inverse(arm.forward(q), start=[0.2, -1, 1, 0, 1, 0])
+        >>> found.status, found.q.round(5)
+        ('reached', array([ 0.3, -1.2,  1.4, -0.5,  1. ,  0.2]))
+        >>> arm.inverse([3.0, 0, 0], task="position").status
+        'out_of_reach'
+        """
+    def jacobian(self, q: typing.Any, *, frame: str = 'world', num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> numpy.ndarray:
+        """
+        Geometric Jacobians at the tool centre point.
+        
+        Parameters
+        ----------
+        q : (N, n) or (n,) array
+            [rad] or [m]
+        frame : str
+            Axes along which the velocities are told: "world" or "tool".
+        num_threads : int
+            0 is all.
+        
+        Returns
+        -------
+        (N, 6, n) or (6, n) array
+            Rows of the linear velocity [m/s] above those of the angular velocity [rad/s].
+        
+        Examples
+        --------
+        >>> import bathyal
+        >>> bathyal.arms.panda().jacobian([0, 0, 0, -1.5, 0, 1.5, 0]).shape
+        (6, 7)
+        """
+    def manipulability(self, q: typing.Any, *, kind: str = 'yoshikawa', part: str = 'all', num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> typing.Any:
+        """
+        How far poses are from a singularity.
+        
+        Parameters
+        ----------
+        q : (N, n) or (n,) array
+            [rad] or [m]
+        kind : str
+            "yoshikawa", √det(J Jᵀ) (Yoshikawa 1985); "smallest" singular value; "inverse_condition",
+            smallest over largest: 0 singular, 1 isotropic.
+        part : str
+            Which rows count: "all" (which mixes metres and radians), "linear" or "angular".
+        num_threads : int
+            0 is all.
+        
+        Returns
+        -------
+        (N,) array or float
+            With fewer joints than rows, of the singular values that there are.
+        
+        Examples
+        --------
+        >>> import bathyal
+        >>> arm = bathyal.Arm.from_dh(a=[0.5, 0.4], alpha=[0, 0], d=[0, 0], theta=[0, 0])
+        >>> round(arm.manipulability([0.3, 1.5707963], part="linear"), 6)
+        0.2
+        """
+    def plot(self, q: typing.Any = None, path: typing.Any = None) -> typing.Any:
+        """
+        A picture, written to `path` too (bathyal.arm_views.plot_arm).
+        """
+    def save(self, path: typing.Any) -> None:
+        """
+        Write all of it to a .json file, for bathyal.read_arm (bathyal.arm_files.save_arm).
+        """
+    def show(self, q: typing.Any = None) -> typing.Any:
+        """
+        An interactive figure (bathyal.arm_views.show_arm).
+        """
+    def statics(self, q: typing.Any, wrench: typing.Any = None, *, frame: str = 'world', gravity: typing.Any = (0.0, 0.0, -9.80665), water_density: typing.SupportsFloat | typing.SupportsIndex = 1025.0, payload: typing.SupportsFloat | typing.SupportsIndex = 0.0, payload_center: typing.Any = (0, 0, 0), payload_volume: typing.SupportsFloat | typing.SupportsIndex = 0.0, payload_center_of_buoyancy: typing.Any = None, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> numpy.ndarray:
+        """
+        Joint torques that hold the arm still.
+        
+        The drives carry Jᵀ · wrench, the weight of every link and of the payload, less the buoyancy of the
+        volumes told. Masses and volumes are those of `links`; unknown ones are 0.
+        
+        Parameters
+        ----------
+        q : (N, n) or (n,) array
+            [rad] or [m]
+        wrench : (6,) or (N, 6) array, optional
+            Force and moment that the tool exerts on its surroundings at the tool centre point [N, N m].
+        frame : str
+            Axes along which the wrench is told: "world" or "tool".
+        gravity : (3,) array
+            In the arm's base frame [m/s²]: turn it with the vehicle.
+        water_density : float
+            [kg/m³]; 0 in air.
+        payload, payload_volume : float
+            Mass [kg] and displaced volume [m³] carried by the tool.
+        payload_center, payload_center_of_buoyancy : (3,) array
+            In the tool's frame [m]; the second is as the first unless given.
+        num_threads : int
+            0 is all.
+        
+        Returns
+        -------
+        (N, n) or (n,) array
+            [N m], of sliding joints [N], positive along the coordinate.
+        
+        Examples
+        --------
+        >>> import bathyal
+        >>> arm = bathyal.Arm.from_dh(a=[0.5], alpha=[1.5707963267948966], d=[0], theta=[0],
+        ...                           root=[[1, 0, 0, 0], [0, 0, -1, 0], [0, 1, 0, 0], [0, 0, 0, 1]])
+        >>> arm.statics([0.0], payload=2.0).round(3)
+        array([9.807])
+        """
+    def to_dh(self, *, convention: str = 'standard') -> DhTable:
+        """
+        The Denavit-Hartenberg table, without base and tool.
+        
+        Parameters
+        ----------
+        convention : str
+            "standard" or "modified". In the modified convention a root that is no more than
+            Tx(a) Rx(alpha) Ry(beta) becomes part of the first row; any other stays `root`.
+        
+        Returns
+        -------
+        DhTable
+            .a .alpha .d .theta .beta (m,), .joint_types, .root .flange (4, 4)
+        
+        Examples
+        --------
+        >>> import bathyal
+        >>> bathyal.arms.ur10e().to_dh().a.round(4)
+        array([ 0.    , -0.6127, -0.5715,  0.    ,  0.    ,  0.    ])
+        """
+    def to_urdf(self, path: typing.Any = None) -> str:
+        """
+        The arm as the text of a URDF, written to `path` too (bathyal.urdf_writer.urdf_of_arm).
+        """
+    def within_limits(self, q: typing.Any) -> typing.Any:
+        """
+        Whether each pose q (N, n) keeps the limits: (N,) bool; one pose (n,) gives one.
+        """
+    def write(self, path: typing.Any, *, nominal: typing.Any = None) -> None:
+        """
+        Write a .json, .urdf, .yaml or .conf file (bathyal.arm_files.write_arm).
+        """
+    @property
+    def base(self) -> numpy.ndarray:
+        """
+        (4, 4) world_from_base; may be set, None is the identity.
+        """
+    @base.setter
+    def base(self, arg1: typing.Any) -> None:
+        ...
+    @property
+    def effort(self) -> numpy.ndarray:
+        """
+        (n,) greatest torque [N m] or force [N] of that joint.
+        """
+    @property
+    def joint_names(self) -> list[str]:
+        """
+        One name a coordinate: of the joint that leads it, in the arm or beside it.
+        """
+    @property
+    def joint_types(self) -> list[str]:
+        """
+        One word a coordinate, "revolute" or "prismatic".
+        """
+    @property
+    def link_names(self) -> list[str]:
+        """
+        One name a link, the foot first: the order of forward(q, links=True).
+        """
+    @property
+    def links(self) -> list[Link]:
+        """
+        The Links, the foot first: a list.
+        """
+    @property
+    def lower(self) -> numpy.ndarray:
+        """
+        (n,) lower limits [rad] or [m], −inf where there is none.
+        """
+    @property
+    def name(self) -> str:
+        ...
+    @property
+    def size(self) -> int:
+        """
+        Number of coordinates n, the width of every q.
+        """
+    @property
+    def source(self) -> str:
+        """
+        Where the numbers come from.
+        """
+    @property
+    def tool(self) -> numpy.ndarray:
+        """
+        (4, 4) flange_from_tool; may be set, None is the identity.
+        """
+    @tool.setter
+    def tool(self, arg1: typing.Any) -> None:
+        ...
+    @property
+    def upper(self) -> numpy.ndarray:
+        """
+        (n,) upper limits [rad] or [m], inf where there is none.
+        """
+    @property
+    def velocity(self) -> numpy.ndarray:
+        """
+        (n,) greatest speed of the joint that leads each coordinate [rad/s] or [m/s].
+        """
+class Touches:
+    """
+    Joint values while the tool's tip touched fixed points.
+    
+    What Yukhimets and Gubankov (2023) record: the tip is brought to a fixed point in many poses, a few
+    points in all, and only joint values are read. Where the points lie need not be known.
+    
+    Parameters
+    ----------
+    q : (N, n) array
+        Joint values, one row a touch [rad]; [m] of sliding joints.
+    point : (N,) int array
+        Label of the point that the row touched, any whole number; of rows that touched a plane, any.
+    q_deg : (N, n) array
+        In place of `q`, in degrees (every column: for arms that only turn).
+    known_distances : dict
+        {(label, label): distance} between touched points [m]. Touches cannot tell an arm from a smaller
+        one; one such distance can.
+    distance_std : float
+        Standard deviation of those distances [m].
+    known_points : dict
+        {label: (x, y, z)} of touched points, in the world, the frame of ``arm.base`` [m].
+    point_std : float
+        Standard deviation of those coordinates, per axis [m].
+    planes : dict
+        {name: rows} of planes that were touched in many places, not known otherwise.
+    weights : (N,) array
+        1 / variance of a row, up to a factor. Equal when not given.
+    tool, station : (N,) int array
+        Which tool touched, and where the base stood, each counted from 0.
+    covariates : dict
+        {name: (N,) or (N, k) array} recorded beside: temperature, time, payload, direction, gravity …
+    session : (N,) int array
+        Short for the covariate ``session``.
+    names : dict
+        {label: name} of touched points, for people to read; a label may have none.
+    
+    Raises
+    ------
+    ValueError
+        For lengths that differ, numbers that are not finite, values that can only be degrees (give them
+        as ``q_deg``), poses that are all equal, one pose for each point, labels that nobody touched.
+    
+    Examples
+    --------
+    >>> import bathyal
+    >>> bathyal.Touches([[0, 1, 0.5], [0.2, 0.9, 0.6]], [0, 0])
+    Touches(2 poses, 3 joints)
+    """
+    def __init__(self, q: typing.Any = None, point: typing.Any = None, *, q_deg: typing.Any = None, known_distances: typing.Any = None, distance_std: typing.SupportsFloat | typing.SupportsIndex = 0.0001, known_points: typing.Any = None, point_std: typing.SupportsFloat | typing.SupportsIndex = 0.0001, planes: typing.Any = None, weights: typing.Any = None, tool: typing.Any = None, station: typing.Any = None, covariates: typing.Any = None, session: typing.Any = None, names: typing.Any = None) -> None:
+        ...
+    def __len__(self) -> int:
+        ...
+    def __repr__(self) -> str:
+        ...
+    @property
+    def covariates(self) -> dict:
+        """
+        Name to (N,) or (N, k) array; `session` among them.
+        """
+    @property
+    def distance_std(self) -> float:
+        """
+        [m]
+        """
+    @property
+    def known_distances(self) -> dict:
+        ...
+    @property
+    def known_points(self) -> dict:
+        ...
+    @property
+    def names(self) -> dict[int, str]:
+        """
+        {label: name}, of the labels that have one.
+        """
+    @property
+    def planes(self) -> dict:
+        ...
+    @property
+    def point(self) -> numpy.ndarray:
+        """
+        (N,) label of the point that each row touched.
+        """
+    @property
+    def point_std(self) -> float:
+        """
+        [m]
+        """
+    @property
+    def q(self) -> numpy.ndarray:
+        """
+        (N, n) [rad] or [m].
+        """
+    @property
+    def station(self) -> numpy.ndarray:
+        """
+        (N,), or (0,) when there is one.
+        """
+    @property
+    def tool(self) -> numpy.ndarray:
+        """
+        (N,), or (0,) when there is one.
+        """
+    @property
+    def weights(self) -> numpy.ndarray:
+        """
+        (N,), or (0,) when all are equal.
+        """
+class Tracked:
+    """
+    Joint values beside the measured place of the tool's tip.
+    
+    Parameters
+    ----------
+    q : (N, n) array
+        Joint values [rad]; [m] of sliding joints.
+    position : (N, 3) array
+        Of the tip (a reflector, a prism), in the frame of the instrument [m].
+    pose : (N, 4, 4) array
+        In place of `position`: the whole pose of what the instrument sees, world_from_tool.
+    q_deg : (N, n) array
+        In place of `q`, in degrees (every column).
+    weights : (N,) array
+        1 / variance of a row, up to a factor. Equal when not given.
+    tool, station : (N,) int array
+        Which target on the tool was seen, and where base and instrument stood, each counted from 0.
+    covariates : dict
+        {name: (N,) or (N, k) array} recorded beside: temperature, time, payload, direction, gravity …
+    session : (N,) int array
+        Short for the covariate ``session``.
+    
+    Raises
+    ------
+    ValueError
+        As Touches.
+    
+    Examples
+    --------
+    >>> import bathyal
+    >>> bathyal.Tracked(q_deg=[[0, 30], [10, 40]], position=[[1, 0, 0], [1.1, 0.1, 0]])
+    Tracked(2 poses, 2 joints)
+    """
+    def __init__(self, q: typing.Any = None, position: typing.Any = None, *, pose: typing.Any = None, q_deg: typing.Any = None, weights: typing.Any = None, tool: typing.Any = None, station: typing.Any = None, covariates: typing.Any = None, session: typing.Any = None) -> None:
+        ...
+    def __len__(self) -> int:
+        ...
+    def __repr__(self) -> str:
+        ...
+    @property
+    def covariates(self) -> dict:
+        """
+        Name to (N,) or (N, k) array; `session` among them.
+        """
+    @property
+    def pose(self) -> typing.Any:
+        """
+        (N, 4, 4) world_from_tool, or None when only positions were measured.
+        """
+    @property
+    def position(self) -> numpy.ndarray:
+        """
+        (N, 3) of the tip, world [m].
+        """
+    @property
+    def q(self) -> numpy.ndarray:
+        """
+        (N, n) [rad] or [m].
+        """
+    @property
+    def station(self) -> numpy.ndarray:
+        """
+        (N,), or (0,) when there is one.
+        """
+    @property
+    def tool(self) -> numpy.ndarray:
+        """
+        (N,), or (0,) when there is one.
+        """
+    @property
+    def weights(self) -> numpy.ndarray:
+        """
+        (N,), or (0,) when all are equal.
+        """
+class Trade:
+    """
+    A parameter that moves along, unseen, with another one.
+    """
+    def __repr__(self) -> str:
+        ...
+    @property
+    def factor(self) -> float:
+        """
+        How far it goes per unit of the other one, each in its own unit.
+        """
+    @property
+    def name(self) -> str:
+        ...
+    @property
+    def words(self) -> str:
+        ...
+class FitParameter:
+    """
+    One unknown, as found by `identify_arm`.
+    
+    ``status`` is "identified"; "gauge" (held: base or tool can do all that it could do); "prior" (a
+    prior tells it, the data do not); "not_identifiable"; "fixed" (held on request); "pruned" (put back
+    to nominal on request). ``trades`` lists what it moves with, unseen by the data.
+    """
+    def __repr__(self) -> str:
+        ...
+    @property
+    def group(self) -> str:
+        ...
+    @property
+    def name(self) -> str:
+        ...
+    @property
+    def nominal(self) -> float:
+        ...
+    @property
+    def status(self) -> str:
+        ...
+    @property
+    def std(self) -> float:
+        ...
+    @property
+    def trades(self) -> list[Trade]:
+        ...
+    @property
+    def unit(self) -> str:
+        ...
+    @property
+    def value(self) -> float:
+        ...
+    @property
+    def words(self) -> str:
+        ...
+class Outlier:
+    """
+    A row that lies far from where the others want it.
+    """
+    def __repr__(self) -> str:
+        ...
+    @property
+    def distance(self) -> float:
+        """
+        From where it should be [m].
+        """
+    @property
+    def fits(self) -> int | None:
+        """
+        Label of the point where it would fit, or None: labels look swapped.
+        """
+    @property
+    def point(self) -> int:
+        """
+        Label of its point; -1 where there is none.
+        """
+    @property
+    def row(self) -> int:
+        ...
+class ArmFit:
+    """
+    The arm found by `identify_arm` and how far to trust it.
+    
+    ``str(fit)`` and ``fit.summary()`` tell it in one paragraph.
+    """
+    def __repr__(self) -> str:
+        ...
+    def __str__(self) -> str:
+        ...
+    def summary(self) -> str:
+        """
+        One paragraph in plain words.
+        """
+    def tip_covariance(self, q: typing.Any, *, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> numpy.ndarray:
+        """
+        Covariance of the tip that ``fit.arm`` foretells, in the frame of its base.
+        
+        Gauge counts nothing, the arm's size counts. Infinite on the diagonal where something that neither
+        data nor priors tell moves the tip.
+        
+        Parameters
+        ----------
+        q : (N, n) or (n,) array
+            [rad] or [m]
+        
+        Returns
+        -------
+        (N, 3, 3) or (3, 3) array
+            [m²]
+        """
+    def tip_std(self, q: typing.Any, *, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> typing.Any:
+        """
+        Standard deviation of the foretold tip: √trace of `tip_covariance`, all three axes together.
+        
+        Parameters
+        ----------
+        q : (N, n) or (n,) array
+            [rad] or [m]
+        
+        Returns
+        -------
+        (N,) array or float
+            [m]
+        """
+    @property
+    def arm(self) -> Arm:
+        """
+        Arm: identified, its base and tool set.
+        """
+    @property
+    def bases(self) -> list:
+        """
+        (4, 4) world_from_base of each station.
+        """
+    @property
+    def converged(self) -> bool:
+        ...
+    @property
+    def covariance(self) -> numpy.ndarray:
+        """
+        (P, P) in the parameters' units; what nothing tells counts 0.
+        """
+    @property
+    def degrees_of_freedom(self) -> float:
+        ...
+    @property
+    def distances(self) -> dict:
+        """
+        Known distances as found: {(label, label): m}.
+        """
+    @property
+    def history(self) -> numpy.ndarray:
+        """
+        Sum of squares of the criterion at the start and after each step [m²].
+        """
+    @property
+    def iterations(self) -> int:
+        """
+        Steps that were accepted.
+        """
+    @property
+    def noise(self) -> float:
+        """
+        Standard deviation per axis, found or told [m].
+        """
+    @property
+    def outliers(self) -> list[Outlier]:
+        ...
+    @property
+    def pairs_after(self) -> float:
+        """
+        [m²]
+        """
+    @property
+    def pairs_before(self) -> float:
+        """
+        J of Yukhimets, Gubankov (2023), eq 7 [m²].
+        """
+    @property
+    def parameters(self) -> list[FitParameter]:
+        """
+        FitParameter of each unknown.
+        """
+    @property
+    def point_labels(self) -> list[int]:
+        ...
+    @property
+    def point_rms_after(self) -> numpy.ndarray:
+        """
+        (n,) [m]
+        """
+    @property
+    def point_rms_before(self) -> numpy.ndarray:
+        """
+        (n,) of each point, or station when tracked [m].
+        """
+    @property
+    def points(self) -> numpy.ndarray:
+        """
+        (n, 3) touched points as found, world [m].
+        """
+    @property
+    def rank(self) -> int:
+        """
+        Of the data, by all parameters, without priors.
+        """
+    @property
+    def residuals(self) -> numpy.ndarray:
+        """
+        (N, 3) tip minus centroid, or minus the measured place, world [m].
+        """
+    @property
+    def residuals_before(self) -> numpy.ndarray:
+        """
+        (N, 3) the same of what `rms_before` tells [m].
+        """
+    @property
+    def rms_after(self) -> float:
+        """
+        √mean‖e‖² [m].
+        """
+    @property
+    def rms_after_scaled(self) -> float:
+        """
+        rms_after times told by found lengths: had the arm kept its size [m].
+        """
+    @property
+    def rms_before(self) -> float:
+        """
+        Nominal rows with the best start of tool and base: √mean‖e‖² [m].
+        """
+    @property
+    def rotation_noise(self) -> float:
+        """
+        [rad]
+        """
+    @property
+    def rotation_rms_after(self) -> float:
+        """
+        [rad]
+        """
+    @property
+    def rotation_rms_before(self) -> float:
+        """
+        [rad]
+        """
+    @property
+    def scale(self) -> float:
+        """
+        Lengths found by nominal lengths.
+        """
+    @property
+    def scale_source(self) -> str:
+        """
+        What the arm's size rests on.
+        """
+    @property
+    def scale_std(self) -> float:
+        ...
+    @property
+    def singular_values(self) -> numpy.ndarray:
+        """
+        (P,) falling: millimetres at the tip per mm and mrad of a direction.
+        """
+    @property
+    def std(self) -> numpy.ndarray:
+        """
+        (P,) of each parameter: 0 when held, inf when nothing tells it.
+        """
+    @property
+    def structure_p(self) -> float:
+        """
+        Probability of residuals that depend on the joints so much by chance.
+        """
+    @property
+    def tools(self) -> list:
+        """
+        (4, 4) flange_from_tool of each tool.
+        """
+    @property
+    def unseen(self) -> list[str]:
+        """
+        The directions that the data do not see, in words.
+        """
+    @property
+    def warnings(self) -> list[str]:
+        """
+        Sentences; empty when all is well.
+        """
+class TouchForecast:
+    """
+    What touches will tell of an arm, before it is identified: see `forecast_touches`.
+    """
+    def __repr__(self) -> str:
+        ...
+    @property
+    def free(self) -> int:
+        """
+        Of them, those that base and tool cannot do as well.
+        """
+    @property
+    def log_det(self) -> float:
+        """
+        ln det of the free parameters' information per mm and mrad, with priors.
+        """
+    @property
+    def median_tip_std(self) -> float:
+        """
+        [m]
+        """
+    @property
+    def o1(self) -> float:
+        """
+        Observability index of Borm and Menq (1989).
+        """
+    @property
+    def parameters(self) -> int:
+        """
+        As many as ArmFit.parameters.
+        """
+    @property
+    def rank(self) -> int:
+        """
+        Of the data by them, without priors.
+        """
+    @property
+    def singular_values(self) -> numpy.ndarray:
+        """
+        (free,) falling: millimetres at the tip per mm and mrad of a direction.
+        """
+    @property
+    def tip_std(self) -> numpy.ndarray:
+        """
+        (S,) root of the trace of the tip's covariance there [m].
+        """
+    @property
+    def unseen(self) -> list[str]:
+        """
+        Directions among the free parameters that the data do not see, in words.
+        """
+    @property
+    def workspace(self) -> numpy.ndarray:
+        """
+        (S, n) poses that the deviation is foretold for.
+        """
+    @property
+    def worst_tip_std(self) -> float:
+        """
+        [m]
+        """
+class TouchPlan:
+    """
+    Poses in which to touch, and how right the arm will go afterwards: see `plan_touches`.
+    """
+    def __len__(self) -> int:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def __str__(self) -> str:
+        ...
+    def plot(self, path: typing.Any = None) -> typing.Any:
+        """
+        A picture, written to `path` too (bathyal.touch_plans.plot_plan).
+        """
+    def summary(self, *, warnings: bool = True) -> str:
+        """
+        One paragraph in plain words.
+        """
+    def write(self, path: typing.Any) -> None:
+        """
+        Write a .csv table to touch by, for bathyal.read_touches (bathyal.touch_plans.write_plan).
+        """
+    @property
+    def arm(self) -> Arm:
+        """
+        Arm: the one that was planned for.
+        """
+    @property
+    def candidates(self) -> int:
+        """
+        Poses that were chosen from.
+        """
+    @property
+    def criterion(self) -> str:
+        ...
+    @property
+    def forecast(self) -> TouchForecast:
+        """
+        TouchForecast of these touches.
+        """
+    @property
+    def known_distances(self) -> list[tuple[int, int]]:
+        """
+        Pairs of points whose distance is to be measured.
+        """
+    @property
+    def median_tip_std(self) -> float:
+        """
+        Of the forecast [m].
+        """
+    @property
+    def point(self) -> numpy.ndarray:
+        """
+        (N,) number of the point that each pose touches.
+        """
+    @property
+    def points(self) -> numpy.ndarray:
+        """
+        (k, 3) where the points stand, world [m].
+        """
+    @property
+    def q(self) -> numpy.ndarray:
+        """
+        (N, n) poses, point by point, each near the one before [rad] or [m].
+        """
+    @property
+    def value(self) -> float:
+        """
+        Of the criterion: worst_tip [m], ln det, or O1.
+        """
+    @property
+    def warnings(self) -> list[str]:
+        """
+        Sentences.
+        """
+    @property
+    def worst_tip_std(self) -> float:
+        """
+        Of the forecast [m].
+        """
+class Verification:
+    """
+    How far positions that an arm predicts lie from measured ones: see `verify_arm`.
+    """
+    def __repr__(self) -> str:
+        ...
+    @property
+    def deviation(self) -> numpy.ndarray:
+        """
+        (N,) distance of each prediction from its measured position, aligned [m].
+        """
+    @property
+    def measured_from_predicted(self) -> numpy.ndarray:
+        """
+        (4, 4) the alignment.
+        """
+    @property
+    def pairs(self) -> numpy.ndarray:
+        """
+        (N,) row of the measured positions that belongs to each prediction.
+        """
+    @property
+    def residual(self) -> numpy.ndarray:
+        """
+        (N, 3) measured less predicted, aligned, in the measured frame [m].
+        """
+    @property
+    def rms_after(self) -> float:
+        """
+        √mean‖e‖² aligned [m].
+        """
+    @property
+    def rms_before(self) -> float:
+        """
+        √mean‖e‖² with the centroids removed only [m].
+        """
+def arm_from_chain(chain: dict, *, nearly_parallel: typing.SupportsFloat | typing.SupportsIndex = 0.1) -> Arm:
+    """
+    The Arm of joint origins, axes and links: what a URDF tells.
+    """
+def arm_from_parts(parts: dict) -> Arm:
+    """
+    The Arm of such a dict.
+    """
+def arm_parts(arm: Arm) -> dict:
+    """
+    Everything an Arm is made of.
+    """
+def chain_from_arm(arm: Arm) -> dict:
+    """
+    Joint origins, axes and links of an Arm; the last joint is the flange's.
+    """
 def clean_cloud(cloud: typing.Any, *, same_place: str = 'keep', spike_sigma: typing.SupportsFloat | typing.SupportsIndex = 0.0, spike_height: typing.SupportsFloat | typing.SupportsIndex = 0.1, spike_neighbours: typing.SupportsInt | typing.SupportsIndex = 16, outlier_sigma: typing.SupportsFloat | typing.SupportsIndex = 0.0, outlier_neighbours: typing.SupportsInt | typing.SupportsIndex = 12, voxel: typing.SupportsFloat | typing.SupportsIndex = 0.0, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> CleanResult:
     """
     Drop what is no sounding and, where asked, what is too much or out of line; say how many and why.
@@ -1248,6 +2447,61 @@ def fit_plane(cloud: typing.Any, *, tolerance: typing.SupportsFloat | typing.Sup
     >>> fit.flat
     True
     """
+def forecast_touches(arm: Arm, touches: Touches, *, parametrization: str = 'hayati', nearly_parallel: typing.SupportsFloat | typing.SupportsIndex = 0.1, noise: typing.SupportsFloat | typing.SupportsIndex = 0.0001, length_prior: typing.SupportsFloat | typing.SupportsIndex = 0.001, angle_prior: typing.SupportsFloat | typing.SupportsIndex = 0.002, tool_prior: typing.SupportsFloat | typing.SupportsIndex = 0.01, workspace: typing.Any = None, workspace_poses: typing.SupportsInt | typing.SupportsIndex = 400, seed: typing.SupportsInt | typing.SupportsIndex = 0, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> TouchForecast:
+    """
+    Foretell how right an arm will go that is identified from these touches.
+    
+    To first order at the nominal arm, with the covariance that `identify_arm` will report with these
+    priors. What base and tool can do as well (gauge) counts nothing; the arm's size counts.
+    
+    Parameters
+    ----------
+    arm : Arm
+        Nominal, its tool told to a centimetre or so.
+    touches : Touches
+        Made, or to be made, with the distances and points that are known. Poses that scatter about
+        their point are first moved onto it.
+    parametrization : {"hayati", "dh"}
+        As of `identify_arm`.
+    nearly_parallel : float
+        Sine between neighbouring axes below which beta takes the place of d.
+    noise : float
+        Standard deviation of one touch, per axis [m].
+    length_prior, angle_prior : float
+        The maker's tolerances: standard deviation of every a and d [m], and of every theta, alpha and
+        beta [rad]. They hold what touches never tell.
+    tool_prior : float
+        How well the tool is told: standard deviation of each coordinate of its tip [m].
+    workspace : (S, n) array, optional
+        Poses in which the arm must go right [rad] or [m]. Drawn at random within the limits unless
+        given.
+    workspace_poses : int
+        How many are drawn.
+    seed : int
+        Of what is drawn.
+    num_threads : int
+        0 for all. The same bytes for any number.
+    
+    Returns
+    -------
+    TouchForecast
+        ``.worst_tip_std``, ``.median_tip_std`` [m], ``.tip_std`` (S,), ``.rank`` of ``.free``
+        parameters, ``.singular_values``, ``.unseen`` in words, ``.o1``, ``.log_det``.
+    
+    Raises
+    ------
+    ValueError
+        For another number of joints, several tools or stations, touched planes, options out of range.
+    
+    Examples
+    --------
+    >>> import bathyal, numpy as np
+    >>> arm = bathyal.arms.ur10e()
+    >>> touches = bathyal.Touches(np.random.default_rng(1).uniform(-1, 1, (8, 6)), [0] * 8)
+    >>> forecast = bathyal.forecast_touches(arm, touches)
+    >>> forecast.rank <= forecast.free < forecast.parameters
+    True
+    """
 def generate_survey(*, seed: typing.SupportsInt | typing.SupportsIndex = 0, origin: typing.Any = (431200.0, 6172650.0, -38.0), length: typing.SupportsFloat | typing.SupportsIndex = 60.0, width: typing.SupportsFloat | typing.SupportsIndex = 40.0, wave_height: typing.SupportsFloat | typing.SupportsIndex = 0.5, wave_length: typing.SupportsFloat | typing.SupportsIndex = 9.0, ripple_height: typing.SupportsFloat | typing.SupportsIndex = 0.04, roughness: typing.SupportsFloat | typing.SupportsIndex = 0.15, boulders: typing.SupportsInt | typing.SupportsIndex = 30, boulder_radius: typing.SupportsFloat | typing.SupportsIndex = 1.3, trench_depth: typing.SupportsFloat | typing.SupportsIndex = 1.1, trench_width: typing.SupportsFloat | typing.SupportsIndex = 3.5, lines: typing.SupportsInt | typing.SupportsIndex = 2, altitude: typing.SupportsFloat | typing.SupportsIndex = 8.0, opening: typing.SupportsFloat | typing.SupportsIndex = 2.0943951, beams: typing.SupportsInt | typing.SupportsIndex = 256, ping_spacing: typing.SupportsFloat | typing.SupportsIndex = 0.12, lost_width: typing.SupportsFloat | typing.SupportsIndex = 2.0, range_noise: typing.SupportsFloat | typing.SupportsIndex = 0.006, range_noise_rate: typing.SupportsFloat | typing.SupportsIndex = 0.0008, angle_noise: typing.SupportsFloat | typing.SupportsIndex = 0.0006, spike_fraction: typing.SupportsFloat | typing.SupportsIndex = 0.0, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> PointCloud:
     """
     A multibeam survey that never was, over a bottom that is known exactly.
@@ -1307,6 +2561,89 @@ def generate_survey(*, seed: typing.SupportsInt | typing.SupportsIndex = 0, orig
     PointCloud(5504 points)
     >>> sorted(cloud.attributes)
     ['intensity', 'uncertainty']
+    """
+def identify_arm(arm: Arm, data: typing.Any, *, parametrization: str = 'hayati', nearly_parallel: typing.SupportsFloat | typing.SupportsIndex = 0.1, criterion: str = 'centroid', pair_weights: bool = False, solver: str = 'levenberg_marquardt', max_iterations: typing.SupportsInt | typing.SupportsIndex = 100, tool_start: str = 'auto', base: str = 'auto', fixed: collections.abc.Sequence[str] = [], length_prior: typing.SupportsFloat | typing.SupportsIndex | None = None, angle_prior: typing.SupportsFloat | typing.SupportsIndex | None = None, priors: collections.abc.Mapping[str, typing.SupportsFloat | typing.SupportsIndex] = {}, size_prior: typing.SupportsFloat | typing.SupportsIndex = 0.001, noise: typing.SupportsFloat | typing.SupportsIndex | None = None, rotation_noise: typing.SupportsFloat | typing.SupportsIndex | None = None, loss: str = 'square', loss_width: typing.SupportsFloat | typing.SupportsIndex | None = None, prune_sigma: typing.SupportsFloat | typing.SupportsIndex | None = None, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> ArmFit:
+    """
+    Find the true geometry of an arm from measured poses.
+    
+    After Yukhimets, Gubankov (2023). Unknown are each moving joint's row, the tool and, for tracked
+    poses, the base; what the data cannot tell stays at nominal, and is named.
+    
+    Parameters
+    ----------
+    arm : Arm
+        Nominal. Its tool, where it has one, is where the search for the tool starts.
+    data : Touches or Tracked
+    parametrization : {"hayati", "dh"}
+        "hayati": beta (Hayati, Mirmirani 1985) in place of d where the next axis is nearly parallel.
+        "dh": theta, d, a, alpha in every row, as the paper.
+    nearly_parallel : float
+        Axes whose directions have a smaller sine are nearly parallel.
+    criterion : {"centroid", "pairs"}
+        Each touch against the mean of its point, or every pair of a point's touches (the paper's eq
+        7-9). They have the same minimum when every point has as many touches, or with `pair_weights`.
+    pair_weights : bool
+        Weigh a point by the number of its touches, as "pairs" always does.
+    solver : {"levenberg_marquardt", "paper"}
+        Ceres' TinySolver, or the paper's eq 17 with its sign mended. They reach the same cost.
+    max_iterations : int
+    tool_start : {"auto", "arm", "estimate"}
+        Start from the arm's tool, or estimate it (eq 12-16). "auto": the arm's where it has one.
+    base : {"auto", "free", "fixed"}
+        "auto": free for tracked poses, fixed for touches.
+    fixed : list of str
+        Names of parameters to hold at nominal.
+    length_prior, angle_prior : float
+        The maker's tolerance: standard deviation of every a and d [m], of every theta, alpha and beta
+        [rad], about nominal. None: no prior.
+    priors : dict
+        {name: std} for single parameters, in their unit.
+    size_prior : float
+        The length prior that stands in where nothing tells the arm's size (touches without a known
+        distance or point) and none is given [m].
+    noise, rotation_noise : float
+        Standard deviation of a touch or a position per axis [m], and of a rotation [rad]. None: from
+        the residuals.
+    loss : {"square", "huber", "cauchy"}
+        The last two take outliers lightly.
+    loss_width : float
+        Distance from which they do [m]. None: 3 times the robust standard deviation.
+    prune_sigma : float
+        Put parameters within so many standard deviations of nominal back there, the least first.
+    num_threads : int
+        0 = all. The same result for any.
+    
+    Returns
+    -------
+    ArmFit
+        ``.arm .parameters .rms_before .rms_after .rank .std .covariance .scale_source .warnings …``
+    
+    Raises
+    ------
+    ValueError
+        For another number of joints than the arm's, bad options, names that no parameter has.
+    
+    Notes
+    -----
+    Rank and covariance come from QR and singular values of the Jacobian with its columns in mm and
+    mrad; a singular value below 1e-7 of the largest is none. Noise is estimated with 3 Σ(m_i − 1) −
+    rank degrees of freedom.
+    
+    Touches scatter less on a smaller arm, and least squares lean that way: by (degrees of freedom) ·
+    (relative std of the size)². Where known distances or points, or a sliding joint, tell the size, this
+    is taken away (the derivatives of exact touches decide, not those of scattered ones). Where only a
+    prior tells it, the paper's criterion stands as it is: read ``scale_source``, and trust no small rms.
+    
+    Examples
+    --------
+    >>> import bathyal, numpy as np
+    >>> arm = bathyal.Arm.from_dh(a=[0.5, 0.4], alpha=[0, 0], d=[0, 0], theta=[0, 0])
+    >>> q = np.random.default_rng(1).uniform(-2, 2, (40, 2))
+    >>> true = bathyal.Arm.from_dh(a=[0.502, 0.4], alpha=[0, 0], d=[0, 0], theta=[0, 0.003])
+    >>> fit = bathyal.identify_arm(arm, bathyal.Tracked(q, true.forward(q)[:, :3, 3]))
+    >>> a_1 = next(p for p in fit.parameters if p.name == "a_1")
+    >>> round(a_1.value, 6), a_1.status
+    (0.502, 'identified')
     """
 def intersect_moller_trumbore(mesh: TriangleMesh, origins: typing.Any, directions: typing.Any, *, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> Hits:
     """
@@ -1427,6 +2764,82 @@ def plan_toolpath(surface: typing.Any, aims: typing.Any, *, world_from_vehicle: 
     >>> round(float(path.time[-1]), 3)
     21.0
     """
+def plan_touches(arm: Arm, count: typing.SupportsInt | typing.SupportsIndex, *, points: typing.Any = None, num_points: typing.SupportsInt | typing.SupportsIndex = 3, known_distances: typing.Any = None, distance_std: typing.SupportsFloat | typing.SupportsIndex = 0.0001, known_points: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex] = [], point_std: typing.SupportsFloat | typing.SupportsIndex = 0.0001, feasible: typing.Any = None, floor: typing.SupportsFloat | typing.SupportsIndex | None = None, criterion: str = 'worst_tip', candidates: typing.SupportsInt | typing.SupportsIndex = 600, passes: typing.SupportsInt | typing.SupportsIndex = 10, parametrization: str = 'hayati', nearly_parallel: typing.SupportsFloat | typing.SupportsIndex = 0.1, noise: typing.SupportsFloat | typing.SupportsIndex = 0.0001, length_prior: typing.SupportsFloat | typing.SupportsIndex = 0.001, angle_prior: typing.SupportsFloat | typing.SupportsIndex = 0.002, tool_prior: typing.SupportsFloat | typing.SupportsIndex = 0.01, workspace: typing.Any = None, workspace_poses: typing.SupportsInt | typing.SupportsIndex = 400, seed: typing.SupportsInt | typing.SupportsIndex = 0, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> TouchPlan:
+    """
+    Choose poses to touch fixed points in, so that the arm found from them goes right everywhere.
+    
+    Poses drawn over all of the joints' range are brought onto each point by the least joint motion:
+    every branch of elbow and wrist, the tool in every direction. Of those that may be held the
+    criterion chooses, greedily and then by exchange (Fedorov 1972, Theory of optimal experiments; Cook,
+    Nachtsheim 1980, A comparison of algorithms for constructing exact D-optimal designs).
+    
+    Parameters
+    ----------
+    arm : Arm
+        Nominal, its tool told to a centimetre or so.
+    count : int
+        Touches, 2 or more, of all points together.
+    points : (k, 3) array, optional
+        Where the points stand, in the world [m], roughly. Chosen unless given: where the arm can reach
+        from many sides, apart from each other.
+    num_points : int
+        How many are chosen.
+    known_distances : sequence of (int, int)
+        Points 0 … k - 1 whose distance from each other will be measured. Touches alone cannot tell the
+        arm from a smaller one.
+    distance_std : float
+        Standard deviation of such a distance [m].
+    known_points : sequence of int
+        Points whose place in the world will be measured.
+    point_std : float
+        Standard deviation of such a place, per axis [m].
+    feasible : callable, optional
+        Which poses may be held: (N, n) array of joint values to (N,) array of bool. It is called a few
+        times with many rows.
+    floor : float, optional
+        Height in the world that no joint and no tip may go below [m].
+    criterion : {"worst_tip", "d_optimal", "o1"}
+        "worst_tip": the worst foretold deviation of the tip over the workspace, gauge removed, scale
+        included. "d_optimal": the determinant of the parameters' information. "o1": the observability
+        index of Borm and Menq (1989, Experimental study of observability of parameter errors in robot
+        calibration; 1991, Determination of optimal measurement configurations for robot calibration
+        based on observability measure).
+    candidates : int
+        Poses to choose from, for each point.
+    passes : int
+        At most so many rounds of exchange.
+    parametrization, nearly_parallel, noise, length_prior, angle_prior, tool_prior
+        As of `forecast_touches`.
+    workspace, workspace_poses
+        As of `forecast_touches`; poses of the workspace that are drawn must be feasible, too.
+    seed : int
+        Of what is drawn.
+    num_threads : int
+        0 for all. The same bytes for any number.
+    
+    Returns
+    -------
+    TouchPlan
+        ``.q`` (N, n), ``.point`` (N,), ``.points`` (k, 3), ``.forecast``, ``.value`` of the criterion,
+        ``.warnings``; ``.write("plan.csv")`` for the operator, ``.plot("plan.png")``; its text is a
+        paragraph in plain words.
+    
+    Raises
+    ------
+    ValueError
+        For `count` below 2, a point out of reach (it is named), points that nothing feasible touches,
+        a `feasible` that returns something else, options out of range.
+    
+    Examples
+    --------
+    >>> import bathyal
+    >>> arm = bathyal.arms.ur10e()
+    >>> plan = bathyal.plan_touches(arm, 24, num_points=2, known_distances=[(0, 1)], candidates=200)
+    >>> plan.q.shape, plan.points.shape
+    ((24, 6), (2, 3))
+    >>> bool(plan.worst_tip_std < 0.001)
+    True
+    """
 def read_pcd(path: os.PathLike | str | bytes, *, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> PointCloud:
     """
     The point cloud of a .pcd file: ascii, binary or binary_compressed.
@@ -1506,6 +2919,10 @@ def triangulate(cloud: typing.Any, *, max_edge: typing.SupportsFloat | typing.Su
 def triangulate_delaunay(points: typing.Any, *, max_edge: typing.SupportsFloat | typing.SupportsIndex | None = None, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> tuple[numpy.ndarray, dict]:
     """
     (T, 3) int32 rows of `points`, and a dict: max_edge [m], cut_triangles, merged_points.
+    """
+def verify_positions(predicted: typing.Any, positions: typing.Any, *, pairs: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex] = []) -> Verification:
+    """
+    The comparison behind `verify_arm`, of positions (N, 3) [m].
     """
 def write_xyz(path: os.PathLike | str | bytes, cloud: PointCloud, *, decimals: typing.SupportsInt | typing.SupportsIndex = -1, separator: str = ' ', preamble: str = '', header: bool = False, attributes: collections.abc.Sequence[str] = [], num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> None:
     """

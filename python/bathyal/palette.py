@@ -29,3 +29,16 @@ BOTTOM = "#8a7f72"
 def segment_colour(segment: int) -> str:
     """The colour of the stretch between target `segment` and the next one."""
     return SEGMENTS[int(segment) % len(SEGMENTS)]
+
+
+# An identification: the nominal arm, the one found, and what became of each parameter.
+BEFORE = "#e07b00"
+AFTER = "#1f6f9c"
+STATUSES = {
+    "identified": "#1f6f9c",
+    "gauge": "#8a8f98",
+    "prior": "#b06f00",
+    "not_identifiable": GAP,
+    "fixed": "#8a8f98",
+    "pruned": "#5a8f5a",
+}

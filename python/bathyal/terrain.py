@@ -3,14 +3,13 @@
 
 from __future__ import annotations
 
-import importlib
 import warnings
 from typing import Any
 
 from numpy.typing import ArrayLike
 
-from bathyal import _core
-from bathyal._core import Error, PointCloud, SheetReport, TriangleMesh
+from bathyal import _core, optional
+from bathyal._core import PointCloud, SheetReport, TriangleMesh
 from bathyal.errors import argument_error
 
 
@@ -87,20 +86,12 @@ def triangulate(
 
 
 def _triangulate_greedy(cloud: PointCloud | ArrayLike, **options: Any) -> TriangleMesh:
-    try:
-        _pcl = importlib.import_module("bathyal._pcl")
-    except ImportError as error:
-        raise Error(
-            'method="greedy" needs the extension bathyal._pcl, which the wheel leaves out: install '
-            "PCL (on Debian libpcl-dev) and build bathyal from its source with "
-            '-C cmake.define.BATHYAL_PCL=ON, or use method="delaunay" '
-            f"(the import said: {error})"
-        ) from error
+    pcl = optional.pcl('method="greedy"', 'method="delaunay"')
     if not isinstance(cloud, PointCloud):
         cloud = PointCloud(cloud)
     return TriangleMesh(
         cloud.points,
-        _pcl.triangulate_greedy(cloud.points, **options),
+        pcl.triangulate_greedy(cloud.points, **options),
         attributes=cloud.attributes,
         crs=cloud.crs,
         vertical_datum=cloud.vertical_datum,

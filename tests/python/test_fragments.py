@@ -2,9 +2,9 @@
 """What the README and the pages of the documentation tell a reader to type works as it stands.
 
 Each page is followed from top to bottom in a folder of its own: shell lines that begin with
-`bathyal` must end well, Python is executed, tables of aims are the file that the page names, and
-what is shown of the program's words must have been said. The pages on file formats are doctests
-(test_format_pages.py).
+`bathyal` must end well, Python is executed, tables of aims and of touches are the file that the
+page names, and what is shown of the program's words must have been said. The pages on file formats
+are doctests (test_format_pages.py).
 """
 
 from __future__ import annotations
@@ -23,6 +23,7 @@ CONSUMER = ROOT / "tests" / "cpp" / "consumer"
 # What a reader types that needs a machine of its own; `make test` and CI do it there.
 NOT_RUN_HERE = ("make ", "pip install ", "sudo apt-get install ", "cmake ")
 AIMS_HEADER = "px_m,py_m,pz_m,dx,dy,dz\n"
+TABLES = {AIMS_HEADER: "aims.csv", "point,q1_deg,": "touches.csv"}  # by how they begin
 
 
 def fragments(page: Path) -> list[tuple[str, str]]:
@@ -67,8 +68,9 @@ def follow(blocks: list[tuple[str, str]], folder: Path) -> None:
                     assert " ".join(words).startswith(NOT_RUN_HERE), words
         elif kind == "python":
             exec(compile(text, f"python of {folder.name}", "exec"), names)
-        elif kind == "text" and text.startswith(AIMS_HEADER):
-            kept = (folder / "aims.csv").read_text().splitlines()
+        elif kind == "text" and text.startswith(tuple(TABLES)):
+            name = next(name for header, name in TABLES.items() if text.startswith(header))
+            kept = (folder / name).read_text().splitlines()
             assert set(text.splitlines()) <= set(kept)
         elif kind == "text":
             assert text == said

@@ -56,8 +56,8 @@ struct Job {
 };
 
 /// Threads that wait for jobs; grown on demand to what was asked for, never shrunk, and never
-/// destroyed: they wait until the process ends. A job stays alive through its shared_ptr for as long
-/// as a late helper looks at it.
+/// destroyed: they wait until the process ends. A job stays alive through its shared_ptr for as
+/// long as a late helper looks at it.
 class Pool {
  public:
   void help(const std::shared_ptr<Job>& job, std::size_t helpers) {

@@ -47,13 +47,13 @@ class SharedArray {
   std::shared_ptr<const void> owner_;
 };
 
-using Points = SharedArray<double, 3>;             ///< (N, 3) positions or vectors
-using PointMatrix = Points::Matrix;                ///< the same, owned and writable
-using PointView = Points::View;                    ///< the same, read in place
-using Triangles = SharedArray<std::int32_t, 3>;    ///< (T, 3) vertex indices
+using Points = SharedArray<double, 3>;           ///< (N, 3) positions or vectors
+using PointMatrix = Points::Matrix;              ///< the same, owned and writable
+using PointView = Points::View;                  ///< the same, read in place
+using Triangles = SharedArray<std::int32_t, 3>;  ///< (T, 3) vertex indices
 using TriangleMatrix = Triangles::Matrix;
 using TriangleView = Triangles::View;
-using Values = SharedArray<double, 1>;             ///< (N,) one number a point
-using Indices = SharedArray<std::int32_t, 1>;      ///< (N,) indices, -1 where there is none
+using Values = SharedArray<double, 1>;         ///< (N,) one number a point
+using Indices = SharedArray<std::int32_t, 1>;  ///< (N,) indices, -1 where there is none
 
 }  // namespace bathyal

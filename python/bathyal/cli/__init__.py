@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The command line: bathyal plan · triangulate · info · survey."""
+"""The command line: bathyal plan · triangulate · info · survey · identify · touches."""
 
 from __future__ import annotations
 
@@ -9,10 +9,13 @@ from typing import Annotated
 import typer
 
 from bathyal.cli.groups import spread
+from bathyal.cli.identify import identify
 from bathyal.cli.info import info
 from bathyal.cli.plan import plan
 from bathyal.cli.survey import survey
 from bathyal.cli.talk import Commands
+from bathyal.cli.touches_example import example
+from bathyal.cli.touches_plan import plan as plan_of_touches
 from bathyal.cli.triangulate import triangulate
 
 _EXIT_CODES = (
@@ -28,8 +31,13 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     epilog=_EXIT_CODES,
 )
-for command in (plan, triangulate, info, survey):
+for command in (plan, triangulate, info, survey, identify):
     app.command(epilog=_EXIT_CODES)(spread(command))
+
+touches = typer.Typer(rich_markup_mode="rich", no_args_is_help=True)
+for verb in (example, plan_of_touches):
+    touches.command(epilog=_EXIT_CODES)(spread(verb))
+app.add_typer(touches, name="touches", help="Plans and tables of touches, for `bathyal identify`.")
 
 
 @app.callback(invoke_without_command=True)
@@ -40,13 +48,18 @@ def main(
         bool, typer.Option("--debug", help="Show where in the program an error came from.")
     ] = False,
 ) -> None:
-    """From soundings and camera axes to an oriented tool path along the bottom.
+    """From soundings and camera axes to an oriented tool path along the bottom, and from touches to
+    the arm that is to follow it.
 
     [bold]Try it:[/]
 
       bathyal survey survey.xyz --aims-out aims.csv
 
       bathyal plan survey.xyz --aims aims.csv --out plan
+
+      bathyal touches example touches.csv --arm ur10e
+
+      bathyal identify touches.csv --arm ur10e --known-distance left,right=350mm --out found
     """
     if show_version:
         typer.echo(f"bathyal {version('bathyal')}")

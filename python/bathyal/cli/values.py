@@ -16,6 +16,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from bathyal.tables import ANGLES, LENGTHS
+
 
 def engine_default(function: Callable[..., Any], name: str, *, degrees: bool = False) -> str:
     """The default of a keyword as the engine's signature says it, for a line of help."""
@@ -82,3 +84,45 @@ def length_or_none(text: str) -> float:
         return float(text)
     except ValueError:
         raise ValueError(f'expected a length in metres or "none", got {text!r}') from None
+
+
+def quantity(text: str) -> tuple[float, str]:
+    """A number with its unit, "50mm", "0,2 deg": in SI units, and "length" or "angle"."""
+    match = re.fullmatch(r"\s*([+-]?\d*[.,]?\d+(?:[eE][+-]?\d+)?)\s*(\D*?)\s*", text)
+    for kind, units in (("length", LENGTHS), ("angle", ANGLES)):
+        if match is not None and match[2].lower() in units:
+            return float(match[1].replace(",", ".")) * units[match[2].lower()], kind
+    raise ValueError(f"expected a number with its unit, such as 50mm or 0.1deg, got {text!r}")
+
+
+def length(text: str) -> float:
+    """A length with its unit, "50mm" [m]."""
+    value, kind = quantity(text)
+    if kind != "length":
+        raise ValueError(f"expected a length with its unit, such as 50mm, got {text!r}")
+    return value
+
+
+def angle(text: str) -> float:
+    """An angle with its unit, "0.1deg" [rad]."""
+    value, kind = quantity(text)
+    if kind != "angle":
+        raise ValueError(f"expected an angle with its unit, such as 0.1deg, got {text!r}")
+    return value
+
+
+def coordinates(text: str) -> tuple[float, float, float]:
+    """Three lengths with one unit behind the last, "500,200,100mm" [m]."""
+    *first, last = text.split(",")
+    unit = last.strip().lstrip("+-0123456789.eE ")
+    if len(first) != 2:
+        raise ValueError(f"expected three coordinates, such as 500,200,100mm, got {text!r}")
+    return length(f"{first[0]}{unit}"), length(f"{first[1]}{unit}"), length(last)
+
+
+def named(text: str) -> tuple[str, str]:
+    """The two sides of "left,right=50mm"."""
+    name, sign, value = text.rpartition("=")
+    if not sign or not name.strip() or not value.strip():
+        raise ValueError(f'expected a name, "=" and a value, got {text!r}')
+    return name.strip(), value.strip()

@@ -1,0 +1,140 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Identification of an arm beside SciPy's least_squares, which gets the same unknowns.
+
+The peer's residual is NumPy, vectorised over touches; it is given what bathyal must find by itself
+first: which parameters to hold. Costs are compared before any time is printed. A round times each
+in turn; figures are medians.
+"""
+
+import argparse
+import sys
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import scipy
+from numpy.typing import NDArray
+from scipy.optimize import least_squares
+
+import bathyal
+
+HERE = Path(__file__).parent
+sys.path.insert(0, str(HERE.parents[1] / "tests" / "python"))
+from identify_peer import Peer, built, touch  # noqa: E402
+
+Array = NDArray[Any]
+SERIES_A = "arms/ipa-ur10/Series_A/measurements_grid.csv"
+JOINTS = ["shoulder_pan", "shoulder_lift", "elbow", "wrist_1", "wrist_2", "wrist_3"]
+HELD = {"fixed": ["a_2"], "length_prior": 100.0, "noise": 1e-4}  # the scale, by one length
+
+
+def timed(call: Callable[[], object]) -> float:
+    start = time.perf_counter()
+    call()
+    return time.perf_counter() - start
+
+
+def touches_row(rounds: int) -> str:
+    arm = bathyal.arms.ur10e()
+    q, point = touch(built(arm, 1e-3, 1), 21, 2)
+    data = bathyal.Touches(q + 5e-5 * np.random.default_rng(3).normal(size=q.shape), point)
+    fit = bathyal.identify_arm(arm, data, **HELD)
+    peer = Peer(arm, fit, data.q, data.point)
+    free = [i for i, p in enumerate(fit.parameters) if p.status not in ("gauge", "fixed")]
+
+    def at(y: Array) -> Array:
+        x = peer.nominal.copy()
+        x[free] += 1e-3 * y
+        return x
+
+    def residuals(y: Array) -> Array:
+        return 1e3 * peer.residuals(at(y))
+
+    def jacobian(y: Array) -> Array:
+        return peer.jacobian(at(y))[:, free]
+
+    def scipys(**options: Any) -> Any:
+        return least_squares(residuals, np.zeros(len(free)), **options)
+
+    # As it comes SciPy stops within 1e-8 or so of the minimum: that is what is timed.
+    tight = {"xtol": 1e-13, "ftol": 1e-13, "gtol": 1e-13}
+    costs = [2e-6 * scipys(**tight).cost, 2e-6 * scipys(jac=jacobian, **tight).cost]
+    pairs = bathyal.identify_arm(arm, data, criterion="pairs", **HELD)
+    costs.append(float(np.sum(pairs.residuals**2)))
+    ours = float(np.sum(fit.residuals**2))
+    differ = max(abs(cost / ours - 1) for cost in costs)
+    if differ > 1e-8:
+        sys.exit(f"costs differ: {[f'{cost / ours - 1:.1e}' for cost in costs]}")
+    runs: list[Callable[[], object]] = [
+        lambda: bathyal.identify_arm(arm, data, num_threads=1, **HELD),
+        lambda: bathyal.identify_arm(arm, data, num_threads=1, criterion="pairs", **HELD),
+        lambda: bathyal.identify_arm(arm, data, num_threads=1),
+        scipys,
+        lambda: scipys(jac=jacobian),
+    ]
+    times = np.array([[timed(run) for run in runs] for _ in range(rounds)])
+    centroid, all_pairs, default, numeric, analytic = 1e3 * np.median(times, axis=0)
+    by_numeric, by_analytic = np.median(times[:, 3:] / times[:, :1], axis=0)
+    return (
+        "| touches × parameters | SciPy / ours | SciPy with derivatives / ours | ours [ms] "
+        "| ours, all pairs [ms] | ours, noise and size prior too [ms] | SciPy [ms] "
+        "| SciPy with derivatives [ms] | costs differ by |\n|---|---|---|---|---|---|---|---|---|\n"
+        f"| {len(data)} × {len(fit.parameters)} | {by_numeric:.0f} × | {by_analytic:.0f} × "
+        f"| {centroid:.2f} | {all_pairs:.2f} | {default:.2f} | {numeric:.0f} | {analytic:.0f} "
+        f"| {differ:.0e} |\n"
+    )
+
+
+def tracked_row(file: Path, rounds: int) -> str:
+    if not file.exists():
+        return f"\nTracked poses were left out: {file.name} is not there.\n"
+    data = bathyal.read_tracked(
+        file,
+        joints=[f"{name}_joint" for name in JOINTS],
+        unit="rad",
+        position=["measurement_x", "measurement_y", "measurement_z"],
+        position_unit="mm",
+        orientation=["measurement_rx", "measurement_ry", "measurement_rz"],
+        orientation_unit="deg",
+        euler="XYZ",
+    )
+    arm = bathyal.arms.ur10()
+    fits = [bathyal.identify_arm(arm, data, num_threads=threads) for threads in (1, 2)]
+    if not np.array_equal(fits[0].residuals, fits[1].residuals):
+        sys.exit("one thread and two differ")
+    times = np.median(
+        [
+            [timed(lambda n=n: bathyal.identify_arm(arm, data, num_threads=n)) for n in (1, 2)]
+            for _ in range(rounds)
+        ],
+        axis=0,
+    )
+    return (
+        "\n| tracked poses × parameters | 1 thread [s] | 2 threads [s] | rms [mm] |\n"
+        "|---|---|---|---|\n"
+        f"| {len(data)} × {len(fits[0].parameters)} | {times[0]:.2f} | {times[1]:.2f} "
+        f"| {1e3 * fits[0].rms_before:.3f} to {1e3 * fits[0].rms_after:.3f} |\n"
+    )
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--rounds", type=int, default=15)
+    parser.add_argument("--data", type=Path, default=HERE.parents[2] / "shared" / "data")
+    options = parser.parse_args()
+    print("## Identification beside SciPy\n")
+    print(
+        "The whole of `identify_arm`, one thread: start, what can be told, search, covariance, "
+        "report; SciPy's `least_squares` as it comes, on 20 unknowns that it was told, with its "
+        "own differences and with exact derivatives. The scale is held, so that both minimise the "
+        "same.\n"
+    )
+    print(touches_row(options.rounds))
+    print(tracked_row(options.data / SERIES_A, max(3, options.rounds // 3)))
+    print(f"Medians of interleaved rounds. SciPy {scipy.__version__}, numpy {np.__version__}.")
+
+
+if __name__ == "__main__":
+    main()

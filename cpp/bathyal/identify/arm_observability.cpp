@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bathyal/identify/arm_observability.hpp"
+
+#include <numeric>
+
+namespace bathyal {
+namespace {
+
+constexpr double kEqualNoise = 1e-3;     ///< [m] and [rad]: what a singular value of 1 stands for
+constexpr double kHeldDirection = 1e-3;  ///< in units of the columns' scale
+
+/// Rows of `all` at the free columns.
+Eigen::MatrixXd rows_of(const Eigen::MatrixXd& all, const std::vector<int>& free) {
+  Eigen::MatrixXd rows(static_cast<Index>(free.size()), all.cols());
+  for (Index i = 0; i < rows.rows(); ++i) rows.row(i) = all.row(free[i]);
+  return rows;
+}
+
+/// The other way round; columns that are not free take no part.
+Eigen::MatrixXd among_all(const Eigen::MatrixXd& rows, const std::vector<int>& free, Index count) {
+  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(count, rows.cols());
+  for (Index i = 0; i < rows.rows(); ++i) all.row(free[i]) = rows.row(i);
+  return all;
+}
+
+/// An orthonormal basis of all that is orthogonal to the independent columns of `directions`.
+Eigen::MatrixXd complement(const Eigen::MatrixXd& directions) {
+  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(directions);
+  return Eigen::MatrixXd(qr.householderQ()).rightCols(directions.rows() - directions.cols());
+}
+
+/// The residual by which a touch misses its point or its plane.
+Vec3 miss_of(const Measurement& m, Index row, const Vec3& tip, const Eigen::Matrix3Xd& centers,
+             const std::vector<PlaneGuess>& planes) {
+  if (m.point[row] >= 0) return centers.col(m.point[row]) - tip;
+  const PlaneGuess& plane = planes[m.plane[row]];
+  return (plane.offset - plane.normal.dot(tip - plane.center)) * plane.normal;
+}
+
+}  // namespace
+
+Observability observe(const ArmSystem& system, const Eigen::VectorXd& x) {
+  const auto count = static_cast<Index>(system.arm_columns().columns.size());
+  std::vector<int> all(static_cast<std::size_t>(count));
+  std::iota(all.begin(), all.end(), 0);
+  ArmSystem data = system;
+  data.set_joints(exact_joints(system, x));
+  data.set_criterion(Criterion::kCentroid, false);
+  data.set_free(all);
+  data.set_equal_noise(kEqualNoise);
+  data.set_use_priors(false);
+  data.set_linear_rows({});
+  const Eigen::MatrixXd jacobian = triangle_of(data.jacobian(x), system.num_threads());
+
+  const std::vector<int>& free = system.free();
+  Eigen::MatrixXd seen(jacobian.rows(), system.columns());
+  for (Index i = 0; i < seen.cols(); ++i) seen.col(i) = jacobian.col(free[i]);
+  const Eigen::MatrixXd unseen = reveal_rank(seen).unseen();
+
+  // Of what the data do not see, priors hold what moves any of them.
+  const Eigen::MatrixXd told = system.linear_jacobian().rowwise().normalized() * unseen;
+  const Eigen::MatrixXd blind = unseen * reveal_rank(told).unseen();
+  return {reveal_rank(jacobian), among_all(unseen, free, count), among_all(blind, free, count)};
+}
+
+std::vector<LinearRow> rows_to_hold(const Eigen::MatrixXd& blind,
+                                    const std::vector<Column>& columns) {
+  std::vector<LinearRow> rows;
+  for (Index k = 0; k < blind.cols(); ++k) {
+    LinearRow row{blind.col(k), kHeldDirection};
+    for (Index i = 0; i < blind.rows(); ++i) row.coefficients[i] /= columns[i].scale;
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+Eigen::MatrixXd free_covariance(const ArmSystem& system, const Eigen::VectorXd& x,
+                                const Eigen::MatrixXd& blind) {
+  ArmSystem exact = system;
+  exact.set_joints(exact_joints(system, x));
+  // Pair residuals are correlated; those about a centroid lose one touch to it, and no more.
+  exact.set_criterion(Criterion::kCentroid, false);
+  exact.set_linear_rows({});
+  const Eigen::MatrixXd jacobian = triangle_of(exact.jacobian(x), system.num_threads());
+  if (blind.cols() == 0) return inverse_square(jacobian);
+  const Eigen::MatrixXd left = complement(rows_of(blind, system.free()));
+  return left * inverse_square(jacobian * left) * left.transpose();
+}
+
+RowMatrix exact_joints(const ArmSystem& system, const Eigen::VectorXd& x) {
+  constexpr int kMostSteps = 10;
+  constexpr double kFarTurn = 0.5;  // a pose that must move so much is left where it is
+  constexpr double kOnPoint = 1e-14;
+  const Measurement& m = system.measurement();
+  RowMatrix q = m.q;
+  if (m.tracked) return q;
+  const Eigen::Matrix3Xd centers = system.centroids(x);
+  const TipWalk walk(system.arm_columns(), x, {});
+  RowFrames frames;
+  Eigen::VectorXd joints;
+  Vec3 tip;
+  for (Index i = 0; i < q.rows(); ++i) {
+    joints = q.row(i).transpose();
+    for (int step = 0; step < kMostSteps; ++step) {
+      const Eigen::Matrix3Xd jacobian =
+          walk.joint_jacobian(joints.data(), m.tool[i], m.station[i], frames, tip);
+      const Vec3 miss = miss_of(m, i, tip, centers, walk.state().planes);
+      if (miss.norm() < kOnPoint) break;
+      Eigen::Matrix3d square = jacobian * jacobian.transpose();
+      square.diagonal().array() += 1e-12 * square.trace();
+      joints += jacobian.transpose() * square.ldlt().solve(miss);
+    }
+    if ((joints - m.q.row(i).transpose()).cwiseAbs().maxCoeff() < kFarTurn) {
+      q.row(i) = joints.transpose();
+    }
+  }
+  return q;
+}
+
+}  // namespace bathyal

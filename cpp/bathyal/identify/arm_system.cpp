@@ -1,0 +1,400 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bathyal/identify/arm_system.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+#include "bathyal/base/parallel.hpp"
+#include "bathyal/identify/rotation_vector.hpp"
+
+namespace bathyal {
+namespace {
+
+using Block = Eigen::Map<Eigen::MatrixXd, 0, Eigen::OuterStride<>>;
+
+double plane_distance(const PlaneGuess& plane, const Vec3& point) {
+  return plane.normal.dot(point - plane.center) - plane.offset;
+}
+
+}  // namespace
+
+ArmSystem::ArmSystem(const ArmColumns& columns, const Measurement& measurement, Criterion criterion,
+                     bool pair_weights, int num_threads)
+    : columns_(columns),
+      m_(measurement),
+      criterion_(criterion),
+      pair_weights_(pair_weights),
+      num_threads_(num_threads),
+      q_(measurement.q),
+      free_(columns.columns.size()),
+      trust_(static_cast<std::size_t>(measurement.rows()), 1.0) {
+  std::iota(free_.begin(), free_.end(), 0);
+  for (int i = 0; i < static_cast<int>(m_.rows()); ++i) {
+    if (m_.plane[i] >= 0) plane_rows_.push_back(i);
+  }
+  set_criterion(criterion, pair_weights);
+  set_noise(noise_, columns.nominal());
+}
+
+void ArmSystem::set_criterion(Criterion criterion, bool pair_weights) {
+  criterion_ = criterion;
+  pair_weights_ = pair_weights;
+  pairs_.clear();
+  if (criterion_ == Criterion::kCentroid) return;
+  const int n = static_cast<int>(m_.rows());
+  for (int j = 0; j < n; ++j) {
+    for (int s = j + 1; s < n; ++s) {
+      if (m_.point[j] >= 0 && m_.point[j] == m_.point[s]) pairs_.emplace_back(j, s);
+    }
+  }
+}
+
+Index ArmSystem::position_rows() const {
+  if (criterion_ == Criterion::kCentroid) return 3 * m_.rows();
+  return 3 * static_cast<Index>(pairs_.size()) + static_cast<Index>(plane_rows_.size());
+}
+
+Index ArmSystem::known_rows() const {
+  return static_cast<Index>(m_.distances.size() + 3 * m_.known_points.size());
+}
+
+Index ArmSystem::rows() const {
+  Index priors = 0;
+  for (const int column : free_) {
+    if (use_priors_ && columns_.columns[column].prior_std != Column::kNoPrior) ++priors;
+  }
+  return data_rows() + priors + static_cast<Index>(linear_.size());
+}
+
+Eigen::VectorXd ArmSystem::values(const Eigen::VectorXd& y) const {
+  Eigen::VectorXd x = columns_.nominal();
+  for (std::size_t i = 0; i < free_.size(); ++i) {
+    x[free_[i]] += columns_.columns[free_[i]].scale * y[static_cast<Index>(i)];
+  }
+  return x;
+}
+
+Eigen::VectorXd ArmSystem::scaled(const Eigen::VectorXd& x) const {
+  Eigen::VectorXd y(columns());
+  for (std::size_t i = 0; i < free_.size(); ++i) {
+    const Column& column = columns_.columns[free_[i]];
+    y[static_cast<Index>(i)] = (x[free_[i]] - column.nominal) / column.scale;
+  }
+  return y;
+}
+
+Eigen::Matrix3Xd ArmSystem::tips(const Eigen::VectorXd& x) const {
+  Eigen::Matrix3Xd tips(3, m_.rows());
+  fill_tips(TipWalk(columns_, x, {}), {.tips = tips.data()});
+  return tips;
+}
+
+Eigen::Matrix3Xd ArmSystem::centroids(const Eigen::VectorXd& x) const {
+  return centroids_of(tips(x));
+}
+
+Eigen::Matrix3Xd ArmSystem::centroids_of(const Eigen::Ref<const Eigen::Matrix3Xd>& tips) const {
+  Eigen::Matrix3Xd sum = Eigen::Matrix3Xd::Zero(3, m_.points());
+  Eigen::VectorXd total = Eigen::VectorXd::Zero(m_.points());
+  for (Index i = 0; i < m_.rows(); ++i) {
+    if (m_.point[i] < 0) continue;
+    sum.col(m_.point[i]) += weight(i) * tips.col(i);
+    total[m_.point[i]] += weight(i);
+  }
+  for (Index p = 0; p < sum.cols(); ++p) sum.col(p) /= total[p];
+  return sum;
+}
+
+Eigen::Matrix3Xd ArmSystem::deviations(const Eigen::VectorXd& x) const {
+  Eigen::Matrix3Xd out = tips(x);
+  if (m_.tracked) return out - m_.position;
+  const Eigen::Matrix3Xd centers = centroids_of(out);
+  const ArmState state = state_at(columns_, x);
+  for (Index i = 0; i < m_.rows(); ++i) {
+    if (m_.point[i] >= 0) {
+      out.col(i) -= centers.col(m_.point[i]);
+    } else {
+      const PlaneGuess& plane = state.planes[m_.plane[i]];
+      out.col(i) = plane_distance(plane, out.col(i)) * plane.normal;
+    }
+  }
+  return out;
+}
+
+Eigen::Matrix3Xd ArmSystem::turns(const Eigen::VectorXd& x) const {
+  Eigen::Matrix3Xd positions(3, m_.rows());
+  Eigen::Matrix3Xd out(3, m_.has_rotation() ? m_.rows() : 0);
+  if (m_.has_rotation()) {
+    fill_tips(TipWalk(columns_, x, {}), {.tips = positions.data(), .rotations = out.data()});
+  }
+  return out;
+}
+
+/// Tips (3, N) as they are, and rotation residuals; with derivatives by the free columns.
+void ArmSystem::fill_tips(const TipWalk& walk, const TipRows& out) const {
+  parallel_for(static_cast<std::size_t>(m_.rows()), kPosesPerChunk, num_threads_,
+               [&](std::size_t begin, std::size_t end) {
+                 const auto first = static_cast<Index>(begin);
+                 const auto from = [first](double* all) { return all ? all + 3 * first : all; };
+                 fill_tips(walk, first, static_cast<Index>(end),
+                           {from(out.tips), from(out.jacobian), from(out.rotations),
+                            from(out.rotation_jacobian), out.stride});
+               });
+}
+
+void ArmSystem::fill_tips(const TipWalk& walk, Index begin, Index end, const TipRows& out) const {
+  RowFrames frames;
+  for (Index i = begin; i < end; ++i) {
+    const Index row = 3 * (i - begin);
+    double* shift = out.jacobian == nullptr ? nullptr : out.jacobian + row;
+    double* turn = out.rotation_jacobian == nullptr ? nullptr : out.rotation_jacobian + row;
+    const Pose pose =
+        walk.tip(q_.row(i).data(), m_.tool[i], m_.station[i], frames, shift, turn, out.stride);
+    Eigen::Map<Vec3>(out.tips + row) = pose.translation();
+    if (out.rotations == nullptr) continue;
+    const Vec3 error = vector_of(pose.linear() * m_.rotation[i].transpose());
+    Eigen::Map<Vec3>(out.rotations + row) = error;
+    if (turn == nullptr) continue;
+    const Eigen::Matrix3d error_by_turn = left_jacobian(error).inverse();
+    for (Index c = 0; c < columns(); ++c) {
+      Eigen::Map<Vec3> column(turn + c * out.stride);
+      column = error_by_turn * Vec3(column);
+    }
+  }
+}
+
+/// What one evaluation fills. The Jacobian is in the columns' own units until the end.
+struct ArmSystem::Sheet {
+  Eigen::Map<Eigen::VectorXd> residuals;
+  Block jacobian;  ///< all rows; no rows when derivatives are not wanted
+  Eigen::Map<Eigen::Matrix3Xd> tips;
+  Block tip_jacobian;               ///< (3 N, columns)
+  Eigen::Matrix3Xd centers;         ///< of the touched points
+  Eigen::MatrixXd center_jacobian;  ///< (3 n, columns)
+  std::vector<double> total;        ///< weight of each point
+  bool derive;
+};
+
+void ArmSystem::evaluate(const double* y, double* residuals, double* jacobian) const {
+  const Eigen::VectorXd x = values(Eigen::Map<const Eigen::VectorXd>(y, columns()));
+  const TipWalk walk(columns_, x, free_);
+  const Index n = m_.rows();
+  const Index count = rows();
+  const bool derive = jacobian != nullptr;
+
+  // Tips are written where the centroid form wants its rows; pairs take them from scratch arrays.
+  const bool in_place = criterion_ == Criterion::kCentroid;
+  Eigen::VectorXd tip_scratch(in_place ? 0 : 3 * n);
+  Eigen::MatrixXd jacobian_scratch(in_place || !derive ? 0 : 3 * n, columns());
+  TipRows out{in_place ? residuals : tip_scratch.data(),
+              in_place || !derive ? jacobian : jacobian_scratch.data(), nullptr, nullptr,
+              in_place ? count : 3 * n};
+  if (m_.has_rotation()) {
+    out.rotations = residuals + 3 * n;
+    out.rotation_jacobian = derive ? jacobian + 3 * n : nullptr;
+  }
+  fill_tips(walk, out);
+
+  Sheet sheet{{residuals, count},
+              {jacobian, derive ? count : 0, columns(), Eigen::OuterStride<>(count)},
+              {out.tips, 3, n},
+              {out.jacobian, derive ? 3 * n : 0, columns(), Eigen::OuterStride<>(out.stride)},
+              {},
+              {},
+              {},
+              derive};
+  if (m_.tracked) {
+    compare_tracked(0, n, out);
+  } else {
+    find_centers(sheet);
+    if (in_place) compare_with_centers(sheet);
+    if (!in_place) compare_pairs(sheet);
+    compare_planes(walk, sheet);
+    compare_known(sheet);
+  }
+  const Eigen::MatrixXd linear = linear_rows_at(y);
+  sheet.residuals.tail(linear.rows()) = linear.rightCols(1);
+  if (!derive) return;
+  sheet.jacobian.bottomRows(linear.rows()) = linear.leftCols(columns());
+  const Eigen::VectorXd scale = scales();
+  for (Index c = 0; c < columns(); ++c) sheet.jacobian.col(c) *= scale[c];
+}
+
+Eigen::MatrixXd ArmSystem::jacobian(const Eigen::VectorXd& x) const {
+  Eigen::VectorXd residuals(rows());
+  Eigen::MatrixXd jacobian(rows(), columns());
+  evaluate(scaled(x).data(), residuals.data(), jacobian.data());
+  return jacobian;
+}
+
+void ArmSystem::find_centers(Sheet& sheet) const {
+  sheet.centers = centroids_of(sheet.tips);
+  sheet.total.assign(static_cast<std::size_t>(m_.points()), 0.0);
+  sheet.center_jacobian.setZero(sheet.derive ? 3 * m_.points() : 0, columns());
+  for (Index i = 0; i < m_.rows(); ++i) {
+    if (m_.point[i] < 0) continue;
+    sheet.total[m_.point[i]] += weight(i);
+    if (sheet.derive) {
+      sheet.center_jacobian.middleRows(3 * m_.point[i], 3) +=
+          weight(i) * sheet.tip_jacobian.middleRows(3 * i, 3);
+    }
+  }
+  for (int p = 0; sheet.derive && p < m_.points(); ++p) {
+    sheet.center_jacobian.middleRows(3 * p, 3) /= sheet.total[p];
+  }
+}
+
+/// Sum over pairs = total · sum about the centroid: with `pair_weights_` both forms cost the same.
+void ArmSystem::compare_with_centers(Sheet& sheet) const {
+  for (Index i = 0; i < m_.rows(); ++i) {
+    const int p = m_.point[i];
+    if (p < 0) continue;
+    const double scale =
+        std::sqrt(weight(i) * (pair_weights_ ? sheet.total[p] : 1.0)) / noise_.position;
+    sheet.tips.col(i) = scale * (sheet.tips.col(i) - sheet.centers.col(p));
+    if (sheet.derive) {
+      sheet.tip_jacobian.middleRows(3 * i, 3) =
+          scale *
+          (sheet.tip_jacobian.middleRows(3 * i, 3) - sheet.center_jacobian.middleRows(3 * p, 3));
+    }
+  }
+}
+
+void ArmSystem::compare_pairs(Sheet& sheet) const {
+  Index row = 0;
+  for (const auto& [j, s] : pairs_) {
+    const double scale = std::sqrt(weight(j) * weight(s)) / noise_.position;
+    sheet.residuals.segment<3>(row) = scale * (sheet.tips.col(j) - sheet.tips.col(s));  // eq 9
+    if (sheet.derive) {
+      sheet.jacobian.middleRows(row, 3) = scale * (sheet.tip_jacobian.middleRows(3 * j, 3) -
+                                                   sheet.tip_jacobian.middleRows(3 * s, 3));
+    }
+    row += 3;
+  }
+}
+
+/// One residual a touch. In the centroid form it takes the first of the touch's three rows, and the
+/// others hold nothing.
+void ArmSystem::compare_planes(const TipWalk& walk, Sheet& sheet) const {
+  Index row = 3 * static_cast<Index>(pairs_.size());
+  for (const int i : plane_rows_) {
+    const int index = m_.plane[i];
+    const PlaneGuess& plane = walk.state().planes[index];
+    const double scale = std::sqrt(weight(i)) / noise_.position;
+    const Vec3 tip = sheet.tips.col(i);
+    Eigen::RowVectorXd derivative(sheet.derive ? columns() : 0);
+    for (Index c = 0; c < derivative.size(); ++c) {
+      derivative[c] = plane.normal.dot(Vec3(sheet.tip_jacobian.col(c).segment<3>(3 * i)));
+      const Place& place = columns_.places[free_[c]];
+      if (place.index != index) continue;
+      if (place.part == Part::kPlaneShift) derivative[c] -= 1.0;
+      if (place.part == Part::kPlaneTurn) {
+        derivative[c] += walk.plane_turn(static_cast<std::size_t>(c))
+                             .cross(plane.normal)
+                             .dot(tip - plane.center);
+      }
+    }
+    const bool in_place = criterion_ == Criterion::kCentroid;
+    const Index place = in_place ? 3 * i : row++;
+    if (in_place) {
+      sheet.residuals.segment<3>(place).setZero();
+      if (sheet.derive) sheet.jacobian.middleRows(place, 3).setZero();
+    }
+    sheet.residuals[place] = scale * plane_distance(plane, tip);
+    if (sheet.derive) sheet.jacobian.row(place) = scale * derivative;
+  }
+}
+
+/// Residuals of the known distances and points, and the derivative of each by the centroids.
+void ArmSystem::known_residuals(const Eigen::Matrix3Xd& centers, Eigen::VectorXd& residuals,
+                                Eigen::MatrixXd& by_center) const {
+  residuals.resize(known_rows());
+  by_center.setZero(known_rows(), 3 * m_.points());
+  Index row = 0;
+  for (const KnownDistance& known : m_.distances) {
+    const Vec3 apart = centers.col(known.second) - centers.col(known.first);
+    const double length = apart.norm();
+    // Coinciding centroids have no direction; any will do to part them.
+    const Vec3 unit = length > 0.0 ? Vec3(apart / length) : Vec3(Vec3::UnitX());
+    residuals[row] = length - known.distance;
+    by_center.row(row).segment<3>(3 * known.second) = unit.transpose();
+    by_center.row(row).segment<3>(3 * known.first) = -unit.transpose();
+    ++row;
+  }
+  for (const KnownPoint& known : m_.known_points) {
+    residuals.segment<3>(row) = centers.col(known.label) - known.position;
+    by_center.block<3, 3>(row, 3 * known.label).setIdentity();
+    row += 3;
+  }
+}
+
+void ArmSystem::compare_known(Sheet& sheet) const {
+  if (known_rows() == 0) return;
+  Eigen::VectorXd residuals;
+  Eigen::MatrixXd by_center;
+  known_residuals(sheet.centers, residuals, by_center);
+  sheet.residuals.segment(position_rows(), known_rows()) = whitening_ * residuals;
+  if (sheet.derive) {
+    sheet.jacobian.middleRows(position_rows(), known_rows()) =
+        whitening_ * (by_center * sheet.center_jacobian);
+  }
+}
+
+Eigen::VectorXd ArmSystem::scales() const {
+  Eigen::VectorXd out(columns());
+  for (Index c = 0; c < columns(); ++c) out[c] = columns_.columns[free_[c]].scale;
+  return out;
+}
+
+Eigen::MatrixXd ArmSystem::linear_jacobian() const {
+  const Eigen::VectorXd start = Eigen::VectorXd::Zero(columns());
+  return linear_rows_at(start.data()).leftCols(columns()) * scales().asDiagonal();
+}
+
+/// [J r] of priors and linear rows; J in the columns' own units.
+Eigen::MatrixXd ArmSystem::linear_rows_at(const double* y) const {
+  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(rows() - data_rows(), columns() + 1);
+  Index row = 0;
+  for (Index c = 0; use_priors_ && c < columns(); ++c) {
+    const Column& column = columns_.columns[free_[c]];
+    if (column.prior_std == Column::kNoPrior) continue;
+    out(row, c) = 1.0 / column.prior_std;
+    out(row, columns()) = column.scale * y[c] / column.prior_std;
+    ++row;
+  }
+  for (const LinearRow& linear : linear_) {
+    for (Index c = 0; c < columns(); ++c) {
+      const double factor = linear.coefficients[free_[c]] / linear.std;
+      out(row, c) = factor;
+      out(row, columns()) += factor * columns_.columns[free_[c]].scale * y[c];
+    }
+    ++row;
+  }
+  return out;
+}
+
+void ArmSystem::set_noise(const Noise& noise, const Eigen::VectorXd& x) {
+  noise_ = noise;
+  if (known_rows() == 0) return;
+  Eigen::VectorXd residuals;
+  Eigen::MatrixXd by_center;
+  known_residuals(centroids(x), residuals, by_center);
+  Eigen::VectorXd variance = Eigen::VectorXd::Zero(3 * m_.points());
+  for (Index i = 0; i < m_.rows(); ++i) {
+    if (m_.point[i] >= 0) variance.segment<3>(3 * m_.point[i]).array() += weight(i);
+  }
+  variance = noise_.position * noise_.position * variance.cwiseInverse();
+  Eigen::MatrixXd covariance = by_center * variance.asDiagonal() * by_center.transpose();
+  const auto distances = static_cast<Index>(m_.distances.size());
+  covariance.diagonal().head(distances).array() += m_.distance_std * m_.distance_std;
+  covariance.diagonal().tail(known_rows() - distances).array() += m_.point_std * m_.point_std;
+  const Eigen::LLT<Eigen::MatrixXd> root(covariance);
+  whitening_ = root.matrixL().solve(Eigen::MatrixXd::Identity(known_rows(), known_rows()));
+}
+
+void ArmSystem::set_equal_noise(double unit) {
+  noise_ = {unit, unit};
+  whitening_ = Eigen::MatrixXd::Identity(known_rows(), known_rows()) / unit;
+}
+
+}  // namespace bathyal

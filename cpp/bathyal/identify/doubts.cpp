@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bathyal/identify/doubts.hpp"
+
+namespace bathyal {
+
+std::vector<std::string> find_doubts(const Case& seen) {
+  std::vector<std::string> warnings;
+  doubt_fit(seen, warnings);
+  doubt_data(seen, warnings);
+  return warnings;
+}
+
+}  // namespace bathyal

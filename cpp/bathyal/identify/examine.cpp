@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bathyal/identify/examine.hpp"
+
+#include "bathyal/identify/doubts.hpp"
+#include "bathyal/identify/outliers.hpp"
+#include "bathyal/identify/structure.hpp"
+
+namespace bathyal {
+
+void examine(const Measurement& measurement, const ArmSystem& system, const Arm& nominal,
+             ArmFit& fit) {
+  const OutlierSearch search = find_outliers(system, fit.values);
+  const Structure structure =
+      search.hopeless ? Structure{} : find_structure(system, search.x, search.trust);
+  fit.outliers = search.outliers;
+  fit.structure_p = structure.p;
+  fit.warnings = find_doubts({measurement, system, nominal, fit, structure, search});
+}
+
+}  // namespace bathyal

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bathyal/identify/identify_arm.hpp"
+
+#include "bathyal/base/check.hpp"
+#include "bathyal/identify/arm_report.hpp"
+#include "bathyal/identify/examine.hpp"
+
+namespace bathyal {
+namespace {
+
+ArmFit identify(const Arm& arm, const Measurement& measurement, const IdentifyOptions& options) {
+  ArmProblem problem(arm, measurement, options);
+  // What the data see is asked where the search starts: a direction that is dark there is held, for
+  // the little light that it gets elsewhere is not to be trusted (plain DH beside parallel axes
+  // runs off along such directions).
+  Observability seen = observe(*problem.system, problem.start);
+  if (problem.drop_size_prior(seen.unseen)) seen = observe(*problem.system, problem.start);
+  const SearchResult found = search(problem, seen);
+  ArmFit fit = report(problem, seen, found);
+  examine(measurement, *problem.system, arm, fit);
+  return fit;
+}
+
+}  // namespace
+
+void IdentifyOptions::check() const {
+  check_range("nearly_parallel", nearly_parallel, 0.0, 0.5);
+  LeastSquaresOptions{.max_iterations = max_iterations}.check();
+  if (length_prior) check_positive("length_prior", *length_prior);
+  if (angle_prior) check_positive("angle_prior", *angle_prior);
+  for (const auto& [name, std] : priors) check_positive("priors " + name, std);
+  check_positive("size_prior", size_prior);
+  if (noise) check_positive("noise", *noise);
+  if (rotation_noise) check_positive("rotation_noise", *rotation_noise);
+  if (loss_width) check_positive("loss_width", *loss_width);
+  if (prune_sigma) check_positive("prune_sigma", *prune_sigma);
+}
+
+ArmFit identify_arm(const Arm& arm, const Touches& touches, const IdentifyOptions& options) {
+  options.check();
+  return identify(arm, to_measurement(arm, touches), options);
+}
+
+ArmFit identify_arm(const Arm& arm, const Tracked& tracked, const IdentifyOptions& options) {
+  options.check();
+  return identify(arm, to_measurement(arm, tracked), options);
+}
+
+}  // namespace bathyal

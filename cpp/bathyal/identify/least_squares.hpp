@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Dense>
+#include <vector>
+
+namespace bathyal {
+
+/// Residuals and their derivatives. Columns are in units of their own scale and residuals in units
+/// of their noise, so that 1 means the same everywhere.
+class ResidualModel {
+ public:
+  virtual ~ResidualModel() = default;
+  virtual Eigen::Index rows() const = 0;
+  virtual Eigen::Index columns() const = 0;
+
+  /// Fills `residuals` (rows) and, unless it is null, `jacobian` (rows × columns, column by
+  /// column).
+  virtual void evaluate(const double* y, double* residuals, double* jacobian) const = 0;
+
+  /// [J r]ᵀ[J r], (columns + 1, columns + 1): enough for a step, not for a rank. By default from
+  /// `evaluate`; models of many rows need not have them all in memory at once.
+  virtual Eigen::MatrixXd square(const double* y) const;
+
+  /// Sum of squared residuals.
+  virtual double cost(const double* y) const;
+};
+
+enum class Solver {
+  kLevenbergMarquardt,  ///< Ceres' TinySolver (Madsen, Nielsen, Tingleff 2004)
+  kPaper,               ///< Yukhimets, Gubankov 2023, eq 17
+};
+
+struct LeastSquaresOptions {
+  Solver solver = Solver::kLevenbergMarquardt;
+  int max_iterations = 100;    ///< 1 or more
+  double damping = 1e-8;       ///< the first one, relative (paper: absolute), above 0
+  double factor = 0.1;         ///< eta of eq 17, in (0, 1)
+  double cost_change = 1e-12;  ///< stops when the mean square changes by less, 0 or more
+
+  void check() const;
+};
+
+struct LeastSquaresResult {
+  Eigen::VectorXd y;
+  std::vector<double> history;  ///< sum of squares at the start and after each accepted step
+  bool converged = false;       ///< false: max_iterations were not enough
+};
+
+/// The nearest minimum of the sum of squared residuals, from `start`.
+///
+/// Steps are found from JᵀJ, as TinySolver and the paper do; the model's rows are seen only through
+/// `square` and `cost`. Directions that no residual feels do no harm: both ways are damped, and
+/// stay put along them. For eq 17 the printed rule is mended: the damping falls after success and
+/// grows after failure, and the stop test takes the absolute value of the change.
+LeastSquaresResult solve_least_squares(const ResidualModel& model, const Eigen::VectorXd& start,
+                                       const LeastSquaresOptions& options = {});
+
+}  // namespace bathyal

@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bathyal/identify/structure.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "bathyal/identify/f_distribution.hpp"
+
+namespace bathyal {
+namespace {
+
+constexpr Index kMostPoses = 2000;
+constexpr Index kFunctions = 2;           ///< of one joint
+constexpr Index kMoves = 3 * kFunctions;  ///< each along three axes
+constexpr double kBeside = 1e-3;          ///< what is left of a move once the arm took its part
+constexpr double kWorthAsking = 0.01;     ///< which joint it is
+constexpr double kLeastFreedom = 5.0;     ///< left for the noise
+
+/// What follows joint j alone, at each of its values.
+class JointFunctions {
+ public:
+  JointFunctions(const Arm& arm, const RowMatrix& q)
+      : low_(q.colwise().minCoeff()),
+        high_(q.colwise().maxCoeff()),
+        slides_(static_cast<std::size_t>(arm.size()), false) {
+    for (const Joint& joint : arm.joints()) {
+      if (joint.type == JointType::kPrismatic) slides_[joint.coordinate] = true;
+    }
+  }
+
+  std::array<double, kFunctions> operator()(Index joint, double q) const {
+    if (!slides_[joint]) return {std::cos(q), std::sin(q)};
+    const double range = high_[joint] - low_[joint];
+    const double u = range > 0.0 ? 2.0 * (q - low_[joint]) / range - 1.0 : 0.0;
+    return {u, 1.5 * u * u - 0.5};
+  }
+
+ private:
+  Eigen::RowVectorXd low_;
+  Eigen::RowVectorXd high_;
+  std::vector<bool> slides_;
+};
+
+/// Takes from each row of a touched point what the point's centre takes: the weighted mean.
+void center(const Measurement& m, const std::vector<double>& trust, Eigen::MatrixXd& moves) {
+  std::vector<double> total(static_cast<std::size_t>(m.points()), 0.0);
+  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(3 * m.points(), moves.cols());
+  for (Index i = 0; i < m.rows(); ++i) {
+    if (m.point[i] < 0) continue;
+    total[m.point[i]] += m.weights[i] * trust[i];
+    sum.middleRows(3 * m.point[i], 3) += m.weights[i] * trust[i] * moves.middleRows(3 * i, 3);
+  }
+  for (Index i = 0; i < m.rows(); ++i) {
+    if (m.point[i] < 0) continue;
+    moves.middleRows(3 * i, 3) -= sum.middleRows(3 * m.point[i], 3) / total[m.point[i]];
+  }
+}
+
+/// (3 N, moves) what errors that follow the joints do to the residuals, as these are weighed.
+Eigen::MatrixXd joint_moves(const ArmSystem& system, const Eigen::VectorXd& x) {
+  const Measurement& m = system.measurement();
+  const ArmState state = state_at(system.arm_columns(), x);
+  const JointFunctions functions(state.arm, m.q);
+  Eigen::MatrixXd moves(3 * m.rows(), kMoves * m.q.cols());
+  for (Index i = 0; i < m.rows(); ++i) {
+    const Eigen::Matrix3d axes = state.bases[m.station[i]].linear();
+    for (Index j = 0; j < m.q.cols(); ++j) {
+      const auto values = functions(j, m.q(i, j));
+      for (Index f = 0; f < kFunctions; ++f) {
+        moves.block<3, 3>(3 * i, kMoves * j + 3 * f) = values[f] * axes;
+      }
+    }
+  }
+  center(m, system.trust(), moves);
+  for (Index i = 0; i < m.rows(); ++i) {
+    moves.middleRows(3 * i, 3) *= std::sqrt(m.weights[i] * system.trust()[i]);
+    if (m.tracked || m.plane[i] < 0) continue;
+    const Eigen::RowVectorXd along =
+        state.planes[m.plane[i]].normal.transpose() * moves.middleRows(3 * i, 3);
+    moves.middleRows(3 * i, 3).setZero();
+    moves.row(3 * i) = along;
+  }
+  for (Index c = 0; c < moves.cols(); ++c) {
+    const double length = moves.col(c).norm();
+    if (length > 0.0) moves.col(c) /= length;
+  }
+  return moves;
+}
+
+/// Columns of length 1 at most, by what each adds to those before.
+Eigen::ColPivHouseholderQR<Eigen::MatrixXd> pivoted(const Eigen::MatrixXd& columns, double least) {
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(columns);
+  qr.setThreshold(qr.maxPivot() > 0.0 ? std::min(least / qr.maxPivot(), 1.0) : 1.0);
+  return qr;
+}
+
+struct Explained {
+  double squares = 0.0;
+  double functions = 0.0;
+};
+
+Explained explain(const Eigen::MatrixXd& moves, const Eigen::VectorXd& residuals) {
+  const auto qr = pivoted(moves, kBeside);
+  if (qr.maxPivot() < kBeside) return {};
+  Eigen::VectorXd turned = residuals;
+  turned.applyOnTheLeft(qr.householderQ().adjoint());
+  return {turned.head(qr.rank()).squaredNorm(), static_cast<double>(qr.rank())};
+}
+
+/// Share of the variance that is gone with the functions.
+double share_of(const Explained& explained, double squares, double freedom) {
+  const double left = (squares - explained.squares) / (freedom - explained.functions);
+  return squares > 0.0 ? std::clamp(1.0 - left * freedom / squares, 0.0, 1.0) : 0.0;
+}
+
+double rows_trusted(const Measurement& m, const std::vector<double>& trust) {
+  double rows = free_position_rows(m);
+  for (Index i = 0; i < m.rows(); ++i) {
+    if (trust[i] < 1e-6) rows -= !m.tracked && m.plane[i] >= 0 ? 1.0 : 3.0;
+  }
+  return rows;
+}
+
+/// What the arm's columns can do to the positions, as a basis of the space of residuals.
+class ArmSpace {
+ public:
+  /// Touches about their centres are what a growing arm does to them: left in, the arm's size would
+  /// take all residuals with it. It is held.
+  ArmSpace(const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& residuals, bool hold_size)
+      : first_(jacobian) {
+    constexpr double kDependent = 1e-9;
+    constexpr double kWeak = 1e-4;  // what moves so little has no part in residuals of this size
+    const Index columns = jacobian.cols();
+    Eigen::MatrixXd triangle = first_.matrixQR().topRows(columns).triangularView<Eigen::Upper>();
+    Eigen::VectorXd turned = residuals;
+    turned.applyOnTheLeft(first_.householderQ().adjoint());
+    if (hold_size) {
+      Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(triangle);
+      qr.setThreshold(kDependent);
+      const Eigen::VectorXd growth = qr.solve(turned.head(columns));
+      const bool grows = (triangle * growth).squaredNorm() > 0.5 * turned.squaredNorm();
+      if (grows) triangle -= (triangle * growth) * (growth.transpose() / growth.squaredNorm());
+    }
+    second_.setThreshold(kWeak);
+    second_.compute(triangle);
+  }
+
+  Index rank() const { return second_.rank(); }
+
+  /// What the columns cannot do of `vectors`, in other axes: (rows - rank) coordinates.
+  Eigen::MatrixXd outside(Eigen::MatrixXd vectors) const {
+    vectors.applyOnTheLeft(first_.householderQ().adjoint());
+    auto top = vectors.topRows(first_.cols());
+    top.applyOnTheLeft(second_.householderQ().adjoint());
+    return vectors.bottomRows(vectors.rows() - rank());
+  }
+
+ private:
+  Eigen::HouseholderQR<Eigen::MatrixXd> first_;
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> second_;
+};
+
+Structure test(const ArmSystem& system, const Eigen::VectorXd& x) {
+  const Measurement& m = system.measurement();
+  Structure out;
+  if (system.columns() == 0 || 3 * m.rows() <= system.columns()) return out;
+  Eigen::VectorXd residuals(system.rows());
+  Eigen::MatrixXd jacobian(system.rows(), system.columns());
+  const Eigen::VectorXd y = system.scaled(x);
+  system.evaluate(y.data(), residuals.data(), jacobian.data());
+  residuals.conservativeResize(3 * m.rows());
+  const ArmSpace arm(jacobian.topRows(3 * m.rows()), residuals, !m.tracked);
+  const Eigen::MatrixXd moves = arm.outside(joint_moves(system, x));
+  const Eigen::VectorXd left = arm.outside(residuals);
+
+  const double freedom = rows_trusted(m, system.trust()) - static_cast<double>(arm.rank());
+  const double squares = left.squaredNorm();
+  const Explained all = explain(moves, left);
+  const double below = freedom - all.functions;
+  if (all.functions < 1.0 || below < kLeastFreedom) return out;
+  const double noise = std::max(squares - all.squares, 0.0) / below;
+  out.p = noise > 0.0 ? f_tail(all.squares / all.functions / noise, all.functions, below) : 1.0;
+  out.share = share_of(all, squares, freedom);
+  if (out.p > kWorthAsking) return out;
+  for (int j = 0; j < m.q.cols(); ++j) {
+    const double share =
+        share_of(explain(moves.middleCols(kMoves * j, kMoves), left), squares, freedom);
+    if (share > out.joint_share) {
+      out.coordinate = j;
+      out.joint_share = share;
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+Structure find_structure(const ArmSystem& system, const Eigen::VectorXd& x,
+                         const std::vector<double>& trust) {
+  const Measurement& all = system.measurement();
+  if (all.rows() <= kMostPoses) {
+    ArmSystem asked = system;
+    asked.set_criterion(Criterion::kCentroid, false);
+    asked.set_trust(trust);
+    return test(asked, x);
+  }
+  const Index stride = (all.rows() + kMostPoses - 1) / kMostPoses;
+  Measurement some = every(all, stride);
+  some.distances.clear();  // a point may have lost its touches
+  some.known_points.clear();
+  std::vector<double> some_trust;
+  for (Index i = 0; i < all.rows(); i += stride) some_trust.push_back(trust[i]);
+  ArmSystem asked(system.arm_columns(), some, Criterion::kCentroid, false, 1);
+  asked.set_free(system.free());
+  asked.set_trust(std::move(some_trust));
+  asked.set_noise(system.noise(), x);
+  return test(asked, x);
+}
+
+}  // namespace bathyal

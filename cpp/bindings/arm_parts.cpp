@@ -1,0 +1,319 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "arm_parts.hpp"
+
+#include <pybind11/stl.h>
+
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "arrays.hpp"
+#include "bathyal/arm/chain.hpp"
+#include "bathyal/base/error.hpp"
+
+namespace bathyal::python {
+namespace {
+
+// From Python -----------------------------------------------------------------------------------
+
+/// A dict whose values are taken one by one; what nobody took is a mistake.
+class Fields {
+ public:
+  Fields(std::string where, const py::handle& object) : where_(std::move(where)) {
+    if (!py::isinstance<py::dict>(object)) {
+      throw_argument(where_, "a dict", py::str(py::type::handle_of(object)).cast<std::string>());
+    }
+    dict_ = py::reinterpret_borrow<py::dict>(object);
+  }
+
+  /// Name of a field, for messages.
+  std::string name(const char* key) const { return where_.empty() ? key : where_ + " " + key; }
+
+  void where(const std::string& name) {
+    if (!name.empty()) where_ += " " + name;
+  }
+
+  py::object take(const char* key) {
+    taken_.insert(key);
+    return dict_.contains(key) ? py::object(dict_[key]) : py::none();
+  }
+
+  template <class Value>
+  void take(const char* key, Value& value) {
+    const py::object object = take(key);
+    if (object.is_none()) return;
+    try {
+      value = object.cast<Value>();
+    } catch (const py::cast_error&) {
+      constexpr bool text = std::is_same_v<Value, std::string>;
+      throw_argument(name(key), text ? "text" : "a number", py::repr(object).cast<std::string>());
+    }
+  }
+
+  void take(const char* key, Pose& pose) { pose = pose_argument(name(key), take(key)); }
+
+  void take(const char* key, Vec3& vector) {
+    const py::object object = take(key);
+    if (!object.is_none()) vector = vector_argument(name(key), object);
+  }
+
+  void take(const char* key, Eigen::Matrix3d& matrix) {
+    const py::object object = take(key);
+    if (!object.is_none()) matrix = square_argument(name(key), object, 3);
+  }
+
+  py::list list(const char* key) {
+    const py::object object = take(key);
+    if (object.is_none()) return py::list();
+    if (!py::isinstance<py::list>(object)) {
+      throw_argument(name(key), "a list", py::repr(object).cast<std::string>());
+    }
+    return object;
+  }
+
+  void finish() const {
+    for (const auto& [key, value] : dict_) {
+      const std::string text = py::str(key);
+      if (!taken_.contains(text)) throw_argument(where_, "no key that is not known", text);
+    }
+  }
+
+ private:
+  std::string where_;
+  py::dict dict_;
+  std::set<std::string> taken_;
+};
+
+Joint take_joint(Fields& fields) {
+  Joint joint;
+  fields.take("name", joint.name);
+  fields.where(joint.name);
+  std::string type = word_of(joint.type, type_words());
+  fields.take("type", type);
+  joint.type = word_argument(fields.name("type"), type, type_words());
+  fields.take("a", joint.row.a);
+  fields.take("alpha", joint.row.alpha);
+  fields.take("d", joint.row.d);
+  fields.take("theta", joint.row.theta);
+  fields.take("beta", joint.row.beta);
+  fields.take("coordinate", joint.coordinate);
+  fields.take("follows", joint.follows);
+  fields.take("multiplier", joint.multiplier);
+  fields.take("offset", joint.offset);
+  fields.take("lower", joint.lower);
+  fields.take("upper", joint.upper);
+  fields.take("velocity", joint.velocity);
+  fields.take("effort", joint.effort);
+  return joint;
+}
+
+Link take_link(Fields& fields) {
+  Link link;
+  fields.take("name", link.name);
+  fields.where(link.name);
+  fields.take("frame", link.row_from_link);
+  fields.take("mass", link.mass);
+  fields.take("center_of_mass", link.center_of_mass);
+  fields.take("inertia", link.inertia);
+  fields.take("volume", link.volume);
+  fields.take("center_of_buoyancy", link.center_of_buoyancy);
+  for (const py::handle& told : fields.list("frames")) {
+    Fields frame("frame", told);
+    Frame& added = link.frames.emplace_back();
+    frame.take("name", added.name);
+    frame.take("pose", added.link_from_frame);
+    frame.finish();
+  }
+  return link;
+}
+
+ChainLink take_chain_link(const py::handle& told) {
+  Fields fields("link", told);
+  ChainLink link{take_link(fields), {}};
+  for (const py::handle& object : fields.list("attached")) {
+    Fields attached("attached", object);
+    Attached& added = link.attached.emplace_back();
+    attached.take("pose", added.link_from_body);
+    Fields body("link", attached.take("body"));
+    added.body = take_link(body);
+    body.finish();
+    attached.finish();
+  }
+  fields.finish();
+  return link;
+}
+
+JointChain take_chain(Fields& fields) {
+  JointChain chain;
+  fields.take("name", chain.name);
+  for (const py::handle& told : fields.list("joints")) {
+    Fields joint("joint", told);
+    ChainJoint& added = chain.joints.emplace_back();
+    added.joint = take_joint(joint);
+    joint.take("origin", added.parent_from_joint);
+    joint.take("axis", added.axis);
+    joint.finish();
+  }
+  for (const py::handle& told : fields.list("links")) chain.links.push_back(take_chain_link(told));
+  return chain;
+}
+
+Arm arm_from_chain_python(const py::dict& told, double nearly_parallel) {
+  Fields fields("", told);
+  const JointChain chain = take_chain(fields);
+  std::string source;
+  fields.take("source", source);
+  fields.finish();
+  Arm arm = arm_from_chain(chain, {nearly_parallel});
+  arm.set_source(std::move(source));
+  return arm;
+}
+
+// To Python -------------------------------------------------------------------------------------
+
+py::dict joint_parts(const Joint& joint) {
+  py::dict told;
+  told["name"] = joint.name;
+  told["type"] = word_of(joint.type, type_words());
+  told["coordinate"] = joint.coordinate;
+  told["follows"] = joint.follows;
+  told["multiplier"] = joint.multiplier;
+  told["offset"] = joint.offset;
+  told["lower"] = joint.lower;
+  told["upper"] = joint.upper;
+  told["velocity"] = joint.velocity;
+  told["effort"] = joint.effort;
+  return told;
+}
+
+py::dict link_parts(const Link& link) {
+  py::dict told;
+  told["name"] = link.name;
+  told["mass"] = link.mass;
+  told["center_of_mass"] = to_numpy(link.center_of_mass);
+  told["inertia"] = to_numpy(link.inertia);
+  told["volume"] = link.volume;
+  told["center_of_buoyancy"] = to_numpy(link.center_of_buoyancy);
+  return told;
+}
+
+py::dict chain_parts(const JointChain& chain) {
+  py::list joints, links;
+  for (const ChainJoint& joint : chain.joints) {
+    py::dict told = joint_parts(joint.joint);
+    told["origin"] = to_numpy(joint.parent_from_joint);
+    told["axis"] = to_numpy(joint.axis);
+    joints.append(told);
+  }
+  for (const ChainLink& link : chain.links) {
+    py::dict told = link_parts(link.link);
+    py::list bodies;
+    for (const Attached& attached : link.attached) {
+      py::dict body;
+      body["pose"] = to_numpy(attached.link_from_body);
+      body["body"] = link_parts(attached.body);
+      bodies.append(body);
+    }
+    told["attached"] = bodies;
+    links.append(told);
+  }
+  py::dict told;
+  told["name"] = chain.name;
+  told["joints"] = joints;
+  told["links"] = links;
+  return told;
+}
+
+}  // namespace
+
+const Words<JointType>& type_words() {
+  static const Words<JointType> words{{"revolute", JointType::kRevolute},
+                                      {"prismatic", JointType::kPrismatic},
+                                      {"fixed", JointType::kFixed}};
+  return words;
+}
+
+py::array to_numpy(const Eigen::Matrix3d& matrix) {
+  const Eigen::Matrix<double, 3, 3, Eigen::RowMajor> rows = matrix;
+  return to_numpy(std::vector<double>(rows.data(), rows.data() + 9), {3});
+}
+
+py::dict arm_parts(const Arm& arm) {
+  py::list joints, links;
+  for (const Joint& joint : arm.joints()) {
+    py::dict told = joint_parts(joint);
+    told["a"] = joint.row.a;
+    told["alpha"] = joint.row.alpha;
+    told["d"] = joint.row.d;
+    told["theta"] = joint.row.theta;
+    told["beta"] = joint.row.beta;
+    joints.append(told);
+  }
+  for (const Link& link : arm.links()) {
+    py::dict told = link_parts(link);
+    told["frame"] = to_numpy(link.row_from_link);
+    py::list frames;
+    for (const Frame& frame : link.frames) {
+      py::dict named;
+      named["name"] = frame.name;
+      named["pose"] = to_numpy(frame.link_from_frame);
+      frames.append(named);
+    }
+    told["frames"] = frames;
+    links.append(told);
+  }
+  py::dict told;
+  told["name"] = arm.name();
+  told["source"] = arm.source();
+  told["root"] = to_numpy(arm.root());
+  told["joints"] = joints;
+  told["links"] = links;
+  told["flange"] = to_numpy(arm.flange());
+  told["base"] = to_numpy(arm.base());
+  told["tool"] = to_numpy(arm.tool());
+  return told;
+}
+
+Arm arm_from_parts(const py::dict& told) {
+  Fields fields("", told);
+  std::string name, source;
+  Pose root, flange, base, tool;
+  fields.take("name", name);
+  fields.take("source", source);
+  fields.take("root", root);
+  fields.take("flange", flange);
+  fields.take("base", base);
+  fields.take("tool", tool);
+  std::vector<Joint> joints;
+  for (const py::handle& object : fields.list("joints")) {
+    Fields joint("joint", object);
+    joints.push_back(take_joint(joint));
+    joint.finish();
+  }
+  std::vector<Link> links;
+  for (const py::handle& object : fields.list("links")) {
+    Fields link("link", object);
+    links.push_back(take_link(link));
+    link.finish();
+  }
+  fields.finish();
+  Arm arm(std::move(name), std::move(joints), std::move(links), root, flange);
+  arm.set_source(std::move(source));
+  arm.set_base(base);
+  arm.set_tool(tool);
+  return arm;
+}
+
+void bind_arm_parts(py::module_& module) {
+  module.def("arm_from_chain", &arm_from_chain_python, py::arg("chain"), py::kw_only(),
+             py::arg("nearly_parallel") = ChainOptions().nearly_parallel,
+             "The Arm of joint origins, axes and links: what a URDF tells.");
+  module.def(
+      "chain_from_arm", [](const Arm& arm) { return chain_parts(chain_from_arm(arm)); },
+      py::arg("arm"), "Joint origins, axes and links of an Arm; the last joint is the flange's.");
+  module.def("arm_parts", &arm_parts, py::arg("arm"), "Everything an Arm is made of.");
+  module.def("arm_from_parts", &arm_from_parts, py::arg("parts"), "The Arm of such a dict.");
+}
+
+}  // namespace bathyal::python

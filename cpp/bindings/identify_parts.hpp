@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include <vector>
+
+#include "arrays.hpp"
+#include "bathyal/identify/data.hpp"
+
+// The parts of the room identify: what goes in, what comes out.
+
+namespace bathyal::python {
+
+/// (N,)
+inline py::array to_numpy(const Eigen::VectorXd& values) {
+  return to_numpy(std::vector<double>(values.begin(), values.end()));
+}
+
+/// (N, k)
+inline py::array to_numpy(const RowMatrix& table) {
+  return to_numpy(std::vector<double>(table.data(), table.data() + table.size()), {table.cols()});
+}
+
+/// Touches and Tracked.
+void bind_identify_data(py::module_& module);
+
+/// ArmFit and what it is made of.
+void bind_identify_fit(py::module_& module);
+
+}  // namespace bathyal::python

@@ -1,0 +1,107 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""bathyal identify: a table of touches in, a folder with the arm and a report out."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from bathyal.cli import options as opt
+from bathyal.cli import touch_options as own
+from bathyal.cli.talk import Talk
+
+_MOST_NAMES = 3  # of tables, in a title
+
+
+def identify(
+    *,
+    touches: Annotated[
+        list[Path],
+        typer.Argument(
+            metavar="TOUCHES",
+            help="A table with the joints of each touch, units in the header (q1_deg, q2_deg …), "
+            "and a column point that names what was touched; or a table for each point.",
+        ),
+    ],
+    arm: Annotated[
+        str,
+        typer.Option(help="The drawing: a name such as ur10e, or a .urdf or .json file."),
+    ],
+    out: Annotated[
+        Path, typer.Option("--out", "-o", help="Folder for the results; made if missing.")
+    ],
+    tip: Annotated[
+        str | None, typer.Option(help="Of a .urdf with several ends: the link that is the tip.")
+    ] = None,
+    tracked: Annotated[
+        bool,
+        typer.Option(
+            "--tracked", help="The table holds positions that an instrument measured: x_mm …"
+        ),
+    ] = False,
+    reading: own.TouchColumns,
+    known: own.Known,
+    searching: own.Searching,
+    ros: Annotated[
+        bool, typer.Option("--ros", help="Also kinematics.yaml for ROS' ur_description.")
+    ] = False,
+    ur_calibration: Annotated[
+        bool,
+        typer.Option(
+            "--ur-calibration", help="Also calibration.conf for Universal Robots' controller."
+        ),
+    ] = False,
+    json: opt.Json = False,
+    quiet: opt.Quiet = False,
+) -> None:
+    """Find an arm's true geometry from joint angles alone, by touching fixed points.
+
+    Writes arm.json arm.urdf fit.json parameters.csv residuals.csv report.html report.png, all or
+    none. What the touches cannot tell is named; it does not fail the job.
+
+    [bold]Examples:[/]
+
+      bathyal identify touches.csv --arm ur10e --out found
+
+      bathyal identify touches.csv --arm ur10e --known-distance left,right=50mm -o found
+
+      bathyal identify hole_0.csv hole_1.csv --unit rad --arm panda.urdf -o found
+
+      bathyal identify tracked.csv --tracked --arm ur10 -o found
+    """
+    from bathyal.arm_files import find_arm
+    from bathyal.identify_report import identify as make_identification
+
+    talk = Talk(json=json, quiet=quiet)
+    nominal = find_arm(arm, **({} if tip is None else {"tip": tip}))
+    with talk.progress() as progress:
+        found = make_identification(
+            touches,
+            nominal,
+            tracked=tracked,
+            read={**reading.keywords(), **known.keywords()},
+            options=searching.keywords(),
+            step=progress,
+        )
+        name = nominal.name or Path(arm).stem
+        names = [file.name for file in touches]
+        tables = ", ".join(names) if len(names) <= _MOST_NAMES else f"{len(names)} tables"
+        files = found.write(
+            out,
+            title=f"{name} from {tables}",
+            ros=ros,
+            ur_calibration=ur_calibration,
+            step=progress,
+        )
+    data = {**found.summary, "next": found.next, "files": [str(file) for file in files]}
+    rows = {
+        "found": found.words,
+        "next": " ".join(found.next),
+        **found.facts,
+        "folder": str(out),
+        "files": " ".join(file.name for file in files),
+    }
+    talk.warn(found.warnings)
+    talk.result(data, rows)

@@ -1,0 +1,60 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""bathyal touches example: simulated touches, to try things on."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from bathyal.cli import options as opt
+from bathyal.cli.talk import Talk
+from bathyal.cli.values import given, length
+
+
+def example(
+    *,
+    out: Annotated[Path, typer.Argument(metavar="OUT", help="Table to write, .csv.")],
+    arm: Annotated[
+        str, typer.Option(help="The drawing: a name such as ur10e, or a .urdf or .json file.")
+    ] = "ur10e",
+    count: Annotated[
+        int | None, typer.Option(help="Touches of each point. [dim]\\[default: 21][/]")
+    ] = None,
+    noise: Annotated[
+        float | None,
+        typer.Option(
+            help="Standard deviation of a touch, per axis. [dim]\\[default: 0.09mm][/]",
+            parser=length,
+            metavar="LENGTH",
+        ),
+    ] = None,
+    seed: Annotated[
+        int | None, typer.Option(help="Of the random numbers. [dim]\\[default: 0][/]")
+    ] = None,
+    json: opt.Json = False,
+    quiet: opt.Quiet = False,
+) -> None:
+    """Touch three points with an arm that differs from its drawing by millimetres.
+
+    The points are called left, right and top; the table says how far left is from right.
+
+    [bold]Example:[/]
+
+      bathyal touches example touches.csv --arm ur10e
+    """
+    from bathyal.arm_files import find_arm
+    from bathyal.touch_examples import simulate_touches, write_touches
+
+    talk = Talk(json=json, quiet=quiet)
+    nominal = find_arm(arm)
+    with talk.progress() as progress, progress("Touching"):
+        made = simulate_touches(nominal, **given(count=count, noise=noise, seed=seed))
+        apart = f"left to right: {1e3 * made.apart:.0f} mm"
+        write_touches(
+            made.touches, out, comment=f"simulated touches of {nominal.name or arm}; {apart}"
+        )
+    data = {"touches": len(made.touches), "left_to_right_m": made.apart, "file": str(out)}
+    rows = {"touches": str(len(made.touches)), "known": apart, "written": str(out)}
+    talk.result(data, rows)
