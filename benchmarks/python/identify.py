@@ -138,9 +138,9 @@ def main() -> None:
     print(
         "The whole of `identify_arm`, one thread: start, what can be told, search, covariance, "
         "doubts, report. SciPy's `least_squares` as it comes, on a residual that NumPy computes "
-        "for all touches at once: left to itself with all parameters, told which of them base and tool "
-        "leave, and given exact derivatives of those. One length is held, so that all minimise the "
-        "same.\n"
+        "for all touches at once: left to itself with all parameters, told which of them base and "
+        "tool leave, and given exact derivatives of those. One length is held: all minimise "
+        "the same.\n"
     )
     print(touches_row(options.rounds))
     print(tracked_row(options.data / SERIES_A, max(3, options.rounds // 3)))

@@ -91,7 +91,7 @@ std::vector<GaugeColumn> find_gauge(const ArmColumns& columns, const Measurement
   const ArmColumns all =
       make_columns(columns.arm, no_planes, columns.bases, columns.tools, {}, with_base);
   const Measurement poses =
-      random_poses(measurement, columns.arm, 2 * static_cast<Index>(all.columns.size()));
+      random_poses(measurement, columns.arm, static_cast<Index>(all.columns.size()));
   std::vector<int> order = order_of(all, base_known);
   for (const int column : fixed) {
     std::erase(order, find_column(all.columns, columns.columns[column].name));

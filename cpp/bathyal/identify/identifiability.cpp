@@ -64,7 +64,9 @@ RankReport reveal_rank(const Eigen::MatrixXd& jacobian, double tolerance) {
   RankReport report;
   const Index columns = jacobian.cols();
   if (columns == 0) return report;
-  const Eigen::BDCSVD<Eigen::MatrixXd> svd(triangle_of(jacobian), Eigen::ComputeFullV);
+  const bool square = jacobian.rows() == columns;
+  const Eigen::BDCSVD<Eigen::MatrixXd> svd(square ? jacobian : triangle_of(jacobian),
+                                           Eigen::ComputeFullV);
   report.singular_values = svd.singularValues();
   report.directions = svd.matrixV();
   const double least = tolerance * report.singular_values[0];
