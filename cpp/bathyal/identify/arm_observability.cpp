@@ -3,6 +3,8 @@
 
 #include <numeric>
 
+#include "bathyal/identify/nearest_pose.hpp"
+
 namespace bathyal {
 namespace {
 
@@ -88,31 +90,17 @@ Eigen::MatrixXd free_covariance(const ArmSystem& system, const Eigen::VectorXd& 
 }
 
 RowMatrix exact_joints(const ArmSystem& system, const Eigen::VectorXd& x) {
-  constexpr int kMostSteps = 10;
-  constexpr double kFarTurn = 0.5;  // a pose that must move so much is left where it is
-  constexpr double kOnPoint = 1e-14;
   const Measurement& m = system.measurement();
   RowMatrix q = m.q;
   if (m.tracked) return q;
   const Eigen::Matrix3Xd centers = system.centroids(x);
   const TipWalk walk(system.arm_columns(), x, {});
   RowFrames frames;
-  Eigen::VectorXd joints;
-  Vec3 tip;
   for (Index i = 0; i < q.rows(); ++i) {
-    joints = q.row(i).transpose();
-    for (int step = 0; step < kMostSteps; ++step) {
-      const Eigen::Matrix3Xd jacobian =
-          walk.joint_jacobian(joints.data(), m.tool[i], m.station[i], frames, tip);
-      const Vec3 miss = miss_of(m, i, tip, centers, walk.state().planes);
-      if (miss.norm() < kOnPoint) break;
-      Eigen::Matrix3d square = jacobian * jacobian.transpose();
-      square.diagonal().array() += 1e-12 * square.trace();
-      joints += jacobian.transpose() * square.ldlt().solve(miss);
-    }
-    if ((joints - m.q.row(i).transpose()).cwiseAbs().maxCoeff() < kFarTurn) {
-      q.row(i) = joints.transpose();
-    }
+    const auto miss = [&](const Vec3& tip) {
+      return miss_of(m, i, tip, centers, walk.state().planes);
+    };
+    q.row(i) = nearest_pose(walk, m.q.row(i), m.tool[i], m.station[i], frames, miss);
   }
   return q;
 }

@@ -14,7 +14,6 @@ constexpr double kNoiseSettled = 1e-4;  ///< relative
 constexpr double kTrustSettled = 1e-4;
 constexpr double kSizeSettled = 1e-6;  ///< in units of the columns' scale: nm and nrad
 constexpr double kWidthByNoise = 3.0;
-constexpr double kMedianOfNorm = 1.5381722544550522;  ///< of a normal 3-vector of unit std
 
 class Search {
  public:
@@ -39,7 +38,6 @@ class Search {
   bool noise_matters() const;
   bool update_noise();
   Noise estimate_noise() const;
-  double robust_noise(const Eigen::VectorXd& distances) const;
   double trust_in(double distance_by_width) const;
   Index least_sure() const;
 
@@ -151,7 +149,8 @@ void Search::solve_with_trust() {
   for (int round = 0; round < kMostTrustRounds; ++round) {
     Eigen::VectorXd distances = system_.deviations(result_.x).colwise().norm();
     for (Index i = 0; i < distances.size(); ++i) distances[i] *= std::sqrt(m_.weights[i]);
-    const double noise = options_.noise.value_or(robust_noise(distances));
+    const double noise =
+        options_.noise.value_or(std::max(median_noise(system_, distances), kLeastNoise));
     const double width = options_.loss_width.value_or(kWidthByNoise * noise);
     std::vector<double> trust = system_.trust();
     double change = 0.0;
@@ -165,18 +164,6 @@ void Search::solve_with_trust() {
     if (change < kTrustSettled) break;
     solve();
   }
-}
-
-/// By the median, which outliers do not move.
-double Search::robust_noise(const Eigen::VectorXd& distances) const {
-  std::vector<double> sorted(distances.begin(), distances.end());
-  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-  std::nth_element(sorted.begin(), middle, sorted.end());
-  const auto taken = static_cast<double>(system_.columns());
-  const double rows = free_position_rows(m_);
-  const double share =
-      rows > taken ? std::sqrt(static_cast<double>(3 * m_.rows()) / (rows - taken)) : 1.0;
-  return std::max(*middle / kMedianOfNorm * share, kLeastNoise);
 }
 
 /// The weight that the loss gives a row, by its distance in widths.

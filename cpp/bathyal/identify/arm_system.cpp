@@ -397,4 +397,15 @@ void ArmSystem::set_equal_noise(double unit) {
   whitening_ = Eigen::MatrixXd::Identity(known_rows(), known_rows()) / unit;
 }
 
+double median_noise(const ArmSystem& system, const Eigen::VectorXd& distances) {
+  std::vector<double> sorted(distances.begin(), distances.end());
+  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+  std::nth_element(sorted.begin(), middle, sorted.end());
+  const auto taken = static_cast<double>(system.columns());
+  const double rows = free_position_rows(system.measurement());
+  const auto all = static_cast<double>(3 * system.measurement().rows());
+  const double share = rows > taken ? std::sqrt(all / (rows - taken)) : 1.0;
+  return *middle / kMedianOfNorm * share;
+}
+
 }  // namespace bathyal

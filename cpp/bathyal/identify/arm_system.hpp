@@ -140,4 +140,10 @@ class ArmSystem final : public ResidualModel {
   Eigen::MatrixXd whitening_;  ///< of the known rows
 };
 
+inline constexpr double kMedianOfNorm = 1.5381722544550522;  ///< of a normal 3-vector of unit std
+
+/// Standard deviation of a measured row per axis [m] by the median of the rows' `distances` from
+/// where they should be, each times the root of its weight: outliers do not move it.
+double median_noise(const ArmSystem& system, const Eigen::VectorXd& distances);
+
 }  // namespace bathyal

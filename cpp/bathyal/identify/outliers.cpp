@@ -13,7 +13,6 @@ namespace {
 
 constexpr double kFalseAlarm = 0.01;  ///< of a whole fit without outliers
 constexpr double kLeastSigma = 6.0;   ///< below it a long tail of honest noise may lie
-constexpr double kMedianOfNorm = 1.5381722544550522;  ///< of a normal 3-vector of unit std
 /// Weight of a row that is left out. Not 0: its residual is read off the same evaluation, and a
 /// point all of whose touches are doubted keeps a centre.
 constexpr double kWhisper = 1e-20;
@@ -140,17 +139,6 @@ Eigen::VectorXd weighted_norms(const ArmSystem& system, const Eigen::VectorXd& x
   return norms;
 }
 
-double median_noise(const ArmSystem& system, const Eigen::VectorXd& norms) {
-  std::vector<double> sorted(norms.begin(), norms.end());
-  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-  std::nth_element(sorted.begin(), middle, sorted.end());
-  const double rows = free_position_rows(system.measurement());
-  const auto taken = static_cast<double>(system.columns());
-  const double all = static_cast<double>(3 * system.measurement().rows());
-  const double share = rows > taken ? std::sqrt(all / (rows - taken)) : 1.0;
-  return std::max(*middle / kMedianOfNorm * share, kLeastDistance / kLeastSigma);
-}
-
 void solve(const ArmSystem& system, int steps, Eigen::VectorXd& x) {
   const LeastSquaresOptions options{.max_iterations = steps};
   x = system.values(solve_least_squares(system, system.scaled(x), options).y);
@@ -206,7 +194,7 @@ void reweigh(ArmSystem& system, double (*trust_of)(double), int most_rounds, Eig
   std::vector<double> trust = system.trust();
   for (int round = 0; round < most_rounds; ++round) {
     const Eigen::VectorXd norms = weighted_norms(system, x);
-    const double noise = median_noise(system, norms);
+    const double noise = std::max(median_noise(system, norms), kLeastDistance / kLeastSigma);
     double change = 0.0;
     for (Index i = 0; i < norms.size(); ++i) {
       const double next = trust_of(norms[i] / noise);
@@ -223,7 +211,7 @@ void reweigh(ArmSystem& system, double (*trust_of)(double), int most_rounds, Eig
 /// Least squares of the rows that stand the test, until they stay the same.
 Study settle(ArmSystem& system, Eigen::VectorXd& x) {
   const Eigen::VectorXd norms = weighted_norms(system, x);
-  const double noise = median_noise(system, norms);
+  const double noise = std::max(median_noise(system, norms), kLeastDistance / kLeastSigma);
   std::vector<double> trust(system.trust().size(), 1.0);
   for (Index i = 0; i < norms.size(); ++i) {
     if (norms[i] > kLeastSigma * noise) trust[i] = kWhisper;

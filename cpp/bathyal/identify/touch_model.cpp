@@ -9,6 +9,7 @@
 #include "bathyal/base/parallel.hpp"
 #include "bathyal/base/random.hpp"
 #include "bathyal/identify/gauge.hpp"
+#include "bathyal/identify/nearest_pose.hpp"
 
 namespace bathyal {
 namespace {
@@ -87,28 +88,14 @@ Eigen::MatrixXd tip_derivatives(const TouchModel& model, const RowMatrix& q, int
 
 RowMatrix settled_on(const TouchModel& model, const RowMatrix& q, const Eigen::Matrix3Xd& targets,
                      int num_threads) {
-  constexpr int kMostSteps = 10;
-  constexpr double kFarTurn = 0.5;  // a pose that must move so much is left where it is
-  RowMatrix out = q;
+  RowMatrix out(q.rows(), q.cols());
   const TipWalk walk(model.columns, model.columns.nominal(), {});
   parallel_for(static_cast<std::size_t>(q.rows()), kPosesPerChunk, num_threads,
                [&](std::size_t begin, std::size_t end) {
                  RowFrames frames;
                  for (auto i = static_cast<Index>(begin); i < static_cast<Index>(end); ++i) {
-                   Eigen::VectorXd joints = q.row(i).transpose();
-                   for (int step = 0; step < kMostSteps; ++step) {
-                     Vec3 tip;
-                     const Eigen::Matrix3Xd jacobian =
-                         walk.joint_jacobian(joints.data(), 0, 0, frames, tip);
-                     const Vec3 miss = targets.col(i) - tip;
-                     if (miss.norm() < 1e-14) break;
-                     Eigen::Matrix3d square = jacobian * jacobian.transpose();
-                     square.diagonal().array() += 1e-12 * square.trace();
-                     joints += jacobian.transpose() * square.ldlt().solve(miss);
-                   }
-                   if ((joints - q.row(i).transpose()).cwiseAbs().maxCoeff() < kFarTurn) {
-                     out.row(i) = joints.transpose();
-                   }
+                   const auto miss = [&](const Vec3& tip) { return Vec3(targets.col(i) - tip); };
+                   out.row(i) = nearest_pose(walk, q.row(i), 0, 0, frames, miss);
                  }
                });
   return out;
