@@ -139,7 +139,7 @@ int main() {
       "`build/bench/benchmarks/cpp/bench_arm_inverse`: %td random reachable poses, every search "
       "begins in the middle of the limits. Found is what forward kinematics puts within %g m and "
       "rad of the target, within the limits; ours is asked for 1e-6, the others for %g of each "
-      "component. TRAC-IK's way is that of Beeson and Ames (2015), written from the paper on KDL "
+      "component. TRAC-IK's way is that of Beeson and Ames (2015), our own writing of it on KDL "
       "and NLopt's SLSQP (with an analytic gradient): two threads, each with %g ms of its own "
       "processor time, the first to reach stops the other; its parts and the restarted LMA have "
       "as much. Times are processor time of all threads, medians of %d interleaved chunks of %td "

@@ -16,8 +16,8 @@
 #include "timing.hpp"
 
 // Inverse kinematics on KDL: its own Levenberg-Marquardt, and the way of Beeson, Ames, "TRAC-IK: an
-// open-source library for improved solving of generic inverse kinematics" (2015), written from the
-// paper: Newton's steps by the pseudo-inverse with joint limits and random restarts, beside
+// open-source library for improved solving of generic inverse kinematics" (2015), our own
+// writing of it: Newton's steps by the pseudo-inverse with joint limits and random restarts, beside
 // sequential quadratic programming on the sum of squared errors (NLopt's SLSQP) with the same,
 // whichever is first.
 
