@@ -40,12 +40,8 @@ std::vector<Eigen::Matrix3d> tip_covariance(const ArmFit& fit, const RowMatrix& 
     if (part <= Part::kBeta || part == Part::kToolShift) wanted.push_back(i);
   }
   const auto columns = static_cast<Index>(wanted.size());
-  Eigen::MatrixXd covariance(columns, columns);
-  Eigen::MatrixXd blind(columns, fit.blind.cols());
-  for (Index i = 0; i < columns; ++i) {
-    for (Index j = 0; j < columns; ++j) covariance(i, j) = fit.covariance(wanted[i], wanted[j]);
-    blind.row(i) = fit.blind.row(wanted[i]);
-  }
+  const Eigen::MatrixXd covariance = fit.covariance(wanted, wanted);
+  const Eigen::MatrixXd blind = fit.blind(wanted, Eigen::all);
   const TipWalk walk(fit.columns, fit.values, wanted);
   const Eigen::Matrix3d base_from_world = walk.state().bases[0].linear().transpose();
   std::vector<Eigen::Matrix3d> out(static_cast<std::size_t>(q.rows()));

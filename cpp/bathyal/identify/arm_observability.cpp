@@ -11,17 +11,10 @@ namespace {
 constexpr double kEqualNoise = 1e-3;     ///< [m] and [rad]: what a singular value of 1 stands for
 constexpr double kHeldDirection = 1e-3;  ///< in units of the columns' scale
 
-/// Rows of `all` at the free columns.
-Eigen::MatrixXd rows_of(const Eigen::MatrixXd& all, const std::vector<int>& free) {
-  Eigen::MatrixXd rows(static_cast<Index>(free.size()), all.cols());
-  for (Index i = 0; i < rows.rows(); ++i) rows.row(i) = all.row(free[i]);
-  return rows;
-}
-
-/// The other way round; columns that are not free take no part.
+/// Directions of the free columns as those of all, of which the others take no part.
 Eigen::MatrixXd among_all(const Eigen::MatrixXd& rows, const std::vector<int>& free, Index count) {
   Eigen::MatrixXd all = Eigen::MatrixXd::Zero(count, rows.cols());
-  for (Index i = 0; i < rows.rows(); ++i) all.row(free[i]) = rows.row(i);
+  all(free, Eigen::all) = rows;
   return all;
 }
 
@@ -55,9 +48,7 @@ Observability observe(const ArmSystem& system, const Eigen::VectorXd& x) {
   const Eigen::MatrixXd jacobian = triangle_of(data.jacobian(x), system.num_threads());
 
   const std::vector<int>& free = system.free();
-  Eigen::MatrixXd seen(jacobian.rows(), system.columns());
-  for (Index i = 0; i < seen.cols(); ++i) seen.col(i) = jacobian.col(free[i]);
-  const Eigen::MatrixXd unseen = reveal_rank(seen).unseen();
+  const Eigen::MatrixXd unseen = reveal_rank(jacobian(Eigen::all, free)).unseen();
 
   // Of what the data do not see, priors hold what moves any of them.
   const Eigen::MatrixXd told = system.linear_jacobian().rowwise().normalized() * unseen;
@@ -85,7 +76,7 @@ Eigen::MatrixXd free_covariance(const ArmSystem& system, const Eigen::VectorXd& 
   exact.set_linear_rows({});
   const Eigen::MatrixXd jacobian = triangle_of(exact.jacobian(x), system.num_threads());
   if (blind.cols() == 0) return inverse_square(jacobian);
-  const Eigen::MatrixXd left = complement(rows_of(blind, system.free()));
+  const Eigen::MatrixXd left = complement(blind(system.free(), Eigen::all));
   return left * inverse_square(jacobian * left) * left.transpose();
 }
 

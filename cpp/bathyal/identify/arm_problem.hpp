@@ -59,9 +59,6 @@ inline bool is_length(const Place& place) {
   return place.part == Part::kD || place.part == Part::kA;
 }
 
-/// A column's share in an unseen direction from which it counts as part of it.
-constexpr double kUnseenShare = 1e-4;
-
 /// [m] or [rad]; exact data have no scale of their own, and none is taken to be better.
 constexpr double kLeastNoise = 1e-9;
 

@@ -121,8 +121,9 @@ void report_covariance(const ArmProblem& problem, const Observability& seen,
           known(i, j) * columns[free[i]].scale * columns[free[j]].scale;
     }
   }
-  fit.blind = seen.blind;
-  for (Index i = 0; i < count; ++i) fit.blind.row(i) *= columns[i].scale;
+  Eigen::VectorXd scales(count);
+  for (Index i = 0; i < count; ++i) scales[i] = columns[i].scale;
+  fit.blind = scales.asDiagonal() * seen.blind;
 }
 
 /// Of a column as if it were free.
@@ -134,11 +135,10 @@ FitParameter parameter_of(int c, const ArmProblem& problem, const Observability&
                  column.group, column.nominal,      value,
                  std,          Status::kIdentified, trades_of(c, seen.unseen, columns)};
   const bool has_prior = column.prior_std != Column::kNoPrior;
-  if (seen.blind.row(c).norm() > kUnseenShare) {
+  if (takes_part(c, seen.blind)) {
     p.status = Status::kNotIdentifiable;
     p.std = std::numeric_limits<double>::infinity();
-  } else if (seen.unseen.row(c).norm() > kUnseenShare ||
-             (has_prior && std > kHeldByPrior * column.prior_std)) {
+  } else if (takes_part(c, seen.unseen) || (has_prior && std > kHeldByPrior * column.prior_std)) {
     p.status = Status::kPrior;
   }
   return p;

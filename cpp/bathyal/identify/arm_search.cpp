@@ -196,7 +196,7 @@ Index Search::least_sure() const {
   for (Index i = 0; i < y.size(); ++i) {
     const int column = system_.free()[i];
     const double std = std::sqrt(covariance(i, i));
-    const bool seen = seen_.unseen.row(column).norm() <= kUnseenShare;
+    const bool seen = !takes_part(column, seen_.unseen);
     if (!is_row(problem_.columns.places[column]) || !seen || !(std > 0.0)) continue;
     if (std::abs(y[i]) / std < least_ratio) {
       least = i;

@@ -92,6 +92,10 @@ std::vector<Eigen::VectorXd> readable_directions(const Eigen::MatrixXd& unseen) 
   return directions;
 }
 
+bool takes_part(Index column, const Eigen::MatrixXd& directions) {
+  return directions.cols() > 0 && directions.row(column).norm() > kUnseenShare;
+}
+
 std::vector<Trade> trades_of(int column, const Eigen::MatrixXd& unseen,
                              const std::vector<Column>& columns) {
   std::vector<Trade> trades;

@@ -42,6 +42,12 @@ Eigen::MatrixXd inverse_square(const Eigen::MatrixXd& jacobian);
 /// as one sentence; leading entries are 1.
 std::vector<Eigen::VectorXd> readable_directions(const Eigen::MatrixXd& unseen);
 
+/// A column's share in an unseen direction from which it counts as part of it.
+constexpr double kUnseenShare = 1e-4;
+
+/// Whether `column` takes part in any of `directions` (columns, k), k 0 or more.
+bool takes_part(Eigen::Index column, const Eigen::MatrixXd& directions);
+
 /// A column that takes part in a change that nothing sees.
 struct Trade {
   std::string name;
