@@ -52,6 +52,7 @@ std::vector<Eigen::Matrix3d> tip_covariance(const ArmFit& fit, const RowMatrix& 
       walk.tip(q.row(static_cast<Index>(i)).data(), 0, 0, frames, jacobian.data(), nullptr, 3);
       jacobian = base_from_world * jacobian;
       out[i] = jacobian * covariance * jacobian.transpose();
+      if (blind.cols() == 0) continue;
       const Eigen::Vector3d moved = (jacobian * blind).rowwise().norm();
       for (int axis = 0; axis < 3; ++axis) {
         if (moved[axis] > kMoves) out[i](axis, axis) = std::numeric_limits<double>::infinity();
