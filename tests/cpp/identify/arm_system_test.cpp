@@ -294,6 +294,25 @@ TEST(ArmSystem, TheSameBytesForAnyNumberOfThreads) {
   EXPECT_EQ(one.jacobian(columns.nominal()), three.jacobian(columns.nominal()));
 }
 
+TEST(ArmSystem, NoiseByTheMedianIsThatOfAnAxisWhateverAFewRowsDo) {
+  const Arm arm = ur10e();
+  Tracked tracked = track(arm, 400, false, 2);
+  RandomStream random(3);
+  for (Index i = 0; i < tracked.position.size(); ++i) {
+    tracked.position.data()[i] += 2e-4 * random.normal();
+  }
+  const auto noise = [&] {
+    const Measurement m = to_measurement(arm, tracked);
+    const ArmColumns columns = make_columns(arm, m, {Pose::Identity()}, {Pose::Identity()}, {}, {});
+    ArmSystem system(columns, m, Criterion::kCentroid, false, 1);
+    system.set_free({});
+    return median_noise(system, system.deviations(columns.nominal()).colwise().norm());
+  };
+  EXPECT_NEAR(noise(), 2e-4, 2e-5);
+  for (Index i = 0; i < 400; i += 10) tracked.position(i, 0) += 0.05;
+  EXPECT_NEAR(noise(), 2e-4, 4e-5);
+}
+
 TEST(RotationVector, LogUndoesExp) {
   RandomStream random(1);
   for (const double size : {0.0, 1e-12, 1e-5, 0.1, 1.0, 3.1}) {
