@@ -155,8 +155,10 @@ void bind_fit(py::module_& module) {
             return to_numpy(std::move(numbers));
           },
           py::arg("q"), py::kw_only(), py::arg("num_threads") = 0, kTipStdDoc)
-      .def("summary", &summarize, "One paragraph in plain words.")
-      .def("__str__", &summarize)
+      .def("summary", py::overload_cast<const ArmFit&, bool>(&summarize), py::kw_only(),
+           py::arg("warnings") = true,
+           "One paragraph in plain words; ``warnings=False`` leaves the warnings to the caller.")
+      .def("__str__", [](const ArmFit& f) { return summarize(f); })
       .def("__repr__", [](const ArmFit& f) {
         return "ArmFit(rms_before=" + to_text(f.rms_before) +
                ", rms_after=" + to_text(f.rms_after) + ", rank=" + std::to_string(f.rank) + " of " +

@@ -16,7 +16,7 @@ from matplotlib.ticker import MaxNLocator
 from bathyal._core import ArmFit, Touches, Tracked
 from bathyal.fit_bars import draw_parameters
 from bathyal.fit_curves import AXIS_COLOURS, Curves, curves_of, joint_values, rank_gap, thinned
-from bathyal.fit_words import found_text, known_text, next_touches, surely_text
+from bathyal.fit_words import known_text, next_touches, surely_text
 from bathyal.palette import AFTER, BEFORE, GAP, INK
 
 # A4 upright; places are shares of the page.
@@ -92,7 +92,7 @@ def _write_words(figure: Figure, fit: ArmFit, data: Touches | Tracked, title: st
     top = _write(figure, top, [(f"! {warning}", GAP) for warning in warnings])
     known = known_text(fit, data)
     paragraphs = [
-        found_text(fit),
+        fit.summary(warnings=False),
         surely_text(fit),
         *([known] if known else []),
         "Next. " + " ".join(next_touches(fit, data)),

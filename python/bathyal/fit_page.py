@@ -23,7 +23,7 @@ from bathyal.fit_tables import (
     number,
     point_name,
 )
-from bathyal.fit_words import STATUS, found_text, next_touches, surely_text
+from bathyal.fit_words import STATUS, next_touches, surely_text
 from bathyal.palette import GAP, INK, STATUSES
 
 
@@ -55,7 +55,7 @@ def write_page(
         ink=INK,
         red=GAP,
         warnings="".join(f"<p>{html.escape(warning)}</p>" for warning in fit.warnings),
-        found=html.escape(found_text(fit)),
+        found=html.escape(fit.summary(warnings=False)),
         surely=html.escape(surely_text(fit)),
         wanting="".join(f"<li>{html.escape(text)}</li>" for text in next_touches(fit, data)),
         facts=_facts(facts or {}),

@@ -33,16 +33,6 @@ _WEAK_SHARE = 20.0  # … and so many times the median of all
 _FINE = 3.0  # the worst pose is worth a touch where it is so many times the median
 
 
-def found_text(fit: ArmFit) -> str:
-    """The fit's own paragraph without its warnings, which a report tells first."""
-    text = fit.summary()
-    begins = [text.find(warning) for warning in fit.warnings if warning in text]
-    if not begins:
-        return text
-    told, lead, _ = text[: min(begins)].rpartition(" But")
-    return told if lead else text[: min(begins)].rstrip()
-
-
 def surely_text(fit: ArmFit) -> str:
     """How far the arm that was found may be trusted over the whole of its limits."""
     _, std = _looks(fit)

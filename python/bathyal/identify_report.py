@@ -27,7 +27,7 @@ from bathyal.bottom import Step, file_facts
 from bathyal.errors import argument_error
 from bathyal.files import PathLike, filling
 from bathyal.fit_tables import distances, groups, write_parameters, write_residuals
-from bathyal.fit_words import found_text, next_touches, surely_text
+from bathyal.fit_words import next_touches, surely_text
 from bathyal.tables import read_table
 from bathyal.touch_files import read_touches, read_tracked
 
@@ -53,7 +53,7 @@ class Identification:
     @property
     def words(self) -> str:
         """What was found and how surely, as one paragraph."""
-        return f"{found_text(self.fit)} {surely_text(self.fit)}"
+        return f"{self.fit.summary(warnings=False)} {surely_text(self.fit)}"
 
     @property
     def next(self) -> list[str]:

@@ -193,7 +193,7 @@ def test_many_pairs_are_thinned_and_said_so():
 def test_untold_size_is_the_first_thing_to_mend(data, made, untold, told):
     wanted = fit_words.next_touches(untold, made.touches)
     assert wanted[0].startswith("Measure one distance between touched points, say left to right")
-    assert "prior" in fit_words.found_text(untold)
+    assert "prior" in untold.summary(warnings=False)
     assert not any("Measure one" in text for text in fit_words.next_touches(told, data))
 
 
@@ -253,20 +253,17 @@ def test_unseen_motion_is_no_standard_deviation():
     assert table["base_z"].endswith("± ? mm")
 
 
-@pytest.mark.parametrize(
-    ("warnings", "text"),
-    [
-        ([], "All is found."),
-        (["One."], "All is found. One."),
-        (["One.", "Two."], "All is found. One. Two."),
-        (["One."], "All is found. But: One."),
-        (["One.", "Two."], "All is found. But 2 things speak against it. (1) One. (2) Two."),
-    ],
-)
-def test_warnings_are_told_once(warnings, text):
-    """In whatever words the fit's own paragraph leads over to them."""
-    fit = SimpleNamespace(warnings=warnings, summary=lambda: text)
-    assert fit_words.found_text(fit) == "All is found."
+def test_warnings_are_told_once(untold, told):
+    """By the paragraph, or by who leaves them out of it."""
+    assert untold.warnings
+    assert not told.warnings
+    short = untold.summary(warnings=False)
+    assert untold.summary().startswith(short)
+    for warning in untold.warnings:
+        assert warning in untold.summary()
+        assert warning not in short
+    assert not short.endswith("But:")
+    assert told.summary(warnings=False) == told.summary() == str(told)
 
 
 # Picture and page ---------------------------------------------------------------------------------
@@ -275,7 +272,7 @@ def test_warnings_are_told_once(warnings, text):
 def test_picture_shows_what_was_found(data, told):
     figure = fit_figure(told, data, title="UR10e")
     words = " ".join(" ".join(text.get_text().split()) for text in figure.texts)
-    assert fit_words.found_text(told) in words
+    assert told.summary(warnings=False) in words
     assert "350.000 mm" in words
     pairs, values, table, *joints = figure.axes
     assert len(joints) == 6

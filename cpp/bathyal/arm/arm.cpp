@@ -109,4 +109,10 @@ void Arm::set_tool(const Pose& flange_from_tool) {
   tool_ = flange_from_tool;
 }
 
+double chain_length(const Arm& arm) {
+  double length = 0.0;
+  for (const Joint& joint : arm.joints()) length += std::hypot(joint.row.a, joint.row.d);
+  return length;
+}
+
 }  // namespace bathyal

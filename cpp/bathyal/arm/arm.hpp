@@ -118,4 +118,7 @@ class Arm {
   Eigen::VectorXd upper_;
 };
 
+/// Lengths of all rows together, flange and tool left out, sliding joints at rest [m].
+double chain_length(const Arm& arm);
+
 }  // namespace bathyal

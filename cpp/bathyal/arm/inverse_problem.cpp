@@ -39,8 +39,7 @@ double longest_reach(const Arm& arm) {
 /// A fifth of the lengths of the chain, sliding joints at rest: among what was tried on six- and
 /// seven-joint arms, where the search comes through most often.
 double balance_length(const Arm& arm) {
-  double length = (arm.flange() * arm.tool()).translation().norm();
-  for (const Joint& joint : arm.joints()) length += std::hypot(joint.row.a, joint.row.d);
+  const double length = (arm.flange() * arm.tool()).translation().norm() + chain_length(arm);
   return length > 0.0 ? 0.2 * length : 1.0;
 }
 

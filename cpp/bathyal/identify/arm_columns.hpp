@@ -38,6 +38,12 @@ struct Place {
   int axis = 0;   ///< 0, 1, 2 of shifts and turns
 };
 
+/// Whether a column belongs to a row of the arm, and whether it is one of the row's lengths.
+inline bool is_row(const Place& place) { return place.part <= Part::kBeta; }
+inline bool is_length(const Place& place) {
+  return place.part == Part::kD || place.part == Part::kA;
+}
+
 /// A plane that was touched: normal · (X - center) = offset.
 struct PlaneGuess {
   Vec3 normal = Vec3::UnitZ();

@@ -36,8 +36,8 @@ std::vector<Eigen::Matrix3d> tip_covariance(const ArmFit& fit, const RowMatrix& 
   // The base of the first station is the frame that tips are told in: it adds nothing.
   std::vector<int> wanted;
   for (int i = 0; i < static_cast<int>(fit.columns.places.size()); ++i) {
-    const Part part = fit.columns.places[i].part;
-    if (part <= Part::kBeta || part == Part::kToolShift) wanted.push_back(i);
+    const Place& place = fit.columns.places[i];
+    if (is_row(place) || place.part == Part::kToolShift) wanted.push_back(i);
   }
   const auto columns = static_cast<Index>(wanted.size());
   const Eigen::MatrixXd covariance = fit.covariance(wanted, wanted);

@@ -53,13 +53,4 @@ struct ArmProblem {
 /// they are all zero there is nothing but the tool that could shrink.
 Eigen::VectorXd size_derivative(const ArmColumns& columns);
 
-/// Whether a column belongs to a row of the arm.
-inline bool is_row(const Place& place) { return place.part <= Part::kBeta; }
-inline bool is_length(const Place& place) {
-  return place.part == Part::kD || place.part == Part::kA;
-}
-
-/// [m] or [rad]; exact data have no scale of their own, and none is taken to be better.
-constexpr double kLeastNoise = 1e-9;
-
 }  // namespace bathyal

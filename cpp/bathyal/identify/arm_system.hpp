@@ -27,6 +27,9 @@ struct Noise {
   double rotation = 1e-4;  ///< [rad]
 };
 
+/// [m] or [rad]; exact data have no scale of their own, and none is taken to be better.
+inline constexpr double kLeastNoise = 1e-9;
+
 /// Residuals in units of their noise, in this order: positions (touches about their centroids, or
 /// in pairs; distances from planes; tracked positions), rotations, known distances and points,
 /// priors of the free columns, linear rows.

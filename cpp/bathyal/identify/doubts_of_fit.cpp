@@ -35,12 +35,12 @@ std::vector<std::string> folded_rows(const Case& seen) {
 
 bool looks_foreign(const Case& seen) {
   if (seen.search.looked_twice) return seen.search.hopeless;
-  return seen.fit.rms_after > kForeignShare * reach_of(seen.nominal);
+  return seen.fit.rms_after > kForeignShare * chain_length(seen.nominal);
 }
 
 void doubt_machine(const Case& seen, Warnings& warnings) {
   if (!looks_foreign(seen)) return;
-  const std::string links = three_digits(reach_of(seen.nominal)) + " m of links";
+  const std::string links = three_digits(chain_length(seen.nominal)) + " m of links";
   warnings.push_back(
       (seen.search.hopeless
            ? "No arm near the drawing, with its " + links + ", agrees with most of the rows"
@@ -57,6 +57,12 @@ void doubt_fold(const Case& seen, Warnings& warnings) {
                      ": no arm is built so far from its drawing, and one that is folded until its "
                      "tip hardly moves agrees with any touches. Use none of these numbers; mend "
                      "what else is named here, and identify again.");
+}
+
+/// Least squares: no row is trusted less than another.
+bool counts_all_alike(const Case& seen) {
+  const auto& trust = seen.system.trust();
+  return std::all_of(trust.begin(), trust.end(), [](double t) { return t == 1.0; });
 }
 
 void doubt_rows(const Case& seen, Warnings& warnings) {
@@ -84,15 +90,14 @@ void doubt_rows(const Case& seen, Warnings& warnings) {
                        listed(groups, kMostNamed) + ". Mend the labels and identify again.");
   }
   if (far.empty()) return;
-  const auto& trust = seen.system.trust();
-  const bool square = std::all_of(trust.begin(), trust.end(), [](double t) { return t == 1.0; });
   warnings.push_back(
       std::string(far.size() == 1 ? "One row lies" : std::to_string(far.size()) + " rows lie") +
       " far from where the others want " + (far.size() == 1 ? "it" : "them") + ": row " +
       listed(far, kMostNamed) +
-      (square ? ". They pull on this fit: see how they were recorded, leave them out or set "
-                "loss=\"cauchy\", and identify again."
-              : ". The robust loss bounds their pull; see how they were recorded."));
+      (counts_all_alike(seen)
+           ? ". They pull on this fit: see how they were recorded, leave them out or set "
+             "loss=\"cauchy\", and identify again."
+           : ". The robust loss bounds their pull; see how they were recorded."));
 }
 
 void doubt_noise_told(const Case& seen, Warnings& warnings) {
@@ -103,10 +108,8 @@ void doubt_noise_told(const Case& seen, Warnings& warnings) {
   for (Index i = 0; i < fit.residuals.cols(); ++i) {
     sum += seen.measurement.weights[i] * fit.residuals.col(i).squaredNorm();
   }
-  const auto& trust = seen.system.trust();
-  const bool square = std::all_of(trust.begin(), trust.end(), [](double t) { return t == 1.0; });
   const double found = std::sqrt(sum / fit.degrees_of_freedom);
-  if (!square || found < kMostRatio * fit.noise) return;
+  if (!counts_all_alike(seen) || found < kMostRatio * fit.noise) return;
   warnings.push_back("What is left asks for a noise of " + millimetres(found) +
                      " per axis, where " + millimetres(fit.noise) +
                      " was told: standard deviations are too small by that factor. Tell no noise, "
@@ -142,7 +145,7 @@ void doubt_parameters(const Case& seen, Warnings& warnings) {
   std::vector<std::string> far;
   for (std::size_t i = 0; i < fit.parameters.size(); ++i) {
     const FitParameter& p = fit.parameters[i];
-    if (fit.columns.places[i].part > Part::kBeta) continue;
+    if (!is_row(fit.columns.places[i])) continue;
     const double change = std::abs(p.value - p.nominal);
     const double most = std::min(p.unit == "rad" ? kFarAngle : kFarLength,
                                  kStrain * fit.columns.columns[i].prior_std);
@@ -160,7 +163,7 @@ void doubt_weak(const Case& seen, Warnings& warnings) {
   std::vector<std::string> weak;
   for (std::size_t i = 0; i < seen.fit.parameters.size(); ++i) {
     const FitParameter& p = seen.fit.parameters[i];
-    if (seen.fit.columns.places[i].part > Part::kBeta || p.status != Status::kIdentified) continue;
+    if (!is_row(seen.fit.columns.places[i]) || p.status != Status::kIdentified) continue;
     if (p.std < (p.unit == "rad" ? kFarAngle : kFarLength)) continue;
     weak.push_back(p.words + " (± " + in_its_unit(p.std, p.unit) + ")");
   }

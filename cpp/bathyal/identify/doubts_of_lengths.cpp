@@ -10,8 +10,6 @@ namespace {
 
 using Warnings = std::vector<std::string>;
 
-bool is_row_length(const Place& place) { return place.part == Part::kD || place.part == Part::kA; }
-
 /// "50.1 mm from left to right": neighbours by label, the first three.
 std::string distances_found(const Measurement& m, const ArmFit& fit) {
   std::vector<std::string> texts;
@@ -49,7 +47,7 @@ void doubt_size_untold(const Case& seen, Warnings& warnings) {
   double loosest = 0.0;
   for (std::size_t i = 0; i < fit.columns.columns.size(); ++i) {
     const double std = fit.columns.columns[i].prior_std;
-    if (is_row_length(fit.columns.places[i]) && std != Column::kNoPrior) {
+    if (is_length(fit.columns.places[i]) && std != Column::kNoPrior) {
       loosest = std::max(loosest, std);
     }
   }

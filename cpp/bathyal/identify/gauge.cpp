@@ -43,11 +43,7 @@ Eigen::MatrixXd jacobian_at(const ArmColumns& columns, const Measurement& poses,
                             const Eigen::VectorXd& x) {
   ArmSystem system(columns, poses, Criterion::kCentroid, false, 1);
   system.set_use_priors(false);
-  Eigen::VectorXd residuals(system.rows());
-  Eigen::MatrixXd jacobian(system.rows(), system.columns());
-  const Eigen::VectorXd y = system.scaled(x);
-  system.evaluate(y.data(), residuals.data(), jacobian.data());
-  return jacobian;
+  return system.jacobian(x);
 }
 
 /// Rows without right angles, parallel axes or lengths of zero.
@@ -57,7 +53,7 @@ Eigen::VectorXd without_chance(const ArmColumns& columns) {
   for (Index i = 0; i < x.size(); ++i) {
     const Part part = columns.places[i].part;
     const double size = random.uniform(0.1, 0.3) * (random.uniform() < 0.5 ? -1.0 : 1.0);
-    if (part <= Part::kBeta || part == Part::kToolShift) x[i] += size;
+    if (is_row(columns.places[i]) || part == Part::kToolShift) x[i] += size;
   }
   return x;
 }
@@ -75,7 +71,7 @@ std::vector<int> order_of(const ArmColumns& columns, bool base_known) {
     return base && !(base_known && p.index == 0);
   });
   take([](const Place& p) { return p.part == Part::kToolShift || p.part == Part::kToolTurn; });
-  take([](const Place& p) { return p.part <= Part::kBeta; });
+  take(is_row);
   return order;
 }
 

@@ -16,7 +16,6 @@ constexpr double kLeastSigma = 6.0;   ///< below it a long tail of honest noise 
 /// Weight of a row that is left out. Not 0: its residual is read off the same evaluation, and a
 /// point all of whose touches are doubted keeps a centre.
 constexpr double kWhisper = 1e-20;
-constexpr double kLeastNoise = 1e-9;     ///< [m]
 constexpr double kLeastDistance = 5e-5;  ///< [m] no touch is told apart from its point by less
 constexpr int kMostRounds = 10;
 
@@ -38,12 +37,11 @@ std::vector<double> shares(const ArmSystem& system) {
   const Measurement& m = system.measurement();
   std::vector<double> total(static_cast<std::size_t>(m.points()), 0.0);
   std::vector<double> share(static_cast<std::size_t>(m.rows()), 0.0);
-  const auto weight = [&](Index i) { return m.weights[i] * system.trust()[i]; };
   for (Index i = 0; i < m.rows(); ++i) {
-    if (m.point[i] >= 0) total[m.point[i]] += weight(i);
+    if (m.point[i] >= 0) total[m.point[i]] += system.weight(i);
   }
   for (Index i = 0; i < m.rows(); ++i) {
-    if (m.point[i] >= 0) share[i] = weight(i) / total[m.point[i]];
+    if (m.point[i] >= 0) share[i] = system.weight(i) / total[m.point[i]];
   }
   return share;
 }
@@ -149,11 +147,10 @@ bool has_strayed(const ArmSystem& system, const Eigen::VectorXd& x) {
   if (system.measurement().tracked) return false;
   const ArmColumns& columns = system.arm_columns();
   for (const int c : system.free()) {
-    const Part part = columns.places[c].part;
-    if (part > Part::kBeta) continue;
-    const bool length = part == Part::kD || part == Part::kA;
+    const Place& place = columns.places[c];
+    if (!is_row(place)) continue;
     const double change = std::abs(x[c] - columns.columns[c].nominal);
-    if (change > (length ? kFarLength : kFarAngle)) return true;
+    if (change > (is_length(place) ? kFarLength : kFarAngle)) return true;
   }
   return false;
 }
@@ -167,9 +164,8 @@ ArmSystem near_drawing(const ArmSystem& fitted, const Measurement& untold) {
   system.set_free(fitted.free());
   std::vector<LinearRow> rows;
   for (const int c : fitted.free()) {
-    const Part part = columns.places[c].part;
-    const bool length = part == Part::kD || part == Part::kA;
-    const double std = part > Part::kBeta ? kFrame : length ? kLength : kFarAngle;
+    const Place& place = columns.places[c];
+    const double std = !is_row(place) ? kFrame : is_length(place) ? kLength : kFarAngle;
     rows.push_back({Eigen::VectorXd::Unit(columns.nominal().size(), c), std});
   }
   system.set_linear_rows(std::move(rows));
@@ -252,12 +248,6 @@ std::optional<int> point_that_fits(const ArmSystem& system, const Study& study, 
 
 }  // namespace
 
-double reach_of(const Arm& arm) {
-  double sum = 0.0;
-  for (const Joint& joint : arm.joints()) sum += std::hypot(joint.row.a, joint.row.d);
-  return sum;
-}
-
 OutlierSearch find_outliers(const ArmSystem& fitted, const Eigen::VectorXd& x) {
   const Measurement& m = fitted.measurement();
   OutlierSearch out{
@@ -295,7 +285,7 @@ OutlierSearch find_outliers(const ArmSystem& fitted, const Eigen::VectorXd& x) {
     out.outliers.push_back(outlier);
   }
   const double left = std::sqrt(3.0 * found.variance) * system.noise().position;
-  if (3 * strangers > m.rows() || left > kForeignShare * reach_of(system.arm_columns().arm)) {
+  if (3 * strangers > m.rows() || left > kForeignShare * chain_length(system.arm_columns().arm)) {
     out.hopeless = true;
     out.outliers.clear();
     return out;

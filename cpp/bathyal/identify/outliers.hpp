@@ -14,11 +14,9 @@ namespace bathyal {
 inline constexpr double kFarLength = 10e-3;  ///< [m]
 inline constexpr double kFarAngle = 0.05;    ///< [rad]
 
-/// What is left of a fit [m, rms], as a share of the arm's reach, from which it cannot be this arm.
+/// What is left of a fit [m, rms], as a share of the chain's length, from which it cannot be this
+/// arm.
 inline constexpr double kForeignShare = 0.01;
-
-/// Lengths of all links together [m].
-double reach_of(const Arm& arm);
 
 struct OutlierSearch {
   std::vector<Outlier> outliers;  ///< by row

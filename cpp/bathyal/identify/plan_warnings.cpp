@@ -2,27 +2,17 @@
 #include "bathyal/identify/plan_warnings.hpp"
 
 #include <cmath>
-#include <cstdio>
 #include <map>
 #include <numbers>
 #include <set>
 
+#include "bathyal/identify/wording.hpp"
+
 namespace bathyal {
 namespace {
 
-std::string with_unit(double value, const char* unit) {
-  char text[48];
-  std::snprintf(text, sizeof text, "%.3g %s", value, unit);
-  return text;
-}
-
-std::string millimetres(double metres) { return with_unit(1e3 * metres, "mm"); }
-
-std::string number_of(std::size_t count, const std::string& one, const std::string& many) {
-  return std::to_string(count) + " " + (count == 1 ? one : many);
-}
-std::string poses(std::size_t count) { return number_of(count, "pose", "poses"); }
-std::string points(std::size_t count) { return number_of(count, "point", "points"); }
+std::string poses(std::size_t count) { return counted(static_cast<long>(count), "pose"); }
+std::string points(std::size_t count) { return counted(static_cast<long>(count), "point"); }
 
 std::map<int, int> touches_by_point(const TouchPlan& plan) {
   std::map<int, int> count;
@@ -69,7 +59,7 @@ void warn_of_unknowns(const TouchPlan& plan, const PlanTouchesOptions& options,
   const std::size_t expected = tells_size(options) ? 0 : 1;
   if (forecast.unseen.size() > expected) {
     std::string text = "These touches cannot tell " +
-                       number_of(forecast.unseen.size(), "combination", "combinations") +
+                       counted(static_cast<long>(forecast.unseen.size()), "combination") +
                        " of the arm's parameters; with the priors stay ";
     for (std::size_t i = 0; i < forecast.unseen.size(); ++i) {
       // A direction's words begin with what leads it.
@@ -89,7 +79,7 @@ void warn_of_size(const TouchPlan& plan, const PlanTouchesOptions& options,
   if (advice) {
     const double apart = (plan.points.col(advice->first) - plan.points.col(advice->second)).norm();
     text += " Measure the distance between points " + std::to_string(advice->first) + " and " +
-            std::to_string(advice->second) + " (" + with_unit(apart, "m") + ") to " +
+            std::to_string(advice->second) + " (" + three_digits(apart) + " m" + ") to " +
             millimetres(options.distance_std) + ", and the worst deviation falls from " +
             millimetres(plan.forecast.worst_tip_std) + " to " + millimetres(advice->worst_tip_std) +
             ".";
@@ -106,8 +96,7 @@ void warn_of_joints(const Arm& arm, const TouchPlan& plan, std::vector<std::stri
     const double range = values.maxCoeff() - values.minCoeff();
     const bool slides = joint.type == JointType::kPrismatic;
     if (range > (slides ? kLittleSlide : kLittleTurn)) continue;
-    const std::string moved =
-        slides ? millimetres(range) : with_unit(range * 180.0 / std::numbers::pi, "degrees");
+    const std::string moved = in_its_unit(range, slides ? "m" : "rad");
     out.push_back("Joint " + std::to_string(joint.coordinate + 1) +
                   (joint.name.empty() ? "" : " (" + joint.name + ")") + " moves by " + moved +
                   " only: what is wrong behind it cannot be told from what is wrong before it.");

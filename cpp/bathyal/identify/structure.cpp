@@ -43,13 +43,14 @@ class JointFunctions {
 };
 
 /// Takes from each row of a touched point what the point's centre takes: the weighted mean.
-void center(const Measurement& m, const std::vector<double>& trust, Eigen::MatrixXd& moves) {
+void center(const ArmSystem& system, Eigen::MatrixXd& moves) {
+  const Measurement& m = system.measurement();
   std::vector<double> total(static_cast<std::size_t>(m.points()), 0.0);
   Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(3 * m.points(), moves.cols());
   for (Index i = 0; i < m.rows(); ++i) {
     if (m.point[i] < 0) continue;
-    total[m.point[i]] += m.weights[i] * trust[i];
-    sum.middleRows(3 * m.point[i], 3) += m.weights[i] * trust[i] * moves.middleRows(3 * i, 3);
+    total[m.point[i]] += system.weight(i);
+    sum.middleRows(3 * m.point[i], 3) += system.weight(i) * moves.middleRows(3 * i, 3);
   }
   for (Index i = 0; i < m.rows(); ++i) {
     if (m.point[i] < 0) continue;
@@ -72,9 +73,9 @@ Eigen::MatrixXd joint_moves(const ArmSystem& system, const Eigen::VectorXd& x) {
       }
     }
   }
-  center(m, system.trust(), moves);
+  center(system, moves);
   for (Index i = 0; i < m.rows(); ++i) {
-    moves.middleRows(3 * i, 3) *= std::sqrt(m.weights[i] * system.trust()[i]);
+    moves.middleRows(3 * i, 3) *= std::sqrt(system.weight(i));
     if (m.tracked || m.plane[i] < 0) continue;
     const Eigen::RowVectorXd along =
         state.planes[m.plane[i]].normal.transpose() * moves.middleRows(3 * i, 3);

@@ -77,8 +77,9 @@ std::string what_speaks_against(const ArmFit& fit) {
 
 }  // namespace
 
-std::string summarize(const ArmFit& fit) {
-  return what_was_found(fit) + how_many(fit) + how_surely(fit) + what_speaks_against(fit);
+std::string summarize(const ArmFit& fit, bool with_warnings) {
+  const std::string found = what_was_found(fit) + how_many(fit) + how_surely(fit);
+  return fit.warnings.empty() || with_warnings ? found + what_speaks_against(fit) : found;
 }
 
 }  // namespace bathyal

@@ -8,7 +8,7 @@
 namespace bathyal {
 
 /// One paragraph in plain words: what was found, how surely, what the size rests on, what could not
-/// be told, and every warning.
-std::string summarize(const ArmFit& fit);
+/// be told, and every warning unless these are told elsewhere.
+std::string summarize(const ArmFit& fit, bool with_warnings = true);
 
 }  // namespace bathyal

@@ -29,18 +29,10 @@ Eigen::Matrix3Xd targets_of(const TouchModel& model, const Measurement& m, int n
   return targets;
 }
 
-Eigen::MatrixXd jacobian_of(const ArmSystem& system) {
-  Eigen::VectorXd residuals(system.rows());
-  Eigen::MatrixXd jacobian(system.rows(), system.columns());
-  const Eigen::VectorXd y = Eigen::VectorXd::Zero(system.columns());
-  system.evaluate(y.data(), residuals.data(), jacobian.data());
-  return jacobian;
-}
-
 void tell_rank(const TouchModel& model, ArmSystem system, TouchForecast& out) {
   system.set_equal_noise(kUnit);
   system.set_use_priors(false);
-  const RankReport rank = reveal_rank(jacobian_of(system));
+  const RankReport rank = reveal_rank(system.jacobian(model.columns.nominal()));
   out.parameters = static_cast<int>(model.columns.columns.size());
   out.free = static_cast<int>(model.free.size());
   out.rank = rank.rank;
@@ -60,7 +52,7 @@ void tell_rank(const TouchModel& model, ArmSystem system, TouchForecast& out) {
 void tell_tips(const TouchModel& model, const ArmSystem& system, int num_threads,
                TouchForecast& out) {
   const auto& columns = model.columns.columns;
-  const Eigen::MatrixXd jacobian = jacobian_of(system);
+  const Eigen::MatrixXd jacobian = system.jacobian(model.columns.nominal());
   const Eigen::MatrixXd known = inverse_square(jacobian);
   const Eigen::HouseholderQR<Eigen::MatrixXd> qr(jacobian);
   out.log_det = 2.0 * qr.matrixQR().diagonal().head(out.free).array().abs().log().sum();

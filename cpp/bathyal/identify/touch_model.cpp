@@ -18,10 +18,10 @@ constexpr std::size_t kPosesPerChunk = 128;
 
 void set_priors(ArmColumns& columns, const ForecastOptions& options) {
   for (std::size_t i = 0; i < columns.columns.size(); ++i) {
-    const Part part = columns.places[i].part;
-    const bool length = part == Part::kD || part == Part::kA;
-    const double row = length ? options.length_prior : options.angle_prior;
-    columns.columns[i].prior_std = part <= Part::kBeta ? row : options.tool_prior;
+    const Place& place = columns.places[i];
+    columns.columns[i].prior_std = !is_row(place)     ? options.tool_prior
+                                   : is_length(place) ? options.length_prior
+                                                      : options.angle_prior;
   }
 }
 
@@ -116,9 +116,7 @@ Eigen::Matrix3Xd tips_of(const TouchModel& model, const RowMatrix& q, int num_th
 }
 
 double length_of(const Arm& arm) {
-  double length = (arm.flange() * arm.tool()).translation().norm();
-  for (const Joint& joint : arm.joints()) length += std::hypot(joint.row.a, joint.row.d);
-  return std::max(length, 0.1);
+  return std::max((arm.flange() * arm.tool()).translation().norm() + chain_length(arm), 0.1);
 }
 
 RowMatrix random_poses(const Arm& arm, Index count, std::uint64_t seed) {
