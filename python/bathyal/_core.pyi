@@ -1839,9 +1839,9 @@ class ArmFit:
         ...
     def __str__(self) -> str:
         ...
-    def summary(self) -> str:
+    def summary(self, *, warnings: bool = True) -> str:
         """
-        One paragraph in plain words.
+        One paragraph in plain words; ``warnings=False`` leaves the warnings to the caller.
         """
     def tip_covariance(self, q: typing.Any, *, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> numpy.ndarray:
         """
