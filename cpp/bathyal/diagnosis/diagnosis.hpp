@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Dense>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace bathyal {
+
+/// What a diagnosis comes to.
+enum class Verdict {
+  kNone,       ///< no data could be held out: what is shown is all there is
+  kClean,      ///< nothing beyond noise
+  kNamed,      ///< causes, each with its evidence
+  kAmbiguous,  ///< causes that these data cannot tell apart
+  kUnknown,    ///< structure that nothing in the library explains
+};
+
+/// A number with its 95 % interval.
+struct Estimate {
+  std::string name;
+  std::string unit;
+  double value = 0.0;
+  double std = 0.0;
+  double low = 0.0;
+  double high = 0.0;
+};
+
+/// A cause by name: what lists of rivals hold.
+struct Cause {
+  std::string name;
+  int joint = -1;     ///< coordinate, or -1
+  std::string words;  ///< "a harmonic of order 2 along joint 3"
+  double odds = 1.0;  ///< against the best explanation, in (0, 1]
+};
+
+/// A cause that was found, and its evidence.
+struct NamedEffect {
+  std::string name;
+  int joint = -1;
+  std::string words;
+  std::vector<Estimate> parameters;
+  std::vector<int> rows;   ///< of `outliers`: the rows
+  double size = 0.0;       ///< rms of what it moves beside all else that was fitted, per axis [m]
+  double gain = 0.0;       ///< share of the held-out variance above noise that it removes
+  double held_out_before = 0.0;  ///< rms (3-D) on data not used, without it [m]
+  double held_out_after = 0.0;   ///< with it [m]
+  double p_value = 1.0;          ///< of its F test within the set, corrected for all that was tried
+  std::vector<Cause> rivals;     ///< the best other explanations of what it explains
+};
+
+/// A dependence of the residuals that chance does not make.
+struct Structure {
+  std::string against;  ///< "joint 3", "position", "time, period 12.1 s", "joints 2 and 3"
+  std::string words;    ///< a sentence
+  double size = 0.0;    ///< rms of it, per axis, noise taken out [m]
+  double share = 0.0;   ///< of the residuals' variance, noise taken out
+  double p_value = 1.0; ///< corrected for all that were asked
+};
+
+/// What was held out, and how well it was foretold.
+struct HeldOut {
+  std::string how;  ///< sentence: what one block is
+  int blocks = 0;
+  double rms_before = 0.0;  ///< geometry alone, 3-D [m]
+  double rms_after = 0.0;   ///< with the named effects, 3-D [m]
+  double noise = 0.0;       ///< floor, 3-D [m]
+  double p_value = 1.0;     ///< that the gain is luck, over the blocks
+  struct Part {
+    std::string name;  ///< "session 2", "point 0", "all"
+    int rows = 0;
+    double rms_before = 0.0;
+    double rms_after = 0.0;
+  };
+  std::vector<Part> parts;
+  Eigen::VectorXd before;  ///< (N,) error foretold without it, by row [m]; NaN where not held out
+  Eigen::VectorXd after;   ///< (N,)
+};
+
+}  // namespace bathyal
