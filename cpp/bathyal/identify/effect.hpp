@@ -111,6 +111,14 @@ class Effect {
   /// times, the order.)
   virtual std::vector<std::vector<Action>> actions(const EffectVariant& variant,
                                                    const EffectData& data) const = 0;
+
+  /// Forms between two neighbours of a scan, in its order, for a closer look; empty where there is
+  /// nothing between.
+  virtual std::vector<EffectVariant> between(const EffectVariant& /*lower*/,
+                                             const EffectVariant& /*upper*/,
+                                             const EffectData& /*data*/) const {
+    return {};
+  }
 };
 
 /// Effect::actions, and their shapes checked: users' effects too come through here.

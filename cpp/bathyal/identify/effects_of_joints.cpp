@@ -58,6 +58,18 @@ class JointHarmonic final : public Effect {
     return {{move_joint(variant.joint, phase.cos())}, {move_joint(variant.joint, phase.sin())}};
   }
 
+  std::vector<EffectVariant> between(const EffectVariant& lower, const EffectVariant& upper,
+                                     const EffectData&) const override {
+    constexpr int kParts = 8;
+    const double low = lower.settings.at("order"), high = upper.settings.at("order");
+    std::vector<EffectVariant> out;
+    for (int i = 1; i < kParts; ++i) {
+      out.push_back(lower);
+      out.back().settings["order"] = low + (high - low) * i / kParts;
+    }
+    return out;
+  }
+
  private:
   /// Two orders that are one wave over the span apart (2π / span) look unlike each other; a grid of
   /// a quarter of that loses 3 % of a wave's amplitude between its points, one of half 10 %, and

@@ -148,16 +148,17 @@ class ToolSlip final : public Effect {
     const std::size_t step = (moments.size() + kMostMoments - 1) / kMostMoments;
     std::vector<EffectVariant> out;
     for (std::size_t i = 0; i < moments.size(); i += step) {
-      EffectVariant variant{"tool_slip",
-                            -1,
-                            {{"moment", moments[i]}},
-                            shift_and_turn(data.has_rotation),
-                            "tool_slip"};
-      if (data.has("time")) {
-        variant.settings["time"] =
-            0.5 * (time_of(data, moments[i] - 1) + time_of(data, moments[i]));
-      }
-      out.push_back(std::move(variant));
+      out.push_back(slip_at(moments[i], data));
+    }
+    return out;
+  }
+
+  std::vector<EffectVariant> between(const EffectVariant& lower, const EffectVariant& upper,
+                                     const EffectData& data) const override {
+    std::vector<EffectVariant> out;
+    const auto end = static_cast<int>(upper.settings.at("moment"));
+    for (int m = static_cast<int>(lower.settings.at("moment")) + 1; m < end; ++m) {
+      if (parts(data, m)) out.push_back(slip_at(m, data));
     }
     return out;
   }
@@ -180,6 +181,14 @@ class ToolSlip final : public Effect {
   }
 
  private:
+  static EffectVariant slip_at(int moment, const EffectData& data) {
+    EffectVariant variant{
+        "tool_slip", -1, {{"moment", moment}}, shift_and_turn(data.has_rotation), "tool_slip"};
+    if (data.has("time")) {
+      variant.settings["time"] = 0.5 * (time_of(data, moment - 1) + time_of(data, moment));
+    }
+    return variant;
+  }
   static double time_of(const EffectData& data, int place) {
     return data.covariate("time")(data.order[place], 0);
   }
