@@ -74,7 +74,8 @@ class CorrectedArm {
   /// what the effects do at the pose found before, until the corrected tip agrees to
   /// position_tolerance and angle_tolerance, 1e-9 m and rad unless given. A pose on the edge of
   /// the support that comes out beyond it with an effect and within it without is kSingular, with
-  /// the error that is left. Statuses else are those of the rigid arm.
+  /// the error that is left. Statuses else are those of the rigid arm: on the edge of what it
+  /// reaches a pose may be called out of reach by as little as the effects amount to.
   /// \throw std::invalid_argument as bathyal::inverse, and for kPseudoInverse.
   CorrectedInverse inverse(std::span<const double> targets, JointView starts,
                            const Covariates& covariates = {},

@@ -19,7 +19,7 @@ constexpr double kTolerance = 1e-9;  ///< [m] and [rad]
 /// The rigid arm is sent to its target closer than the corrected one has to come to its own.
 constexpr double kShare = 0.1;
 constexpr int kMostRounds = 40;
-constexpr int kRoundsOfMiss = 2;  ///< for a target that the rigid arm does not reach
+constexpr int kRoundsOfMiss = 4;  ///< for a target that the rigid arm does not reach
 
 Pose pose_at(const double* numbers) {
   Pose pose;

@@ -97,9 +97,10 @@ class Bounds {
     low = high = asked;
     for (Index i = 0; i < asked.size(); ++i) {
       const double value = asked.data()[i];
-      if (std::binary_search(sessions.begin(), sessions.end(), value)) continue;
+      const bool known = !std::isnan(value);
+      if (known && std::binary_search(sessions.begin(), sessions.end(), value)) continue;
       beyond_ = true;
-      if (std::isnan(value)) asked.data()[i] = sessions.front();
+      if (!known) asked.data()[i] = sessions.front();
       low.data()[i] = sessions.front();
       high.data()[i] = sessions.back();
     }

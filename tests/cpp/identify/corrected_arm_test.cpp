@@ -31,6 +31,13 @@ Support some_support(const Arm& arm) {
                         {"payload", column({0.0, 2.0})}});
 }
 
+JointMatrix poses_within(const Arm& arm, Index count, std::uint64_t seed) {
+  RandomStream random(seed);
+  JointMatrix q(count, arm.size());
+  for (Index i = 0; i < q.size(); ++i) q.data()[i] = random.uniform(-0.99, 0.99);
+  return q;
+}
+
 Covariates some_covariates() {
   return {{"temperature", column({26.0})},
           {"session", column({2.0})},
@@ -64,7 +71,7 @@ TEST(CorrectedArm, ComposesTheChainAsItsHeaderSays) {
   const std::vector<FoundEffect> effects{curve(2e-3), bending(3e-3), moved_base(1e-2),
                                          slip(4e-3),  growth(1e-3),  sag(1e-3)};
   const CorrectedArm model(arm, effects, some_support(arm));
-  const JointMatrix q = random_poses(arm, 5, 1);
+  const JointMatrix q = poses_within(arm, 5, 1);
   const CorrectedPoses found = model.forward(view_of(q), some_covariates());
   EXPECT_TRUE(found.in_support.all());
   for (Index i = 0; i < q.rows(); ++i) {
@@ -102,7 +109,7 @@ TEST(CorrectedArm, IsTheRigidArmWithoutEffects) {
 TEST(CorrectedArm, LinksStandOnTheChain) {
   const Arm arm = odd_arm(6);
   const CorrectedArm model(arm, {curve(2e-3), moved_base(1e-2)}, some_support(arm));
-  const JointMatrix q = random_poses(arm, 3, 5);
+  const JointMatrix q = poses_within(arm, 3, 5);
   const CorrectedPoses links = model.forward_links(view_of(q), some_covariates());
   const CorrectedPoses tips = model.forward(view_of(q), some_covariates());
   const auto count = static_cast<Index>(arm.links().size());
@@ -119,7 +126,7 @@ TEST(CorrectedArm, JacobianIsTheDerivativeOfForward) {
   const CorrectedArm model(arm,
                            {curve(0.02), bending(0.03), moved_base(0.1), slip(0.01), growth(1e-3)},
                            some_support(arm));
-  const JointMatrix q = 0.9 * random_poses(arm, 6, 8);
+  const JointMatrix q = poses_within(arm, 6, 8);
   const Covariates covariates = some_covariates();
   const CorrectedJacobians found = model.jacobian(view_of(q), covariates);
   const CorrectedPoses poses = model.forward(view_of(q), covariates);
@@ -270,7 +277,8 @@ TEST(CorrectedArm, InverseComesBackToANanometre) {
   arm.set_tool(pose_of(0.01, 0.02, 0.2, 0.3, 0.1));
   const CorrectedArm model(arm, {curve(3e-3), bending(2e-3), moved_base(1e-2), growth(1e-4)},
                            some_support(arm));
-  const JointMatrix q = 0.15 * random_poses(arm, 40, 2);
+  JointMatrix q = poses_within(arm, 40, 2);
+  q.col(2).array() = 0.2 + 0.7 * q.col(2).array().abs();  // an elbow that is bent
   const Covariates covariates = some_covariates();
   const std::vector<double> targets = model.forward(view_of(q), covariates).poses;
   for (const InverseTask task :
@@ -325,7 +333,7 @@ TEST(CorrectedArm, InverseFallsBackBeyondTheSupport) {
 TEST(CorrectedArm, IsTheSameForAnyNumberOfThreads) {
   const Arm arm = odd_arm(5);
   const CorrectedArm model(arm, {curve(2e-3), bending(3e-3), moved_base(1e-2)}, some_support(arm));
-  const JointMatrix q = random_poses(arm, 1000, 4);
+  const JointMatrix q = poses_within(arm, 1000, 4);
   const Covariates covariates = some_covariates();
   EXPECT_EQ(model.forward(view_of(q), covariates, 1).poses,
             model.forward(view_of(q), covariates, 5).poses);
