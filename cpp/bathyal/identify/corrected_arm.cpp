@@ -86,6 +86,28 @@ CorrectedArm::CorrectedArm(Arm arm, std::vector<FoundEffect> effects, Support su
     }
   }
   support_.check(arm_.size());
+  try_effects();
+}
+
+/// One pose in the support shows at once what would else wait for the first use.
+void CorrectedArm::try_effects() const {
+  Covariates covariates;
+  for (const auto& [name, range] : support_.covariates) covariates[name] = range.low.transpose();
+  if (!support_.sessions.empty()) {
+    covariates["session"] = RowMatrix::Constant(1, 1, support_.sessions.front());
+  }
+  covariates["gravity"] = support_.gravity.low.transpose();
+  for (const FoundEffect& found : effects_) {
+    for (const std::string& name : found.effect->info().needs) {
+      if (!covariates.contains(name)) {
+        throw_argument("support", name + ", which " + words_of(found) + " needs",
+                       list_of(covariates));
+      }
+    }
+  }
+  const RowMatrix q = support_.joints.low.transpose();
+  const AskedRows rows = ask(arm_, support_, q, covariates);
+  correction(rows.asked, SupportMask::Constant(1, static_cast<Index>(effects_.size()), true));
 }
 
 CorrectedPoses CorrectedArm::forward(JointView q, const Covariates& covariates,

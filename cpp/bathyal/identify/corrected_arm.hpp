@@ -45,7 +45,8 @@ struct CorrectedInverse {
 class CorrectedArm {
  public:
   /// \throw std::invalid_argument for an effect without values, a joint that the arm has not, a
-  ///        support of another width.
+  ///        support of another width or without a covariate that an effect needs; whatever an
+  ///        effect throws that is tried on one pose of the support.
   CorrectedArm(Arm arm, std::vector<FoundEffect> effects, Support support);
 
   const Arm& arm() const { return arm_; }  ///< the rigid part, with base and tool
@@ -87,6 +88,7 @@ class CorrectedArm {
  private:
   struct Rows;  ///< poses with what the effects move there
 
+  void try_effects() const;
   Rows prepare(JointView q, const Covariates& covariates) const;
   SupportMask mask_of(const AskedRows& rows, const std::vector<char>& told) const;
   std::vector<char> told(const Covariates& covariates) const;

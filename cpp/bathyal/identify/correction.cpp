@@ -3,50 +3,11 @@
 
 #include <cmath>
 #include <span>
-#include <string>
 
-#include "bathyal/base/error.hpp"
 #include "bathyal/identify/rotation_vector.hpp"
 
 namespace bathyal {
 namespace {
-
-std::string name_of(const FoundEffect& found) { return "effect " + found.variant.effect; }
-
-Index width_of(Site site) { return site == Site::kFrame ? 6 : 1; }
-
-Index places_of(Site site, const Arm& arm) {
-  switch (site) {
-    case Site::kJoint:
-      return arm.size();
-    case Site::kFrame:
-      return static_cast<Index>(arm.joints().size()) + 2;
-    case Site::kLength:
-      return 1;
-  }
-  return 0;
-}
-
-void check_action(const FoundEffect& found, const Action& action, const EffectData& data) {
-  const Index places = places_of(action.site, *data.arm);
-  if (action.site != Site::kLength && (action.index < 0 || action.index >= places)) {
-    throw_argument(name_of(found), "a site from 0 to " + std::to_string(places - 1),
-                   std::to_string(action.index));
-  }
-  const Index rows = data.rows(), columns = width_of(action.site);
-  if (action.values.rows() != rows || action.values.cols() != columns) {
-    throw_argument(
-        name_of(found),
-        "numbers of shape (" + std::to_string(rows) + ", " + std::to_string(columns) + ")",
-        "(" + std::to_string(action.values.rows()) + ", " + std::to_string(action.values.cols()) +
-            ")");
-  }
-  for (Index i = 0; i < rows; ++i) {
-    if (!action.values.row(i).allFinite()) {
-      throw_argument(name_of(found), "finite numbers", "others in row " + std::to_string(i));
-    }
-  }
-}
 
 Action& at_site(std::vector<Action>& moves, const Action& like) {
   for (Action& move : moves) {
@@ -98,16 +59,10 @@ void grow_rows(const Arm& arm, const CorrectedFrames& frames, double share, TipM
 }  // namespace
 
 std::vector<Action> moves_of(const FoundEffect& found, const EffectData& data) {
-  const std::vector<std::vector<Action>> actions = found.effect->actions(found.variant, data);
-  if (static_cast<Index>(actions.size()) != found.values.size()) {
-    throw_argument(name_of(found),
-                   "actions of " + std::to_string(found.values.size()) + " parameters",
-                   std::to_string(actions.size()));
-  }
+  const std::vector<std::vector<Action>> actions = actions_of(*found.effect, found.variant, data);
   std::vector<Action> moves;
   for (std::size_t p = 0; p < actions.size(); ++p) {
     for (const Action& action : actions[p]) {
-      check_action(found, action, data);
       at_site(moves, action).values += found.values[static_cast<Index>(p)] * action.values;
     }
   }

