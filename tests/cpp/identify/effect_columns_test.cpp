@@ -81,7 +81,7 @@ TEST(EffectColumns, DerivativesOfTrackedPosesAreTheirDifferences) {
   const Eigen::VectorXd x = somewhere(columns, 0.02, 5);
   ArmSystem system(columns, m, Criterion::kCentroid, false, 1);
   system.set_noise({1e-3, 2e-3}, x);
-  EXPECT_GT(columns.actions.size(), 50U);
+  EXPECT_GT(columns.actions.size(), 40U);
   expect_slopes(system, columns, x);
 }
 
@@ -144,8 +144,9 @@ TEST(EffectColumns, SearchFindsTheSizes) {
          [](const auto& v) { return v.joint == 2 && v.settings.at("order") == 2.0; }),
       of("joint_coupling", [](const auto& v) { return v.joint == 4 && v.settings.at("by") == 3; }),
       of("backlash", [](const auto& v) { return v.joint == 1; }),
-      of("thermal", [](const auto&) { return true; }),
-      of("base_shift", [](const auto& v) { return v.settings.at("from") == 9.0; })};
+      of("thermal", [](const auto&) { return true; }), of("base_shift", [](const auto& v) {
+        return v.settings.contains("from") && v.settings.at("from") == 9.0;
+      })};
   Tracked tracked;
   tracked.q = scene.q;
   tracked.position.resize(200, 3);
@@ -179,6 +180,7 @@ TEST(EffectColumns, SearchFindsTheSizes) {
   }
   ArmSystem system(columns, m, Criterion::kCentroid, false, 1);
   system.set_free(free);
+  system.set_noise({1e-7, 1e-7}, columns.nominal());  // the search stops far below it
   const Eigen::VectorXd start = Eigen::VectorXd::Zero(system.columns());
   const Eigen::VectorXd x = system.values(solve_least_squares(system, start).y);
   Eigen::VectorXd truth(11);
