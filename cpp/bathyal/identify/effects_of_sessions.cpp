@@ -67,7 +67,7 @@ class FrameBySession : public Effect {
     const Eigen::ArrayXd session = data.covariate("session").col(0).array();
     const auto from = variant.settings.find("from");
     const std::size_t frames = from != variant.settings.end() ? 1 : variant.settings.size();
-    const int axes = static_cast<int>(variant.parameters.size() / frames);
+    const int axes = static_cast<int>(variant.parameters.size() / std::max<std::size_t>(1, frames));
     Actions out;
     const auto add = [&](const Eigen::ArrayXd& moved) {
       for (int axis = 0; axis < axes; ++axis) {
@@ -79,7 +79,7 @@ class FrameBySession : public Effect {
       return out;
     }
     for (std::size_t s = 2; s <= frames + 1; ++s) {
-      const double label = variant.settings.at(numbered("session", s));
+      const double label = setting_of(variant, numbered("session", s));
       add((session == label).cast<double>());
     }
     return out;
@@ -128,7 +128,7 @@ class ToolChange final : public FrameBySession {
 };
 
 /// Settings: "moment", how many rows came before it, and, where times were told, "time", halfway
-/// between the rows beside it.
+/// between the rows beside it. Poses to foretell of which no time is told come after it.
 class ToolSlip final : public Effect {
  public:
   EffectInfo info() const override {
@@ -168,9 +168,13 @@ class ToolSlip final : public Effect {
     const auto time = variant.settings.find("time");
     if (time != variant.settings.end() && data.has("time")) {
       after = (data.covariate("time").col(0).array() > time->second).cast<double>();
+    } else if (data.recording) {
+      const double moment = setting_of(variant, "moment");
+      for (std::size_t i = 0; i < data.order.size(); ++i) {
+        if (static_cast<double>(i) >= moment) after[data.order[i]] = 1.0;
+      }
     } else {
-      const auto moment = static_cast<std::size_t>(variant.settings.at("moment"));
-      for (std::size_t i = moment; i < data.order.size(); ++i) after[data.order[i]] = 1.0;
+      after.setOnes();
     }
     Actions out;
     const int flange = static_cast<int>(data.arm->joints().size()) + 1;
