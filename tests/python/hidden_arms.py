@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import tempfile
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -101,7 +102,8 @@ class Frames:
 class SimArm:
     """A row is Rz(theta) Tz(d) Tx(a) Rx(alpha) Ry(beta); q adds to theta, or to d where it slides.
 
-    Link k hangs behind row k - 1; `centers` are told in the frame behind that row; 0 is the foot."""
+    Link k hangs behind row k - 1; `centers` are told in the frame behind that row; 0 is the foot.
+    """
 
     theta: Array
     d: Array
@@ -276,8 +278,6 @@ def _drawn_table(random: np.random.Generator) -> tuple[Any, ...]:
 
 
 def _arm_from_urdf(arm: SimArm, folder: Path | None) -> bathyal.Arm:
-    import tempfile
-
     with tempfile.TemporaryDirectory() as made:
         path = Path(folder or made) / "arm.urdf"
         path.write_text(arm.urdf_text())

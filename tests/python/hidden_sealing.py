@@ -11,10 +11,10 @@ import numpy as np
 import hidden_library as lib
 from hidden_arms import Array, turned
 from hidden_draws import BY_VARIANCE, draw_effect, plausible
-from hidden_oracle import Oracle, chance
+from hidden_oracle import Oracle
 from hidden_outside import draw_outside
 from hidden_scene import Scene
-from hidden_shapes import Action, Poses, Shape, basis, beside, column, columns, moved
+from hidden_shapes import Action, Poses, Shape, base_columns, basis, beside, column, columns, moved
 
 LEAST_LEFT = 0.05  # of an effect, beside what geometry and the others can do
 LEAST_LEAD = 12.0  # in squared noises, over what any other cause explains of it
@@ -40,7 +40,7 @@ class Sealed:
     def told_error(self) -> Array:
         """(N, 3) what errors a refit leaves in its tips that is told the causes, to first order."""
         shapes = [columns(self.poses, s) for s in self.shapes]
-        span = basis(np.hstack([lib_base(self.poses), *shapes]))
+        span = basis(np.hstack([base_columns(self.poses), *shapes]))
         wide = 6 if self.poses.pose else 3
         seen = np.zeros((len(self.q), wide))
         seen[:, :3] = self.errors
@@ -111,7 +111,7 @@ class Effects:
             return None
         for i, (shape, size) in enumerate(zip(out.shapes, sizes, strict=True)):
             others = [o for k, o in enumerate(out.shapes) if k != i]
-            known = basis(np.hstack([lib_base(poses), *(columns(poses, o) for o in others)]))
+            known = basis(np.hstack([base_columns(poses), *(columns(poses, o) for o in others)]))
             raw = columns(poses, shape) @ out.values[i] / plan.noise
             left = beside(known, raw)
             if np.linalg.norm(left) < LEAST_LEFT * np.linalg.norm(raw):
@@ -121,7 +121,7 @@ class Effects:
                 return None
             given = dict(zip(shape.actions, out.values[i].tolist(), strict=True))
             out.facts.append(_fact(shape.name, shape.joint, given, plan, shape.settings))
-        oracle.add(poses, _rest(scene, poses))
+        oracle.add(poses, rivals_of(poses))
         return out if _can_be_told(out, oracle, poses, plan.noise, plan.rivals) else None
 
     def joints(self, scene: Scene, poses: Poses) -> Array:
@@ -177,7 +177,7 @@ def _overlap(shape: Shape, others: list[Shape]) -> bool:
     return shape.name in both and any(o.name in both and o.joint == shape.joint for o in others)
 
 
-def _rest(scene: Scene, poses: Poses) -> list[Shape]:
+def rivals_of(poses: Poses) -> list[Shape]:
     """All that may be mistaken for the truth: a slip at each session's start, too."""
     starts = np.flatnonzero(np.diff(poses.sessions)) + 1
     return lib.library(poses) + [lib.tool_slip(poses, int(s)) for s in starts]
@@ -221,7 +221,7 @@ def _outside(
     for j in np.flatnonzero(joints.any(axis=0)):
         moves += moved(poses, Action("joint", int(j), joints[:, j]))
     raw = column(poses, moves) / plan.noise
-    oracle = Oracle.of(poses, _rest(scene, poses))
+    oracle = Oracle.of(poses, rivals_of(poses))
     left = beside(oracle.known, raw)
     if np.linalg.norm(left) < LEAST_LEFT * np.linalg.norm(raw):
         return None
@@ -255,12 +255,6 @@ def _fact(
 # --- poses and measurements ----------------------------------------------------------------------
 
 
-def lib_base(poses: Poses) -> Array:
-    from hidden_shapes import base_columns
-
-    return base_columns(poses)
-
-
 def _poses(scene: Scene, q: Array, point: Array | None) -> Poses:
     time = scene.covariates.get("time")
     order = np.arange(len(q)) if time is None else np.argsort(time, kind="stable")
@@ -283,7 +277,7 @@ def _step(random: np.random.Generator, scene: Scene) -> float:
     poses = _poses(scene, scene.q, None)
     error = random.uniform(-0.5, 0.5, scene.q.shape)
     moves = sum(moved(poses, Action("joint", j, error[:, j])) for j in range(scene.q.shape[1]))
-    left = beside(basis(lib_base(poses)), column(poses, np.asarray(moves)))
+    left = beside(basis(base_columns(poses)), column(poses, np.asarray(moves)))
     size = scene.plan.sizes[scene.plan.names.index("quantisation")]
     return float(size * scene.plan.noise / np.sqrt(np.mean(left**2)))
 
@@ -403,6 +397,3 @@ def _measure(
         effects.outside_size,
         effects.unexplained,
     )
-
-
-__all__ = ["Sealed", "chance", "seal"]
