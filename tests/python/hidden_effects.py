@@ -40,7 +40,7 @@ class Answer:
     effects: list[dict[str, Any]] = field(default_factory=list)
     rivals: list[str] = field(default_factory=list)  # names that these data cannot tell apart
     outside: str = ""  # what the library does not have
-    unexplained: float = 0.0  # share of it, in size, that three effects of the library leave
+    unexplained: float = 0.0  # share of it, in size, that four effects of the library leave
     attempts: int = 1
 
 

@@ -23,7 +23,7 @@ class Motion:
     def draw(random: np.random.Generator, arm: SimArm) -> Motion:
         share = random.dirichlet([2.0, 2.0, 2.0], arm.size).T
         half = (arm.upper - arm.lower) / 2
-        period = random.uniform(9.0, 40.0, (3, arm.size))
+        period = random.uniform(12.0, 50.0, (3, arm.size))
         phase = random.uniform(0, 2 * np.pi, (3, arm.size))
         return Motion((arm.upper + arm.lower) / 2, share * half, 2 * np.pi / period, phase)
 

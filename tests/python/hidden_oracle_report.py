@@ -49,19 +49,16 @@ def oracle(case: Case) -> OracleReport:
         for i, b in enumerate(sight.bases):
             sight.bases[i] = np.linalg.qr(beside(sight.known, b * mask[:, None]))[0]
         seen = beside(sight.known, seen * mask)
-    chosen = sight.find(seen, most=4)
-    for i in chosen:
-        shape = sight.shapes[i]
-        effects.append(OracleEffect(shape.name, shape.joint, dict(shape.settings)))
+    chosen, noisier = _chosen(case, sight, seen)
+    effects += [
+        OracleEffect(s.name, s.joint, dict(s.settings)) for s in (sight.shapes[i] for i in chosen)
+    ]
     ambiguous = _ties(sight, seen, chosen)
     explained = sight.explained(seen, chosen)
     left = float(np.sum(seen**2)) - explained
     free = seen.size - sight.known.shape[1] - sum(sight.dims[i] for i in chosen)
-    if _on_a_lattice(sealed.q, poses.arm.sliding):
-        effects.append(OracleEffect("quantisation", None))
-        left = float(free)
-    elif _grows(case, sight, seen, chosen):
-        effects.append(OracleEffect("range_noise", None))
+    if noisier:
+        effects.append(OracleEffect(noisier, None))
         left = float(free)
     beyond = left - free
     if beyond > 3.5 * np.sqrt(2 * free) and beyond > 0.25 * explained:
@@ -69,6 +66,25 @@ def oracle(case: Case) -> OracleReport:
     if ambiguous:
         return OracleReport("ambiguous", effects, ambiguous)
     return OracleReport("named" if effects else "clean", effects)
+
+
+def _chosen(case: Case, sight: Oracle, seen: Array) -> tuple[list[int], str]:
+    """Shapes beside the noise that there is: where it is more than told, because values were
+    rounded or because it grows with the distance, shapes have to explain more."""
+    lattice = _on_a_lattice(case.sealed.q, case.sealed.poses.arm.sliding)
+    if not lattice and not _grows(case, sight, seen, sight.find(seen)):
+        return sight.find(seen), ""
+    chosen: list[int] = []
+    for _ in range(6):  # from the noisiest reading down
+        left = float(np.sum(seen**2)) - sight.explained(seen, chosen)
+        free = seen.size - sight.known.shape[1] - sum(sight.dims[i] for i in chosen)
+        found = sight.find(seen / np.sqrt(max(1.0, left / free)))
+        if found == chosen:
+            break
+        chosen = found
+    if lattice:
+        return chosen, "quantisation"
+    return chosen, "range_noise" if _grows(case, sight, seen, chosen) else ""
 
 
 def _moves(case: Case) -> Array:

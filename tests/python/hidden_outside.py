@@ -44,7 +44,7 @@ def bump(random: np.random.Generator, poses: Poses) -> Moves:
     """Something near one place (iron, a mirror) pulls what is measured there."""
     tip = poses.frames.tip
     center = tip[int(random.integers(len(tip)))]
-    width = random.uniform(0.5, 0.9) * np.std(tip)
+    width = random.uniform(0.9, 1.5) * np.sqrt(np.mean(np.var(tip, axis=0)))
     near = np.exp(-np.sum((tip - center) ** 2, axis=1) / (2 * width**2))
     return _tip(poses, near[:, None] * random.normal(size=3))
 

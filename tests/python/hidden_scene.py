@@ -106,7 +106,7 @@ class Scene:
         base = pose(place, random.normal(0, 1.5, 3))
         moving = "motion" in plan.needs or (plan.form != "touches" and random.random() < 0.25)
         steps = random.uniform(0.8, 1.2, plan.rows)
-        time = np.cumsum(steps) * (random.uniform(0.1, 0.3) if moving else random.uniform(5, 40))
+        time = np.cumsum(steps) * (random.uniform(0.3, 0.6) if moving else random.uniform(5, 40))
         way = motion.Motion.draw(random, arm) if moving else None
         q = way.at(time) if way else motion.independent_poses(random, arm, plan.rows)
         covariates = _covariates(random, plan, arm, way, time)

@@ -18,7 +18,7 @@ from hidden_shapes import Action, Poses, Shape, base_columns, basis, beside, col
 
 LEAST_LEFT = 0.05  # of an effect, beside what geometry and the others can do
 LEAST_LEAD = 12.0  # in squared noises, over what any other cause explains of it
-OUTSIDE_LEFT = 0.7  # of what is not in the library, beside the best three that are
+OUTSIDE_LEFT = 0.8  # of what is not in the library, beside the best four that are
 
 
 @dataclass
@@ -228,7 +228,7 @@ def _outside(
     factor = plan.outside_size / np.sqrt(np.mean(left**2))
     if factor * np.sqrt(np.mean(moves[:, :3] ** 2)) > 0.02:
         return None
-    chosen = oracle.find(raw, most=3, free=True)
+    chosen = oracle.find(raw, most=4, free=True)
     share = 1.0 - oracle.explained(left, chosen) / float(np.sum(left**2))
     unexplained = float(np.sqrt(max(share, 0.0)))
     if unexplained < OUTSIDE_LEFT:
