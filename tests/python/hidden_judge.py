@@ -61,7 +61,7 @@ def judge(seed: int, diagnose: Diagnose = engine) -> Judged:
         return out
     seconds = perf_counter() - start
     truth = {_true_cause(e): e for e in answer.effects}
-    named = {_named_cause(e): e for e in report.effects}
+    named = {_as_told(_named_cause(e), e, truth): e for e in report.effects}
     out = Judged(
         seed,
         answer.kind,
@@ -117,6 +117,15 @@ def _named_cause(effect: Any) -> Cause:
     if effect.name == "joint_coupling":
         return ("joint_coupling", effect.joint, int(float(effect.parameters["by"])))
     return cause_of(effect.name, effect.joint)
+
+
+def _as_told(cause: Cause, effect: Any, truth: dict[Cause, Any]) -> Cause:
+    """A base that gives way and a link that bends count as one cause."""
+    for true, fact in truth.items():
+        bending = cause[0] == true[0] == "bending"
+        if bending and "base_compliance" in (fact["name"], effect.name):
+            return true
+    return cause
 
 
 def _same_rows(fact: dict[str, Any], effect: Any) -> bool:

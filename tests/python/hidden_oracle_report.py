@@ -39,7 +39,9 @@ def oracle(case: Case) -> OracleReport:
     sight = Oracle.of(poses, shapes)
     seen = beside(sight.known, seen)
     effects: list[OracleEffect] = []
-    keep = _grossly_off(sight, seen, poses)
+    # Rounded joint values throw rows off, too, as far as half a step can.
+    lattice = _on_a_lattice(sealed.q, poses.arm.sliding)
+    keep = None if lattice else _grossly_off(sight, seen, poses)
     if keep is not None:
         off = np.flatnonzero(~keep)
         effects.append(OracleEffect("outliers", None, rows=[int(r) for r in off]))
@@ -49,7 +51,7 @@ def oracle(case: Case) -> OracleReport:
         for i, b in enumerate(sight.bases):
             sight.bases[i] = np.linalg.qr(beside(sight.known, b * mask[:, None]))[0]
         seen = beside(sight.known, seen * mask)
-    chosen, noisier = _chosen(case, sight, seen)
+    chosen, noisier = _chosen(case, sight, seen, lattice)
     effects += [
         OracleEffect(s.name, s.joint, dict(s.settings)) for s in (sight.shapes[i] for i in chosen)
     ]
@@ -68,10 +70,9 @@ def oracle(case: Case) -> OracleReport:
     return OracleReport("named" if effects else "clean", effects)
 
 
-def _chosen(case: Case, sight: Oracle, seen: Array) -> tuple[list[int], str]:
+def _chosen(case: Case, sight: Oracle, seen: Array, lattice: bool) -> tuple[list[int], str]:
     """Shapes beside the noise that there is: where it is more than told, because values were
     rounded or because it grows with the distance, shapes have to explain more."""
-    lattice = _on_a_lattice(case.sealed.q, case.sealed.poses.arm.sliding)
     if not lattice and not _grows(case, sight, seen, sight.find(seen)):
         return sight.find(seen), ""
     chosen: list[int] = []

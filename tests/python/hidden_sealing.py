@@ -172,9 +172,13 @@ def _drawn(
 
 
 def _overlap(shape: Shape, others: list[Shape]) -> bool:
-    """A joint has one curve, or one scale, not both."""
-    both = {"joint_harmonic", "joint_map", "joint_scale"}
-    return shape.name in both and any(o.name in both and o.joint == shape.joint for o in others)
+    """A joint has one curve, or one scale, not both; and only one thing bends."""
+    curves = {"joint_harmonic", "joint_map", "joint_scale"}
+    return any(
+        (o.joint == shape.joint and {o.name, shape.name} <= curves)
+        or o.cause[0] == shape.cause[0] == "bending"
+        for o in others
+    )
 
 
 def rivals_of(poses: Poses) -> list[Shape]:

@@ -214,6 +214,6 @@ def cantilever(poses: Poses, row: int) -> Array:
 
 
 def base_moment(poses: Poses) -> Array:
-    """(N, 3) moment of the arm's weight about the base's origin."""
-    _, moment = weight_behind(poses, 1)
+    """(N, 3) moment of the arm's weight, its foot too, about the base's origin."""
+    _, moment = weight_behind(poses, 0)
     return np.asarray(np.cross(moment, gravity_of(poses)))
