@@ -20,11 +20,12 @@ if TYPE_CHECKING:
 
 Floats = NDArray[np.float64]
 
-_BINS = 24  # along one quantity, of equal counts
-_FEWEST_IN_BIN = 5
+_BINS = 20  # along one quantity, of equal counts
+_FEWEST_IN_BIN = 12
 _CELLS = 14  # of a map, to a side
 _MOST_VALUES = 8  # a quantity with no more of them is drawn value by value
 _CURVE = 241
+_STILL = 1e-6  # [m/rad]; a joint whose axis the tip lies on moves it nowhere
 _INTERVAL = 1.96
 _UNITS = {
     "temperature": "°C", "time": "s", "payload": "kg", "gravity": "m/s²", "session": "",
@@ -36,12 +37,13 @@ _PARTS = {"gravity": "xyz"}
 @dataclass(frozen=True)
 class Quantity:
     """Something that residuals are laid against, as people read it. `key` is what structures call
-    it: "joint 3", "temperature", "z"."""
+    it: "joint 3", "temperature", "z"; `joint` is the coordinate of a joint."""
 
     key: str
     name: str
     unit: str
     values: Floats
+    joint: int | None = None
 
     @property
     def label(self) -> str:
@@ -50,12 +52,12 @@ class Quantity:
 
 @dataclass(frozen=True)
 class Binned:
-    """Means of residuals along a quantity: (B,) places, (B, 3) means and their standard errors."""
+    """Means of residuals along a quantity: (B,) places, (B, K) means and their standard errors."""
 
     place: Floats
     mean: Floats
     error: Floats
-    rows: int
+    by_value: bool
 
 
 @dataclass(frozen=True)
@@ -76,21 +78,47 @@ class JointCurve:
     seen: Floats
 
 
-def residual_rows(residuals: Any) -> Floats:
-    """(N, 3) of a report's (3, N) [m]."""
-    return np.asarray(residuals, float).T
+@dataclass(frozen=True)
+class Residuals:
+    """What is left, (N, 3) in the world, and (N, n) along the way in which each joint moves the
+    tip: an error of a joint points everywhere in the world, and one way along the joint [m]."""
+
+    world: Floats
+    along: Floats
+
+    def against(self, quantity: Quantity) -> Floats:
+        """(N, 1) along a joint's own way; (N, 3) against anything else."""
+        return self.world if quantity.joint is None else self.along[:, [quantity.joint]]
+
+
+def residuals_of(report: Diagnosis, residuals: Any) -> Residuals:
+    """Of a report's residuals (3, N)."""
+    world = np.asarray(residuals, float).T
+    jacobian = np.asarray(report.fit.arm.jacobian(report.data.q))[:, :3]
+    bases = report.fit.bases
+    if len(bases) > 1:
+        turn = np.array([base[:3, :3] @ bases[0][:3, :3].T for base in bases])
+        jacobian = turn[np.asarray(report.data.station)] @ jacobian
+    lever = np.linalg.norm(jacobian, axis=1)
+    along = np.einsum("nij,ni->nj", jacobian, world) / np.where(lever > _STILL, lever, np.inf)
+    return Residuals(world, along)
 
 
 def quantities(report: Diagnosis) -> list[Quantity]:
     """Joints, position, then what was recorded beside: all that changes over the data."""
     found = [
-        Quantity(f"joint {k}", joint.name, joint.unit, joint.values)
+        Quantity(f"joint {k}", joint_label(k, joint.name), joint.unit, joint.values, k - 1)
         for k, joint in enumerate(joint_values(report.fit.arm, report.data), 1)
     ]
     place = positions(report)
     found += [Quantity(axis, axis, "m", place[:, k]) for k, axis in enumerate("xyz")]
     found += _covariates(report.data.covariates)
     return [one for one in found if np.ptp(one.values) > 0]
+
+
+def joint_label(number: int, name: str) -> str:
+    """ "joint 3 · elbow": as structures call it, then as the arm does."""
+    return f"joint {number}" if name in ("", f"joint_{number}") else f"joint {number} · {name}"
 
 
 def positions(report: Diagnosis) -> Floats:
@@ -137,7 +165,8 @@ def binned(quantity: Quantity, residuals: Floats) -> Binned:
     """Means over bins of equal counts, or over each value where there are few."""
     values = quantity.values
     distinct = np.unique(values)
-    if len(distinct) <= _MOST_VALUES:
+    by_value = len(distinct) <= _MOST_VALUES
+    if by_value:
         index = np.searchsorted(distinct, values)
         count = len(distinct)
     else:
@@ -151,7 +180,7 @@ def binned(quantity: Quantity, residuals: Floats) -> Binned:
         [np.bincount(index, r, minlength=count) / rows for r in ((residuals - mean[index]) ** 2).T]
     )
     error = np.sqrt(square / np.maximum(rows - 1, 1)[:, None])
-    return Binned(place, mean, error, int(rows.min()))
+    return Binned(place, mean, error, by_value)
 
 
 def mapped(pair: tuple[Quantity, Quantity], residuals: Floats) -> tuple[Floats, Floats, Floats]:
@@ -199,8 +228,8 @@ def joint_curve(report: Diagnosis, effect: Any) -> JointCurve | None:
     scale = 1e3 if across.unit == "mm" else math.degrees(1.0)
     return JointCurve(
         title=str(effect.words),
-        across=f"{across.name} [{across.unit}]",
-        up=f"{arm.joint_names[effect.joint]} off by [{'mm' if slides else '°'}]",
+        across=f"{joint_label(along + 1, across.name)} [{across.unit}]",
+        up=f"joint {effect.joint + 1} off by [{'mm' if slides else '°'}]",
         place=scale * place,
         middle=shown * middle,
         low=shown * (middle - half),
@@ -275,13 +304,13 @@ def supports(report: Diagnosis) -> list[Support]:
     """Joints against their limits, then temperature and load as far as they were recorded."""
     arm = report.fit.arm
     found = []
-    for joint, kind, lower, upper in zip(
-        joint_values(arm, report.data), arm.joint_types, arm.lower, arm.upper, strict=True
-    ):
+    joints = zip(joint_values(arm, report.data), arm.joint_types, arm.lower, arm.upper, strict=True)
+    for number, (joint, kind, lower, upper) in enumerate(joints, 1):
         factor = 1e3 if kind == "prismatic" else math.degrees(1.0)
         ends = [factor * float(end) if math.isfinite(end) else None for end in (lower, upper)]
         low, high = float(joint.values.min()), float(joint.values.max())
-        found.append(Support(joint.name, joint.unit, low, high, *ends))
+        name = joint_label(number, joint.name)
+        found.append(Support(name, joint.unit, low, high, *ends))
     for name in ("temperature", "payload"):
         values = report.data.covariates.get(name)
         if values is not None:

@@ -119,6 +119,23 @@ def gain_text(report: Diagnosis) -> str:
     return f"{text}; that this is luck has {chance_text(held.p_value)}."
 
 
+def evidence_texts(report: Diagnosis) -> list[str]:
+    """Of each cause a sentence: what it takes from data held out, and what else might do it."""
+    return [_sentence(_evidence(effect)) for effect in report.effects]
+
+
+def _evidence(effect: Any) -> str:
+    text = (
+        f"{_upper(effect.words)}: {share_text(effect.gain)} of the variance above noise on data "
+        f"held out ({length_text(effect.held_out_before)} without it, "
+        f"{length_text(effect.held_out_after)} with it; {chance_text(effect.p_value)})"
+    )
+    if not effect.rivals:
+        return text
+    best = max(effect.rivals, key=lambda rival: rival.odds)
+    return f"{text}; next best: {best.words}, {odds_text(best.odds)}"
+
+
 def leftover_text(report: Diagnosis) -> str:
     """What the named causes leave."""
     left = report.leftover
@@ -303,13 +320,13 @@ _NEXT = {
 def _where_to_look(against: str) -> str:
     if against.startswith("time"):
         return (
-            "It goes with time: look for what runs in that rhythm (a pump, a machine, the sun), and "
-            "measure the same poses again at another hour."
+            "It goes with time: look for what runs in that rhythm (a pump, a machine, the sun), "
+            "and measure the same poses again at another hour."
         )
     if against.startswith(("position", "x", "y", "z")):
         return (
-            "It goes with the place: check the instrument's own field with a body of known size, or "
-            "measure the same places from another station."
+            "It goes with the place: check the instrument's own field with a body of known size, "
+            "or measure the same places from another station."
         )
     if against.startswith("session"):
         return "It goes with the session: find what was changed between them, and repeat one pose."

@@ -236,7 +236,8 @@ def many(count: int = 20) -> Report:
         ("base_shift", None, "the base moved between sessions <1> & 2",
          {f"{kind}_{axis}_2": (1e-4, unit, 1e-5) for kind, unit in (("shift", "m"), ("turn", "rad"))
           for axis in "xyz"}),
-        ("thermal", None, "the links grow when warm: Größe µ ✓", {"expansion": (2.3e-5, "1/K", 1e-6)}),
+        ("thermal", None, "the links grow when warm: Größe µ ✓",
+         {"expansion": (2.3e-5, "1/K", 1e-6)}),
         ("drift", None, "the base drifts", {"rate_x": (2e-8, "m/s", 1e-9)}),
         ("outliers", None, "3 rows that disagree", {}),
     ]  # fmt: skip
