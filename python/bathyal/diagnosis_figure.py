@@ -39,7 +39,7 @@ if TYPE_CHECKING:
 
 MOST_CURVES = 12
 """Curves that the page draws; the others stand in its table."""
-VERDICT_SIGNS = {"clean": "✔", "named": "◆", "ambiguous": "≈", "unknown": "?", "none": "–"}
+VERDICT_SIGNS = {"clean": "✔", "named": "◆", "ambiguous": "≈", "unknown": "?", "none": "○"}
 """What says a verdict without colour."""
 _WIDE = 11.0  # in, of a picture on the page
 _PANEL = 2.05  # in, height of a row of panels
@@ -84,8 +84,10 @@ def pair_figure(report: Diagnosis) -> Figure | None:
     return figure
 
 
-def left_figure(report: Diagnosis) -> Figure:
-    """The same with the causes taken out, on a scale of its own."""
+def left_figure(report: Diagnosis) -> Figure | None:
+    """The same with the causes taken out, on a scale of its own; None where none were."""
+    if not report.effects and not report.ambiguous:
+        return None
     left = [] if report.leftover is None else [report.leftover]
     return _against_all(report, residuals_of(report, report.residuals_after), left)
 
@@ -113,8 +115,10 @@ def support_figure(report: Diagnosis) -> Figure:
     return figure
 
 
-def gain_figure(report: Diagnosis) -> Figure:
-    """Step four: error on data held out, part by part and row by row."""
+def gain_figure(report: Diagnosis) -> Figure | None:
+    """Step four: error on data held out, part by part and row by row; None where nothing was."""
+    if report.verdict == "none":
+        return None
     parts = min(len(report.held_out.parts), 30)
     figure = _figure(_WIDE, max(2.9, 1.0 + 0.24 * parts))
     left, right = figure.subplots(1, 2, width_ratios=(1.15, 1))
@@ -187,13 +191,19 @@ def _box(corner: tuple[float, float], wide: float, high: float, colour: str, fig
 
 def _write(figure: Figure, top: float, paragraphs: Sequence[tuple[str, str]]) -> float:
     for text, colour in paragraphs:
-        lines = textwrap.wrap(text, _LETTERS)
+        lines = _wrapped(text, _LETTERS)
         figure.text(
             _LEFT, top, "\n".join(map(plain, lines)), va="top", fontsize=8, color=colour,
             linespacing=1.25,
         )  # fmt: skip
         top -= _LINE * len(lines) + 0.004
     return top
+
+
+def _wrapped(text: str, letters: int) -> list[str]:
+    """Lines, none of which parts a chance from its number."""
+    lines = textwrap.wrap(text.replace("p < ", "p\u00a0<\u00a0"), letters)
+    return [line.replace("\u00a0", " ") for line in lines]
 
 
 def _draw_sheet(figure: Figure, report: Diagnosis, top: float) -> None:
@@ -238,7 +248,7 @@ def _write_evidence(
     """Why these causes, beside their curves."""
     left = _cell(curves, 3, bottom, height)[0]
     letters = int(_EVIDENCE_LETTERS * (3 - curves))
-    lines = [line for text in evidence_texts(report) for line in textwrap.wrap(text, letters)]
+    lines = [line for text in evidence_texts(report) for line in _wrapped(text, letters)]
     most = int(height / _LINE) - 3
     if len(lines) > most:
         lines = [*lines[: most - 1], "… the rest stands in report.html"]

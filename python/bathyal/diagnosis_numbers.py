@@ -32,12 +32,14 @@ _NAMES = {"cos": "cosine", "sin": "sine"}
 
 
 def length_text(metres: float) -> str:
-    """ "0.312 mm": three figures, in the unit that suits."""
+    """ "0.312 mm", "0.031 mm": to a micrometre or three figures, in the unit that suits."""
     size = abs(metres)
     if not math.isfinite(size):
         return "?"
     if size < 1e-9:
         return "0 mm" if size == 0 else "under 1 nm"
+    if 1e-5 <= size < 1e-4:
+        return f"{number(1e3 * metres, 3)} mm"
     unit, factor = ("m", 1.0) if size >= 1 else ("mm", 1e3) if size >= 1e-5 else ("µm", 1e6)
     return f"{figures(factor * metres)} {unit}"
 
@@ -128,4 +130,6 @@ def figures(value: float) -> str:
     """Three of them, with a true minus, and powers of ten where a row of zeros would stand."""
     if value != 0 and not 1e-3 <= abs(value) < 1e6:
         return f"{value:.2e}".replace("-", "−")
-    return f"{value:.3g}".replace("-", "−") if abs(value) < 1e3 else number(value, 0)
+    if abs(value) >= 100 or value == 0:
+        return number(value, 0)
+    return f"{value:#.3g}".replace("-", "−")

@@ -107,7 +107,7 @@ def write_page(
         beyond=_beyond(report),
         held=html.escape(_held(report)),
         parts=_parts(report),
-        left=html.escape(leftover_text(report)),
+        left=_left(report),
         poses=_poses(report),
         **{f"{name}_picture": drawing for name, drawing in drawings.items()},
     )
@@ -155,7 +155,7 @@ def _tiles(report: Diagnosis) -> str:
         least = min((s.p_value for s in report.shown), default=math.nan)
         tiles += [
             (length_text(report.detectable), "per axis would have been seen"),
-            (chance_text(least), "of the most suspect"),
+            (chance_text(least), "for the most suspect structure"),
             (length_text(held.rms_before), "error on data held out (3-D rms)"),
         ]
     elif report.verdict == "none":
@@ -208,7 +208,7 @@ def _structures(report: Diagnosis) -> str:
         for s in shown
     ]  # fmt: skip
     head = ("against", "size per axis", "of variance above noise", "chance", "what it looks like")
-    return _table(head, (row[:5] for row in rows), (row[5] for row in rows))
+    return _table(head, (row[:5] for row in rows), (row[5] for row in rows), kind="prose")
 
 
 # Name ---------------------------------------------------------------------------------------------
@@ -324,11 +324,24 @@ def _beyond(report: Diagnosis) -> str:
 def _held(report: Diagnosis) -> str:
     held = report.held_out
     how = held.how.strip().rstrip(".")
+    if report.verdict == "none":
+        return f"No data could be held out: {how}."
     return f"Held out: {how} ({held.blocks} block{'' if held.blocks == 1 else 's'})."
+
+
+def _left(report: Diagnosis) -> str:
+    if not report.effects and not report.ambiguous:
+        return ""
+    return (
+        "<h3>What is left with the causes taken out</h3>"
+        f"<p>{html.escape(leftover_text(report))}</p>"
+    )
 
 
 def _parts(report: Diagnosis) -> str:
     held = report.held_out
+    if report.verdict == "none":
+        return ""
     rows = [("all held out", "", length_text(held.rms_before), length_text(held.rms_after))]
     rows += [
         (part.name, f"{part.rows:,}", length_text(part.rms_before), length_text(part.rms_after))
@@ -363,13 +376,16 @@ def _poses(report: Diagnosis) -> str:
 
 
 def _table(
-    head: Sequence[str], rows: Iterable[Sequence[str]], classes: Iterable[str] | None = None
+    head: Sequence[str],
+    rows: Iterable[Sequence[str]],
+    classes: Iterable[str] | None = None,
+    kind: str = "",
 ) -> str:
     titles = "".join(f"<th>{html.escape(title)}</th>" for title in head)
     rows = list(rows)
-    kinds = [""] * len(rows) if classes is None else list(classes)
+    of_rows = [""] * len(rows) if classes is None else list(classes)
     body = "".join(
-        f"<tr class='{kind}'>{''.join(f'<td>{html.escape(cell)}</td>' for cell in row)}</tr>"
-        for row, kind in zip(rows, kinds, strict=True)
+        f"<tr class='{own}'>{''.join(f'<td>{html.escape(cell)}</td>' for cell in row)}</tr>"
+        for row, own in zip(rows, of_rows, strict=True)
     )
-    return f"<table><tr>{titles}</tr>{body}</table>"
+    return f"<table class='{kind}'><tr>{titles}</tr>{body}</table>"

@@ -41,13 +41,15 @@ table {{ border-collapse: collapse; font-variant-numeric: tabular-nums; font-siz
 th {{ text-align: left; font-weight: 500; color: #555; padding: 2px 16px 2px 0;
   vertical-align: top; }}
 td {{ padding: 2px 16px 2px 0; vertical-align: top; }}
+td:nth-child(n+2) {{ white-space: nowrap; }}
+.prose td:last-child {{ white-space: normal; }}
 tr.strong td {{ font-weight: 600; }}
 tr.weak td {{ color: #666; }}
 .small {{ font-size: 13px; color: #555; }}
 img {{ max-width: 100%; display: block; margin: 8px 0; }}
 .card {{ border: 1px solid #dcdcd8; border-radius: 6px; padding: 12px 18px; margin: 12px 0; }}
 .sides {{ display: flex; flex-wrap: wrap; gap: 8px 36px; }}
-.sides > div {{ flex: 1 1 230px; }}
+.sides > div {{ flex: 1 1 290px; }}
 .gain {{ height: 9px; background: #ececea; border-radius: 4px; overflow: hidden; margin: 6px 0; }}
 .gain i {{ display: block; height: 100%; background: {blue}; }}
 .odds {{ width: 90px; min-width: 60px; }}
@@ -91,8 +93,7 @@ speaks.</p>
 <p>{held}</p>
 {gain_picture}
 {parts}
-<h3>What is left with the causes taken out</h3>
-<p>{left}</p>
+{left}
 {left_picture}
 {poses}
 </body>
