@@ -273,7 +273,7 @@ def identify(
         raise argument_error("source", "a file", "none")
     nominal = find_arm(arm) if isinstance(arm, str) else arm
     with step("Reading"):
-        data = _read(files, tracked, {**_joints(files[0], nominal), **(read or {})})
+        data = read_data(files, nominal, tracked=tracked, read=read or {})
     with step("Identifying"):
         fit = identify_arm(nominal, data, **(options or {}))
     return Identification(
@@ -289,23 +289,42 @@ def identify(
     )
 
 
+def read_data(
+    files: Sequence[PathLike], arm: Arm, *, tracked: bool, read: Mapping[str, Any]
+) -> Touches | Tracked:
+    """Touches from one table or a table for each point; tracked poses from one table.
+
+    Parameters
+    ----------
+    files : sequence of path
+    arm : Arm
+        Columns may be called as its joints are.
+    tracked : bool
+    read : mapping
+        Keywords of `read_touches` or `read_tracked`.
+    """
+    keywords = {**_joints(files[0], arm), **read}
+    if not tracked:
+        return read_touches(files[0] if len(files) == 1 else _labelled(files), **keywords)
+    if len(files) > 1:
+        raise argument_error("source", "one file of tracked poses", f"{len(files)} files")
+    check_tracked(read)
+    return read_tracked(files[0], **keywords)
+
+
+def check_tracked(read: Mapping[str, Any]) -> None:
+    """Refuse what touches alone need."""
+    beside = sorted(set(read) & {"known_distances", "known_points", "planes", "point",
+                                 "distance_std", "point_std"})  # fmt: skip
+    if beside:
+        raise argument_error(beside[0], "nothing beside tracked poses, which tell it all", "one")
+
+
 def _joints(file: PathLike, arm: Arm) -> dict[str, Any]:
     """The arm's own joints by name, where the table has columns of these names."""
     table = read_table(file)
     names = list(arm.joint_names)
     return {"joints": names} if all(table.find(name) is not None for name in names) else {}
-
-
-def _read(files: Sequence[PathLike], tracked: bool, read: dict[str, Any]) -> Touches | Tracked:
-    if not tracked:
-        return read_touches(files[0] if len(files) == 1 else _labelled(files), **read)
-    if len(files) > 1:
-        raise argument_error("source", "one file of tracked poses", f"{len(files)} files")
-    beside = sorted(set(read) & {"known_distances", "known_points", "planes", "point",
-                                 "distance_std", "point_std"})  # fmt: skip
-    if beside:
-        raise argument_error(beside[0], "nothing beside tracked poses, which tell it all", "one")
-    return read_tracked(files[0], **read)
 
 
 def _labelled(files: Sequence[PathLike]) -> dict[str, PathLike]:
