@@ -172,19 +172,16 @@ def draw_parts(axes: Axes, report: Diagnosis, *, font: float = 8.0) -> None:
     if not rows:
         _nothing(axes, "nothing was held out", font)
         return
-    for place, (_, before, after) in enumerate(rows):
-        weight = 2.4 if place == 0 else 1.2
-        axes.plot([1e3 * before, 1e3 * after], [place] * 2, color="#c9ccd1", lw=weight, zorder=1)
     place = np.arange(len(rows))
-    for at, colour, shape, name in ((1, BEFORE, "o", "geometry alone"),
-                                    (2, AFTER, "D", "with the causes")):  # fmt: skip
-        values = [1e3 * row[at] for row in rows]
-        axes.plot(values, place, ls="none", marker=shape, color=colour, ms=6, zorder=3, label=name)
+    before, after = (1e3 * np.array([row[at] for row in rows]) for at in (1, 2))
+    axes.hlines(place, before, after, color="#c9ccd1", lw=[2.4, *[1.2] * (len(rows) - 1)], zorder=1)
+    style: dict[str, Any] = {"ls": "none", "ms": 6, "zorder": 3}
+    axes.plot(before, place, marker="o", color=BEFORE, label="geometry alone", **style)
+    axes.plot(after, place, marker="D", color=AFTER, label="with the causes", **style)
     axes.axvline(1e3 * held.noise, color=INK, lw=1.1, ls=(0, (4, 2)), label="noise")
     axes.set(ylim=(len(rows) - 0.4, -0.6), yticks=place)
     axes.set_yticklabels([shortened(row[0]) for row in rows])
-    highest = max(max(row[1], row[2]) for row in rows)
-    axes.set_xlim(0, 1.12e3 * max(highest, held.noise, 1e-12))
+    axes.set_xlim(0, 1.12 * max(*before, *after, 1e3 * held.noise, 1e-9))
     axes.legend(fontsize=font - 0.5, frameon=False, loc="lower center", ncols=3,
                 bbox_to_anchor=(0.45, 1.0), handletextpad=0.3, columnspacing=1.0)  # fmt: skip
     dress(axes, "error on data held out, 3-D rms [mm]", "", font)

@@ -269,8 +269,6 @@ def identify(
     """
     step = step or nullcontext
     files = [source] if isinstance(source, (str, os.PathLike)) else list(source)
-    if not files:
-        raise argument_error("source", "a file", "none")
     nominal = find_arm(arm) if isinstance(arm, str) else arm
     with step("Reading"):
         data = read_data(files, nominal, tracked=tracked, read=read or {})
@@ -280,7 +278,11 @@ def identify(
         nominal=nominal,
         data=data,
         fit=fit,
-        settings={"tracked": tracked, "read": _plain(read or {}), "identify": dict(options or {})},
+        settings={
+            "tracked": tracked,
+            "read": plain_settings(read or {}),
+            "identify": dict(options or {}),
+        },
         provenance={
             "bathyal": version("bathyal"),
             "arm": {"name": nominal.name, "source": nominal.source},
@@ -290,7 +292,12 @@ def identify(
 
 
 def read_data(
-    files: Sequence[PathLike], arm: Arm, *, tracked: bool, read: Mapping[str, Any]
+    files: Sequence[PathLike],
+    arm: Arm,
+    *,
+    tracked: bool,
+    read: Mapping[str, Any],
+    sessions: bool = False,
 ) -> Touches | Tracked:
     """Touches from one table or a table for each point; tracked poses from one table.
 
@@ -302,22 +309,26 @@ def read_data(
     tracked : bool
     read : mapping
         Keywords of `read_touches` or `read_tracked`.
+    sessions : bool
+        Whether tracked poses may come in a table for each session.
+
+    Raises
+    ------
+    ValueError, Error, OSError
+        As `read_touches` and `read_tracked`; for what touches alone need beside tracked poses.
     """
+    if not files:
+        raise argument_error("source", "a file", "none")
     keywords = {**_joints(files[0], arm), **read}
     if not tracked:
         return read_touches(files[0] if len(files) == 1 else _labelled(files), **keywords)
-    if len(files) > 1:
+    if len(files) > 1 and not sessions:
         raise argument_error("source", "one file of tracked poses", f"{len(files)} files")
-    check_tracked(read)
-    return read_tracked(files[0], **keywords)
-
-
-def check_tracked(read: Mapping[str, Any]) -> None:
-    """Refuse what touches alone need."""
     beside = sorted(set(read) & {"known_distances", "known_points", "planes", "point",
                                  "distance_std", "point_std"})  # fmt: skip
     if beside:
         raise argument_error(beside[0], "nothing beside tracked poses, which tell it all", "one")
+    return read_tracked(files if len(files) > 1 else files[0], **keywords)
 
 
 def _joints(file: PathLike, arm: Arm) -> dict[str, Any]:
@@ -341,7 +352,7 @@ def _labelled(files: Sequence[PathLike]) -> dict[str, PathLike]:
     return dict(zip(labels, files, strict=True))
 
 
-def _plain(read: Mapping[str, Any]) -> dict[str, Any]:
+def plain_settings(read: Mapping[str, Any]) -> dict[str, Any]:
     """Settings as JSON tells them: pairs of labels as one text."""
     return {
         name: {" ".join(pair): metres for pair, metres in value.items()}

@@ -336,9 +336,7 @@ def _together(
     return np.column_stack([_finite(table, column, units, default) for column in columns])
 
 
-def _finite(
-    table: Table, name: str, units: dict[str, float], default: str
-) -> NDArray[np.float64]:
+def _finite(table: Table, name: str, units: dict[str, float], default: str) -> NDArray[np.float64]:
     """A column of which nothing is missing."""
     values = table.numbers(name, units, default)
     wrong = np.flatnonzero(~np.isfinite(values))
