@@ -7,10 +7,12 @@ import textwrap
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
+from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
-from matplotlib.figure import Figure, SubFigure
+from matplotlib.figure import Figure
 
 from bathyal.diagnosis_panels import (
+    MOST_PARTS,
     draw_against,
     draw_curve,
     draw_histogram,
@@ -42,8 +44,9 @@ MOST_CURVES = 12
 VERDICT_SIGNS = {"clean": "✔", "named": "◆", "ambiguous": "≈", "unknown": "?", "none": "○"}
 """What says a verdict without colour."""
 _WIDE = 11.0  # in, of a picture on the page
-_PANEL = 2.05  # in, height of a row of panels
+_PANEL = 1.95  # in, height of a row of panels
 _ABREAST = 4
+_MARGINS = (0.56, 0.10, 0.42, 0.22)  # in, of a panel: left, right, foot, head
 _MOST_PAIRS = 4
 _DPI = 110
 # The sheet: A4 upright; places are shares of the page.
@@ -78,8 +81,9 @@ def pair_figure(report: Diagnosis) -> Figure | None:
         return None
     residuals = residuals_of(report, report.residuals_before)
     limit = limit_of([], residuals)
-    figure = _figure(2.9 * len(pairs), 2.4)
-    for axes, (pair, structure) in zip(_grid(figure, 1, len(pairs)), pairs, strict=True):
+    margins = (0.62, 0.25, 0.42, 0.26)
+    figure, grid = _panels((3.2, 2.5), len(pairs), min(3, len(pairs)), margins)
+    for axes, (pair, structure) in zip(grid, pairs, strict=True):
         draw_pair(axes, pair, residuals, structure, limit=limit)
     return figure
 
@@ -97,21 +101,17 @@ def curve_figure(report: Diagnosis) -> Figure | None:
     curves = curves_of(report)[:MOST_CURVES]
     if not curves:
         return None
-    abreast = min(3, len(curves))
-    down = -(-len(curves) // abreast)
-    figure = _figure(_WIDE * abreast / 3, 2.5 * down)
-    grid = _grid(figure, down, abreast)
-    for axes, curve in zip(grid, curves, strict=False):
+    figure, grid = _panels((_WIDE / 3, 2.5), len(curves), min(3, len(curves)))
+    for axes, curve in zip(grid, curves, strict=True):
         draw_curve(axes, curve)
-    _drop_spare(grid, len(curves))
     return figure
 
 
 def support_figure(report: Diagnosis) -> Figure:
     """Step three: where the data lie within the joints' limits."""
     ranges = supports(report)
-    figure = _figure(7.5, 0.5 + 0.28 * len(ranges))
-    draw_supports(figure.add_subplot(), ranges)
+    figure, (axes,) = _panels((8.6, 0.2 + 0.28 * len(ranges)), 1, 1, (2.3, 2.6, 0.1, 0.1))
+    draw_supports(axes, ranges)
     return figure
 
 
@@ -119,11 +119,12 @@ def gain_figure(report: Diagnosis) -> Figure | None:
     """Step four: error on data held out, part by part and row by row; None where nothing was."""
     if report.verdict == "none":
         return None
-    parts = min(len(report.held_out.parts), 30)
-    figure = _figure(_WIDE, max(2.9, 1.0 + 0.24 * parts))
-    left, right = figure.subplots(1, 2, width_ratios=(1.15, 1))
-    draw_parts(left, report)
-    draw_histogram(right, report)
+    parts = min(len(report.held_out.parts), MOST_PARTS)
+    high = max(2.9, 1.0 + 0.24 * parts)
+    figure = _figure(_WIDE, high)
+    foot, tall = 0.45 / high, (high - 0.8) / high
+    draw_parts(figure.add_axes((0.15, foot, 0.38, tall)), report)
+    draw_histogram(figure.add_axes((0.60, foot, 0.39, tall)), report)
     return figure
 
 
@@ -268,15 +269,12 @@ def _cell(
 def _against_all(report: Diagnosis, residuals: Residuals, found: list[Any]) -> Figure:
     known = quantities(report)
     abreast = min(_ABREAST, len(known))
-    down = -(-len(known) // abreast)
-    figure = _figure(_WIDE * abreast / _ABREAST, _PANEL * down)
+    figure, grid = _panels((_WIDE / _ABREAST, _PANEL), len(known), abreast)
     limit = limit_of(known, residuals)
-    grid = _grid(figure, down, abreast)
     for k, one in enumerate(known):
         draw_against(grid[k], one, residuals, _structure(one, found), limit=limit)
         if k % abreast == 0:
             grid[k].set_ylabel("residual [mm]", fontsize=8, color=INK, labelpad=2)
-    _drop_spare(grid, len(known))
     _legends(grid, known, 7.5)
     return figure
 
@@ -303,15 +301,32 @@ def _chance(quantity: Quantity, found: list[Any]) -> float:
 
 
 def _figure(wide: float, high: float) -> Figure:
-    figure = Figure(figsize=(wide, high), dpi=_DPI, facecolor="white", layout="constrained")
+    figure = Figure(figsize=(wide, high), dpi=_DPI, facecolor="white")
     FigureCanvasAgg(figure)
     return figure
 
 
-def _grid(figure: Figure | SubFigure, down: int, abreast: int) -> list[Any]:
-    return list(figure.subplots(down, abreast, squeeze=False).ravel())
-
-
-def _drop_spare(grid: Sequence[Any], count: int) -> None:
-    for axes in grid[count:]:
-        axes.remove()
+def _panels(
+    size: tuple[float, float],
+    count: int,
+    abreast: int,
+    margins: tuple[float, float, float, float] = _MARGINS,
+) -> tuple[Figure, list[Axes]]:
+    """A figure of so many panels, `size` [in] each with its margins: left, right, foot, head."""
+    wide, high = size
+    left, right, foot, head = margins
+    down = -(-count // abreast)
+    figure = _figure(wide * abreast, high * down)
+    places = [(k % abreast, down - 1 - k // abreast) for k in range(count)]
+    grid = [
+        figure.add_axes(
+            (
+                (column * wide + left) / (wide * abreast),
+                (row * high + foot) / (high * down),
+                (wide - left - right) / (wide * abreast),
+                (high - foot - head) / (high * down),
+            )
+        )
+        for column, row in places
+    ]
+    return figure, grid

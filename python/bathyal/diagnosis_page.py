@@ -262,9 +262,8 @@ def _card(effect: Any) -> str:
     return (
         f"<div class='card'><h3>{words}</h3><p class='small'>{name}{told}</p>"
         f"<div class='gain'><i style='width:{bar:.1f}%'></i></div>"
-        f"<div class='sides'><div>{numbers}</div><div>{evidence}</div>"
-        f"<div><p class='small'>Rivals for what it explains</p>{_rivals(effect.rivals)}</div></div>"
-        "</div>"
+        f"<div class='sides'><div>{numbers}</div><div>{evidence}</div></div>"
+        f"<p class='small'>Rivals for what it explains:</p>{_rivals(effect.rivals)}</div>"
     )
 
 

@@ -80,7 +80,7 @@ class Talk:
             task = bar.add_task(name, total=None)
             try:
                 yield lambda share, words: bar.update(
-                    task, total=1.0, completed=share, description=words or name
+                    task, total=1.0, completed=share, description=words or name, refresh=True
                 )
             finally:
                 bar.remove_task(task)
