@@ -20,5 +20,6 @@ void bind_effects(pybind11::module_& module);  // of the room identify, as the n
 void bind_corrected_arm(pybind11::module_& module);
 void bind_plan_touches(pybind11::module_& module);
 void bind_verify(pybind11::module_& module);
+void bind_diagnosis(pybind11::module_& module);
 
 }  // namespace bathyal::python

@@ -17,4 +17,5 @@ PYBIND11_MODULE(_core, module) {
   bind_corrected_arm(module);
   bind_plan_touches(module);
   bind_verify(module);
+  bind_diagnosis(module);
 }
