@@ -97,17 +97,15 @@ class JointCompliance final : public Effect {
   }
 
   Actions actions(const EffectVariant& variant, const EffectData& data) const override {
+    const LumpedMoments moments(data, variant.joint);
+    const GravityLoads loads(data, GravityLoads::Bodies::kArm, payload_of(data));
     Actions out;
     for (const EffectParameter& parameter : variant.parameters) {
       const auto lumped = variant.settings.find(parameter.name);
-      if (lumped != variant.settings.end()) {
-        const LumpedMoments moments(data, variant.joint);
-        out.push_back(
-            {move_joint(variant.joint, moments.torque(static_cast<int>(lumped->second)))});
-      } else {
-        const GravityLoads loads(data, GravityLoads::Bodies::kArm, payload_of(data));
-        out.push_back({move_joint(variant.joint, loads.torque(variant.joint))});
-      }
+      const Eigen::VectorXd torque = lumped == variant.settings.end()
+                                         ? loads.torque(variant.joint)
+                                         : moments.torque(static_cast<int>(lumped->second));
+      out.push_back({move_joint(variant.joint, torque)});
     }
     return out;
   }
