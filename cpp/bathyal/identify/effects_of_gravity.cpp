@@ -97,15 +97,16 @@ class JointCompliance final : public Effect {
   }
 
   Actions actions(const EffectVariant& variant, const EffectData& data) const override {
-    const LumpedMoments moments(data, variant.joint);
+    const int j = joint_of(variant, data);
+    const auto moments_told = LumpedMoments::kKinds * static_cast<Index>(data.arm->joints().size());
+    const LumpedMoments moments(data, j);
     const GravityLoads loads(data, GravityLoads::Bodies::kArm, payload_of(data));
     Actions out;
     for (const EffectParameter& parameter : variant.parameters) {
-      const auto lumped = variant.settings.find(parameter.name);
-      const Eigen::VectorXd torque = lumped == variant.settings.end()
-                                         ? loads.torque(variant.joint)
-                                         : moments.torque(static_cast<int>(lumped->second));
-      out.push_back({move_joint(variant.joint, torque)});
+      const bool lumped = variant.settings.contains(parameter.name);
+      out.push_back(
+          {move_joint(j, lumped ? moments.torque(index_of(variant, parameter.name, moments_told))
+                                : loads.torque(j))});
     }
     return out;
   }
@@ -158,7 +159,7 @@ class UnknownPayload final : public Effect {
     const GravityLoads loads = of_one_kilogram(data);
     Actions out;
     for (const EffectParameter& parameter : variant.parameters) {
-      const auto j = static_cast<int>(variant.settings.at(parameter.name));
+      const int j = index_of(variant, parameter.name, data.q.cols());
       out.push_back({move_joint(j, loads.torque(j))});
     }
     return out;
