@@ -208,8 +208,10 @@ def _can_be_told(
             curve = shape.name == "joint_scale" and other.cause == ("curve", shape.joint)
             if k in true or same or curve:
                 continue
-            lead = gains[i] - gains[k]
+            lead = float(gains[i] - gains[k])
             net = lead - cost[i] + cost[k]
+            if lead < effects.facts[i].get("lead", np.inf):
+                effects.facts[i] |= {"lead": lead, "rival": f"{other.name} {other.joint}"}
             if lead < max(LEAST_LEFT * gains[i], LEAST_LEAD) or net < LEAST_LEAD:
                 return False
     return True
