@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Diagnosis of an arm beside the same search written plainly with SciPy.
 
-The peer (tests/python/diagnose_peer.py) refits geometry, base and tool with each form of each effect
-in turn, by least_squares with its own derivatives on kinematics that NumPy computes for all poses at
-once, one round: the best single form. Bathyal looks through more orders and moments, grows sets,
-holds data out and weighs rivals besides. Both must name what is hidden, and agree on its size,
-before any time is printed.
+The peer (tests/python/diagnose_peer.py) refits geometry, base and tool with each form of each
+effect in turn, by least_squares with its own derivatives on kinematics that NumPy computes for all
+poses at once, one round: the best single form. Bathyal looks through more orders and moments, grows
+sets, holds data out and weighs rivals besides. Both must name what is hidden, and agree on its
+size, before any time is printed.
 """
 
 import argparse
@@ -110,8 +110,10 @@ def beside_scipy(rounds: int) -> str:
     ):
         sys.exit(f"SciPy's harmonic is {found.values(0)}")
     arm, given = drawn().arm(), tracked(data)
-    runs = {n: [timed(lambda n=n: bathyal.diagnose(arm, given, num_threads=n)) for _ in range(rounds)]
-            for n in (1, 2)}  # fmt: skip
+    runs = {
+        n: [timed(lambda n=n: bathyal.diagnose(arm, given, num_threads=n)) for _ in range(rounds)]
+        for n in (1, 2)
+    }
     seconds = {n: float(np.median([s for s, _ in each])) for n, each in runs.items()}
     one, two = runs[1][0][1], runs[2][0][1]
     check(one)
@@ -164,7 +166,7 @@ def main() -> None:
     options = parser.parse_args()
     print("## Diagnosis beside a plain search with SciPy\n")
     print(
-        "The whole of `diagnose`. SciPy's `least_squares` refits geometry, base and tool with each "
+        "The whole of `diagnose`. SciPy's `least_squares` (MINPACK) refits geometry, base and tool with each "
         "form of each effect in turn, with its own derivatives, on kinematics that NumPy computes "
         "for all poses at once; one round, without held-out data, sets or rivals.\n"
     )

@@ -3,8 +3,8 @@
 
     python benchmarks/python/score_card.py [--cases 2400] [--out FOLDER]
 
-Each case is sealed by tests/python/hidden_effects.py, in NumPy and from its seed alone; bathyal sees
-the data, the judge compares with the answer. See tests/python/score_card.py.
+Each case is sealed by tests/python/hidden_effects.py, in NumPy and from its seed alone; bathyal
+sees the data, the judge compares with the answer. See tests/python/score_card.py.
 """
 
 import argparse

@@ -80,7 +80,7 @@ class PlainSearch:
     def fit(self, shapes: list[Shape], start: Array) -> tuple[Array, float]:
         start = np.concatenate([start, np.zeros(self._unknowns(shapes) - len(start))])
         result = least_squares(
-            lambda x: ((self.tips(x, shapes) - self.position) / UNIT).ravel(), start, method="trf"
+            lambda x: ((self.tips(x, shapes) - self.position) / UNIT).ravel(), start, method="lm"
         )
         return result.x, 2 * result.cost * UNIT**2
 
