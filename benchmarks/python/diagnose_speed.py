@@ -23,7 +23,8 @@ import bathyal
 HERE = Path(__file__).parent
 sys.path.insert(0, str(HERE.parents[1] / "tests" / "python"))
 from diagnose_peer import PlainSearch  # noqa: E402
-from hidden_arms import CATALOGUE, SimArm, pose  # noqa: E402
+from hidden_arm_draws import CATALOGUE  # noqa: E402
+from hidden_arms import SimArm, pose  # noqa: E402
 
 SERIES_A = "arms/ipa-ur10/Series_A/measurements_grid.csv"
 JOINTS = ["shoulder_pan", "shoulder_lift", "elbow", "wrist_1", "wrist_2", "wrist_3"]
@@ -166,9 +167,9 @@ def main() -> None:
     options = parser.parse_args()
     print("## Diagnosis beside a plain search with SciPy\n")
     print(
-        "The whole of `diagnose`. SciPy's `least_squares` (MINPACK) refits geometry, base and tool with each "
-        "form of each effect in turn, with its own derivatives, on kinematics that NumPy computes "
-        "for all poses at once; one round, without held-out data, sets or rivals.\n"
+        "The whole of `diagnose`. SciPy's `least_squares` (MINPACK) refits geometry, base and tool "
+        "with each form of each effect in turn, with its own derivatives, on kinematics that NumPy "
+        "computes for all poses at once; one round, without held-out data, sets or rivals.\n"
     )
     print(beside_scipy(options.rounds))
     print(growth())
