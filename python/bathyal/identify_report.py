@@ -269,18 +269,20 @@ def identify(
     """
     step = step or nullcontext
     files = [source] if isinstance(source, (str, os.PathLike)) else list(source)
-    if not files:
-        raise argument_error("source", "a file", "none")
     nominal = find_arm(arm) if isinstance(arm, str) else arm
     with step("Reading"):
-        data = _read(files, tracked, {**_joints(files[0], nominal), **(read or {})})
+        data = read_data(files, nominal, tracked=tracked, read=read or {})
     with step("Identifying"):
         fit = identify_arm(nominal, data, **(options or {}))
     return Identification(
         nominal=nominal,
         data=data,
         fit=fit,
-        settings={"tracked": tracked, "read": _plain(read or {}), "identify": dict(options or {})},
+        settings={
+            "tracked": tracked,
+            "read": plain_settings(read or {}),
+            "identify": dict(options or {}),
+        },
         provenance={
             "bathyal": version("bathyal"),
             "arm": {"name": nominal.name, "source": nominal.source},
@@ -289,23 +291,51 @@ def identify(
     )
 
 
-def _joints(file: PathLike, arm: Arm) -> dict[str, Any]:
-    """The arm's own joints by name, where the table has columns of these names."""
-    table = read_table(file)
-    names = list(arm.joint_names)
-    return {"joints": names} if all(table.find(name) is not None for name in names) else {}
+def read_data(
+    files: Sequence[PathLike],
+    arm: Arm,
+    *,
+    tracked: bool,
+    read: Mapping[str, Any],
+    sessions: bool = False,
+) -> Touches | Tracked:
+    """Touches from one table or a table for each point; tracked poses from one table.
 
+    Parameters
+    ----------
+    files : sequence of path
+    arm : Arm
+        Columns may be called as its joints are.
+    tracked : bool
+    read : mapping
+        Keywords of `read_touches` or `read_tracked`.
+    sessions : bool
+        Whether tracked poses may come in a table for each session.
 
-def _read(files: Sequence[PathLike], tracked: bool, read: dict[str, Any]) -> Touches | Tracked:
+    Raises
+    ------
+    ValueError, Error, OSError
+        As `read_touches` and `read_tracked`; for what touches alone need beside tracked poses.
+    """
+    if not files:
+        raise argument_error("source", "a file", "none")
+    keywords = {**_joints(files[0], arm), **read}
     if not tracked:
-        return read_touches(files[0] if len(files) == 1 else _labelled(files), **read)
-    if len(files) > 1:
+        return read_touches(files[0] if len(files) == 1 else _labelled(files), **keywords)
+    if len(files) > 1 and not sessions:
         raise argument_error("source", "one file of tracked poses", f"{len(files)} files")
     beside = sorted(set(read) & {"known_distances", "known_points", "planes", "point",
                                  "distance_std", "point_std"})  # fmt: skip
     if beside:
         raise argument_error(beside[0], "nothing beside tracked poses, which tell it all", "one")
-    return read_tracked(files[0], **read)
+    return read_tracked(files if len(files) > 1 else files[0], **keywords)
+
+
+def _joints(file: PathLike, arm: Arm) -> dict[str, Any]:
+    """The arm's own joints by name, where the table has columns of these names."""
+    table = read_table(file)
+    names = list(arm.joint_names)
+    return {"joints": names} if all(table.find(name) is not None for name in names) else {}
 
 
 def _labelled(files: Sequence[PathLike]) -> dict[str, PathLike]:
@@ -322,7 +352,7 @@ def _labelled(files: Sequence[PathLike]) -> dict[str, PathLike]:
     return dict(zip(labels, files, strict=True))
 
 
-def _plain(read: Mapping[str, Any]) -> dict[str, Any]:
+def plain_settings(read: Mapping[str, Any]) -> dict[str, Any]:
     """Settings as JSON tells them: pairs of labels as one text."""
     return {
         name: {" ".join(pair): metres for pair, metres in value.items()}

@@ -42,3 +42,14 @@ STATUSES = {
     "fixed": "#8a8f98",
     "pruned": "#5a8f5a",
 }
+
+# A diagnosis. Each verdict differs from the others in lightness too, and its sign says it without
+# colour; components of a residual keep apart for colour-blind readers (Okabe, Ito 2008).
+VERDICT_COLOURS = {
+    "clean": "#00664b",
+    "named": "#14507a",
+    "ambiguous": "#8a5a00",
+    "unknown": "#9c1c13",
+    "none": "#5b6068",
+}
+COMPONENTS = ("#d55e00", "#009e73", "#0072b2")

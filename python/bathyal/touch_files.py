@@ -33,6 +33,7 @@ _COVARIATES: dict[str, tuple[dict[str, float], str]] = {
     "payload": (MASSES, "kg"),
 }
 _GRAVITY = ("gravity_x", "gravity_y", "gravity_z")
+_DIRECTION = re.compile(r"^direction[ _]?(\d+)$")
 _QUATERNION = ("qx", "qy", "qz", "qw")
 
 
@@ -43,6 +44,7 @@ def read_touches(
     unit: str | None = None,
     point: str = "point",
     planes: Sequence[str] = (),
+    covariates: Mapping[str, str | Sequence[str]] | None = None,
     **touches: Any,
 ) -> Touches:
     """Read touches from a table of text, or from one table for each touched point.
@@ -53,9 +55,9 @@ def read_touches(
         One file with a column that says which point each row touched, or a file a point. Columns
         are parted by semicolon, tab, comma or blanks; a decimal comma is understood; lines that
         begin with ``#`` are comments. Units stand in the header: ``q1_deg``, ``q2 [rad]``,
-        ``lift_mm``. Columns ``temperature_C``, ``time_s``, ``payload_kg``, ``session``, ``tool``,
-        ``station`` and ``weight`` ride along where they stand. A file without a header holds the
-        joints alone.
+        ``lift_mm``. Columns ``temperature_C``, ``time_s``, ``payload_kg``, ``gravity_x`` …,
+        ``direction_1`` … (one a joint), ``session``, ``tool``, ``station`` and ``weight`` ride
+        along where they stand. A file without a header holds the joints alone.
     joints : sequence of str, optional
         Columns of the joints in the order of the arm, by name; otherwise ``q1 q2 …`` (or ``j1``,
         ``joint_1``, ``theta1``) by their numbers.
@@ -65,6 +67,9 @@ def read_touches(
         Column of the touched point's label.
     planes : sequence of str
         Labels that stand for a plane touched in many places, not for a point.
+    covariates : dict, optional
+        Name to column, or to several: ``{"temperature": "T_arm", "direction": ["d1", "d2"]}``.
+        A column of sessions may hold words; they are counted from 0 as they first appear.
     **touches
         What `Touches` takes beside. ``known_distances={("left", "right"): 0.05}`` and
         ``known_points={"left": (0.5, 0.2, 0.1)}`` by label.
@@ -101,7 +106,7 @@ def read_touches(
         raise ValueError("`path`: expected a file or one a point, got an empty dict")
     numbers = _numbered(labels)
     rows = np.array([numbers[str(label).strip()] for label in labels], dtype=np.int32)
-    columns = [_touch_columns(table, joints, unit) for _, table in tables]
+    columns = [_touch_columns(table, joints, unit, covariates or {}) for _, table in tables]
     return Touches(
         np.vstack([column.pop("q") for column in columns]),
         rows,
@@ -116,7 +121,7 @@ def read_touches(
 
 
 def read_tracked(
-    path: PathLike,
+    path: PathLike | Sequence[PathLike],
     *,
     joints: Sequence[str] | None = None,
     unit: str | None = None,
@@ -125,15 +130,16 @@ def read_tracked(
     orientation: Sequence[str] | None = None,
     orientation_unit: str | None = None,
     euler: str | None = None,
-    covariates: Mapping[str, str] | None = None,
+    covariates: Mapping[str, str | Sequence[str]] | None = None,
     **tracked: Any,
 ) -> Tracked:
     """Read poses that an instrument measured, with the joints they belong to.
 
     Parameters
     ----------
-    path : path
-        A table as `read_touches` takes it.
+    path : path, or sequence of path
+        A table as `read_touches` takes it, or one for each session: then sessions are counted from
+        0 in the order of the files, and no column may tell them.
     joints, unit
         As in `read_touches`.
     position : sequence of str
@@ -149,7 +155,7 @@ def read_tracked(
         Three letters: "XYZ" turns about the frame's own axes one after the other, "xyz" about the
         fixed ones.
     covariates : dict, optional
-        Name to column, for columns of another name: ``{"temperature": "measurement_temperature"}``.
+        As in `read_touches`: ``{"temperature": "measurement_temperature"}``.
     **tracked
         What `Tracked` takes beside.
 
@@ -174,22 +180,35 @@ def read_tracked(
     >>> tracked.position.tolist(), tracked.covariates["temperature"].tolist()
     ([[0.0, 1.0, 0.005], [1.0, 0.0, 0.005]], [21.5, 21.5])
     """
-    table = read_table(path)
-    if not table.has_header:
-        raise Error(f"{table.file}: expected a header that names the columns, got numbers")
-    q = _joint_values(table, joints, unit)
+    files = [path] if isinstance(path, (str, os.PathLike)) else list(path)
+    if not files:
+        raise argument_error("path", "a file, or one a session", "none")
     _check_unit("position_unit", position_unit, LENGTHS)
-    place = np.column_stack([table.numbers(n, LENGTHS, position_unit) for n in position])
-    settings: dict[str, Any] = {"covariates": _covariates(table, covariates or {})}
-    if table.find("session") is not None:
-        settings["session"] = _whole(table, "session")
-    if orientation is None and all(table.find(name) is not None for name in _QUATERNION):
-        orientation = _QUATERNION
+    tables = [read_table(file) for file in files]
+    columns = []
+    for table in tables:
+        if not table.has_header:
+            raise Error(f"{table.file}: expected a header that names the columns, got numbers")
+        columns.append(_tracked_columns(table, joints, unit, position, position_unit))
+        columns[-1] |= _beside(table, covariates or {})
+        turns = orientation
+        if turns is None and all(table.find(name) is not None for name in _QUATERNION):
+            turns = _QUATERNION
+        if turns is not None:
+            columns[-1]["orientation"] = _rotations(table, turns, orientation_unit, euler)
+    settings = _joined(tables, columns)
+    q, place, turned = (settings.pop(name, None) for name in ("q", "position", "orientation"))
+    settings = {"covariates": {}, **settings}
+    if len(files) > 1:
+        if "session" in settings:
+            raise argument_error("path", "one file where a column tells the sessions",
+                                 f"{len(files)} files")  # fmt: skip
+        settings["session"] = np.repeat(np.arange(len(files), dtype=np.int32), [*map(len, tables)])
     settings.update(tracked)
-    if orientation is None:
+    if turned is None:
         return Tracked(q, position=place, **settings)
     pose = np.zeros((len(q), 4, 4))
-    pose[:, :3, :3] = _rotations(table, orientation, orientation_unit, euler)
+    pose[:, :3, :3] = turned
     pose[:, :3, 3] = place
     pose[:, 3, 3] = 1.0
     return Tracked(q, pose=pose, **settings)
@@ -198,16 +217,40 @@ def read_tracked(
 # Columns ------------------------------------------------------------------------------------------
 
 
+Named = Mapping[str, str | Sequence[str]]
+
+
 def _touch_columns(
-    table: Table, joints: Sequence[str] | None, unit: str | None
+    table: Table, joints: Sequence[str] | None, unit: str | None, named: Named
 ) -> dict[str, NDArray[Any]]:
     columns: dict[str, NDArray[Any]] = {"q": _joint_values(table, joints, unit)}
-    columns |= {f"covariate {n}": v for n, v in _covariates(table, {}).items()}
-    for name in ("session", "tool", "station"):
+    columns |= _beside(table, named)
+    for name in ("tool", "station"):
         if table.has_header and table.find(name) is not None:
             columns[name] = _whole(table, name)
     if table.has_header and table.find("weight") is not None:
         columns["weights"] = table.numbers("weight", {}, "")
+    return columns
+
+
+def _tracked_columns(
+    table: Table,
+    joints: Sequence[str] | None,
+    unit: str | None,
+    position: Sequence[str],
+    position_unit: str | None,
+) -> dict[str, NDArray[Any]]:
+    place = [table.numbers(name, LENGTHS, position_unit) for name in position]
+    return {"q": _joint_values(table, joints, unit), "position": np.column_stack(place)}
+
+
+def _beside(table: Table, named: Named) -> dict[str, NDArray[Any]]:
+    """What was recorded beside the joints, and the session."""
+    columns: dict[str, NDArray[Any]] = {
+        f"covariate {name}": values for name, values in _covariates(table, named).items()
+    }
+    if "session" in named or (table.has_header and table.find("session") is not None):
+        columns["session"] = _sessions(table, _one(named.get("session", "session"), "session"))
     return columns
 
 
@@ -239,34 +282,89 @@ def _joint_values(
 
 
 def _numbered_joints(table: Table) -> list[str]:
-    matches = [_JOINT.match(name) for name in table.names]
-    found = {
-        int(match[1]): title
-        for match, title in zip(matches, table.titles, strict=True)
-        if match is not None
-    }
+    found = _numbered_columns(table, _JOINT)
     if not found:
         raise Error(
             f"{table.file}: expected columns q1 q2 … (or their names as `joints`), "
             f"got {', '.join(table.titles)}"
         )
+    return found
+
+
+def _numbered_columns(table: Table, pattern: re.Pattern[str]) -> list[str]:
+    """Titles of the columns whose names match, in the order of their numbers."""
+    matches = [pattern.match(name) for name in table.names]
+    found = {
+        int(match[1]): title
+        for match, title in zip(matches, table.titles, strict=True)
+        if match is not None
+    }
     return [found[number] for number in sorted(found)]
 
 
-def _covariates(table: Table, named: Mapping[str, str]) -> dict[str, NDArray[np.float64]]:
+def _covariates(table: Table, named: Named) -> dict[str, NDArray[np.float64]]:
     found: dict[str, NDArray[np.float64]] = {}
+    if named and not table.has_header:
+        raise Error(f"{table.file}: expected a header that names the columns, got numbers")
     if not table.has_header:
         return found
     for name, (units, default) in _COVARIATES.items():
-        if name in named or table.find(name) is not None:
-            found[name] = table.numbers(named.get(name, name), units, default)
+        if name not in named and table.find(name) is not None:
+            found[name] = _finite(table, name, units, default)
+    if "gravity" not in named and all(table.find(name) is not None for name in _GRAVITY):
+        found["gravity"] = _together(table, _GRAVITY, ACCELERATIONS, "m/s2")
+    directions = _numbered_columns(table, _DIRECTION)
+    if "direction" not in named and directions:
+        found["direction"] = _together(table, directions, {}, "")
     for name, column in named.items():
-        if name not in found:
-            found[name] = table.numbers(column, {}, "")
-    if all(table.find(name) is not None for name in _GRAVITY):
-        axes = [table.numbers(name, ACCELERATIONS, "m/s2") for name in _GRAVITY]
-        found["gravity"] = np.column_stack(axes)
+        if name == "session":
+            continue
+        units, default = _COVARIATES.get(name, ({}, ""))
+        if name == "gravity":
+            units, default = ACCELERATIONS, "m/s2"
+        if isinstance(column, str) and name != "direction":
+            found[name] = _finite(table, column, units, default)
+        else:
+            columns = [column] if isinstance(column, str) else column
+            found[name] = _together(table, columns, units, default)
     return found
+
+
+def _together(
+    table: Table, columns: Sequence[str], units: dict[str, float], default: str
+) -> NDArray[np.float64]:
+    return np.column_stack([_finite(table, column, units, default) for column in columns])
+
+
+def _finite(table: Table, name: str, units: dict[str, float], default: str) -> NDArray[np.float64]:
+    """A column of which nothing is missing."""
+    values = table.numbers(name, units, default)
+    wrong = np.flatnonzero(~np.isfinite(values))
+    if wrong.size:
+        raise Error(f"{table.file}, line {table.lines[wrong[0]]}: `{name}`: expected a number in "
+                    f"every row, got {values[wrong[0]]}")  # fmt: skip
+    return values
+
+
+def _sessions(table: Table, name: str) -> NDArray[np.int32]:
+    """Whole numbers as they are; words by the order in which they first appear."""
+    texts = [text.strip() for text in table.text(name)]
+    empty = next((row for row, text in enumerate(texts) if not text), None)
+    if empty is not None:
+        raise Error(f"{table.file}, line {table.lines[empty]}: `{name}`: expected a session, got "
+                    "nothing")  # fmt: skip
+    try:
+        [float(text.replace(",", ".")) for text in texts]
+    except ValueError:
+        numbers = {text: number for number, text in enumerate(dict.fromkeys(texts))}
+        return np.array([numbers[text] for text in texts], dtype=np.int32)
+    return _whole(table, name)
+
+
+def _one(column: str | Sequence[str], name: str) -> str:
+    if isinstance(column, str):
+        return column
+    raise argument_error("covariates", f"one column as {name}", repr(list(column)))
 
 
 def _whole(table: Table, name: str) -> NDArray[np.int32]:

@@ -3,18 +3,12 @@
 
 #include <array>
 #include <cmath>
-#include <span>
 
+#include "bathyal/arm/row_frames.hpp"
 #include "bathyal/identify/rotation_vector.hpp"
 
 namespace bathyal {
 namespace {
-
-/// Two unit vectors that span the plane of a normal.
-std::array<Vec3, 2> span_of(const Vec3& normal) {
-  const Vec3 first = normal.unitOrthogonal();
-  return {first, normal.cross(first)};
-}
 
 /// From the frame behind joint `k` to the one before the next joint that moves.
 Eigen::Matrix3d turn_to_next_axis(const Arm& arm, std::size_t k) {
@@ -125,6 +119,11 @@ double& number_of(DhRow& row, Part part) {
 
 }  // namespace
 
+std::array<Vec3, 2> tilt_axes(const PlaneGuess& plane) {
+  const Vec3 first = plane.normal.unitOrthogonal();
+  return {first, plane.normal.cross(first)};
+}
+
 Eigen::VectorXd ArmColumns::nominal() const {
   Eigen::VectorXd x(static_cast<Index>(columns.size()));
   for (Index i = 0; i < x.size(); ++i) x[i] = columns[i].nominal;
@@ -175,10 +174,12 @@ ArmState state_at(const ArmColumns& columns, const Eigen::VectorXd& x) {
         base_turn[index][axis] = value;
         break;
       case Part::kPlaneTurn:
-        plane_turn[index] += value * span_of(columns.planes[index].normal)[axis];
+        plane_turn[index] += value * tilt_axes(columns.planes[index])[axis];
         break;
       case Part::kPlaneShift:
         state.planes[index].offset = value;
+        break;
+      case Part::kEffect:
         break;
       default:
         number_of(joints[index].row, part) = value;
@@ -195,137 +196,6 @@ ArmState state_at(const ArmColumns& columns, const Eigen::VectorXd& x) {
   }
   state.arm = with_joints(columns.arm, std::move(joints));
   return state;
-}
-
-TipWalk::TipWalk(const ArmColumns& columns, const Eigen::VectorXd& x, std::vector<int> wanted)
-    : columns_(columns), wanted_(std::move(wanted)), state_(state_at(columns, x)) {
-  for (const Joint& joint : state_.arm.joints()) {
-    const double beta = joint.row.beta;
-    steps_.push_back(
-        {row_pose(joint.row, joint.type, 0.0), Vec3(std::cos(beta), 0.0, std::sin(beta))});
-  }
-  for (const Pose& tool : state_.tools) row_from_tool_.push_back(state_.arm.flange() * tool);
-  for (const int column : wanted_) {
-    const auto [part, index, axis] = columns_.places[column];
-    Vec3 turn = Vec3::Zero();
-    for (std::size_t i = 0; i < columns_.places.size(); ++i) {
-      const Place& other = columns_.places[i];
-      if (other.part == part && other.index == index) turn[other.axis] = x[static_cast<Index>(i)];
-    }
-    Vec3 turned = Vec3::Zero();
-    if (part == Part::kBaseTurn) {
-      turned = left_jacobian(turn).col(axis);
-    } else if (part == Part::kToolTurn) {
-      turned = columns_.tools[index].linear() * left_jacobian(turn).col(axis);
-    } else if (part == Part::kPlaneTurn) {
-      const std::array<Vec3, 2> span = span_of(columns_.planes[index].normal);
-      turned = left_jacobian(turn[0] * span[0] + turn[1] * span[1]) * span[axis];
-    }
-    turn_axes_.push_back(turned);
-  }
-}
-
-/// As compute_row_frames, with all that one pose shares with the next worked out before.
-void TipWalk::walk(const double* q, int station, RowFrames& frames) const {
-  const std::vector<Joint>& joints = state_.arm.joints();
-  const auto coordinates = static_cast<std::size_t>(state_.arm.size());
-  frames.world_from_row.resize(joints.size() + 1);
-  frames.world_from_row[0] = state_.bases[station] * state_.arm.root();
-  for (std::size_t k = 0; k < joints.size(); ++k) {
-    Pose moved = frames.world_from_row[k];
-    const double value = joint_value(joints[k], {q, coordinates});
-    if (joints[k].type == JointType::kRevolute) {
-      const double cosine = std::cos(value), sine = std::sin(value);
-      const Vec3 x = moved.linear().col(0), y = moved.linear().col(1);
-      moved.linear().col(0) = cosine * x + sine * y;
-      moved.linear().col(1) = cosine * y - sine * x;
-    } else {
-      moved.translation() += value * moved.linear().col(2);
-    }
-    const Pose& step = steps_[k].behind_from_moved;
-    Pose& behind = frames.world_from_row[k + 1];
-    behind.linear().noalias() = moved.linear() * step.linear();
-    behind.translation() = moved.linear() * step.translation() + moved.translation();
-  }
-}
-
-Pose TipWalk::tip(const double* q, int tool, int station, RowFrames& frames, double* shift,
-                  double* turn, Index stride) const {
-  walk(q, station, frames);
-  const Pose& last = frames.world_from_row.back();
-  const Pose world_from_tool = last * row_from_tool_[tool];
-  if (shift == nullptr) return world_from_tool;
-
-  const Vec3 tip = world_from_tool.translation();
-  const Eigen::Matrix3d flange = last.linear() * state_.arm.flange().linear();
-  for (std::size_t i = 0; i < wanted_.size(); ++i) {
-    const auto [part, index, axis] = columns_.places[wanted_[i]];
-    Vec3 move = Vec3::Zero();
-    Vec3 turned = Vec3::Zero();
-    const auto about = [&](const Vec3& direction, const Vec3& center) {
-      turned = direction;
-      move = direction.cross(tip - center);
-    };
-    switch (part) {
-      case Part::kTheta: {
-        const Pose& before = frames.world_from_row[index];
-        about(before.linear().col(2), before.translation());
-        break;
-      }
-      case Part::kD:
-        move = frames.world_from_row[index].linear().col(2);
-        break;
-      case Part::kA:
-      case Part::kAlpha: {
-        const Pose& behind = frames.world_from_row[index + 1];
-        const Vec3 x = behind.linear() * steps_[index].x_of_row;
-        if (part == Part::kA) move = x;
-        if (part == Part::kAlpha) about(x, behind.translation());
-        break;
-      }
-      case Part::kBeta: {
-        // Ry(beta) is the last turn of the row, and leaves y.
-        const Pose& behind = frames.world_from_row[index + 1];
-        about(behind.linear().col(1), behind.translation());
-        break;
-      }
-      case Part::kToolShift:
-        if (index == tool) move = flange.col(axis);
-        break;
-      case Part::kToolTurn:
-        if (index == tool) turned = flange * turn_axes_[i];
-        break;
-      case Part::kBaseShift:
-        if (index == station) move = Vec3::Unit(axis);
-        break;
-      case Part::kBaseTurn:
-        if (index == station) about(turn_axes_[i], state_.bases[station].translation());
-        break;
-      case Part::kPlaneTurn:
-      case Part::kPlaneShift:
-        break;
-    }
-    Eigen::Map<Vec3>(shift + static_cast<Index>(i) * stride) = move;
-    if (turn != nullptr) Eigen::Map<Vec3>(turn + static_cast<Index>(i) * stride) = turned;
-  }
-  return world_from_tool;
-}
-
-Eigen::Matrix3Xd TipWalk::joint_jacobian(const double* q, int tool, int station, RowFrames& frames,
-                                         Vec3& tip) const {
-  walk(q, station, frames);
-  tip = frames.world_from_row.back() * row_from_tool_[tool].translation();
-  Eigen::Matrix3Xd jacobian = Eigen::Matrix3Xd::Zero(3, state_.arm.size());
-  for (std::size_t k = 0; k < state_.arm.joints().size(); ++k) {
-    const Joint& joint = state_.arm.joints()[k];
-    if (joint.type == JointType::kFixed) continue;
-    const Pose& before = frames.world_from_row[k];
-    const Vec3 z = before.linear().col(2);
-    const Vec3 move =
-        joint.type == JointType::kPrismatic ? z : Vec3(z.cross(tip - before.translation()));
-    jacobian.col(joint.coordinate) += joint.multiplier * move;
-  }
-  return jacobian;
 }
 
 }  // namespace bathyal

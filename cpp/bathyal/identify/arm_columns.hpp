@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
-#include "bathyal/arm/row_frames.hpp"
 #include "bathyal/identify/column.hpp"
+#include "bathyal/identify/effect.hpp"
 #include "bathyal/identify/measurement.hpp"
 
-// The unknowns of an arm as columns, and what each does to the tip. For use inside the room.
+// The unknowns of an arm as columns; what each does to the tip: tip_walk.hpp. For use inside the
+// room.
 
 namespace bathyal {
 
@@ -29,12 +31,13 @@ enum class Part {
   kBaseShift,
   kBaseTurn,
   kPlaneTurn,
-  kPlaneShift
+  kPlaneShift,
+  kEffect
 };
 
 struct Place {
   Part part = Part::kTheta;
-  int index = 0;  ///< joint, tool, station or plane
+  int index = 0;  ///< joint, tool, station, plane or list of actions
   int axis = 0;   ///< 0, 1, 2 of shifts and turns
 };
 
@@ -51,6 +54,9 @@ struct PlaneGuess {
   double offset = 0.0;
 };
 
+/// The two axes about which a plane's columns tilt it.
+std::array<Vec3, 2> tilt_axes(const PlaneGuess& plane);
+
 /// An arm with everything about it that may be unknown.
 struct ArmColumns {
   Arm arm;                  ///< nominal, with base and tool at identity
@@ -59,6 +65,8 @@ struct ArmColumns {
   std::vector<PlaneGuess> planes;
   std::vector<Column> columns;
   std::vector<Place> places;  ///< of each column
+  /// What effects' columns do (effect_columns.hpp), a list for each; their columns stand last.
+  std::vector<std::vector<Action>> actions = {};
 
   Eigen::VectorXd nominal() const;
 };
@@ -83,42 +91,5 @@ struct ArmState {
   std::vector<PlaneGuess> planes;
 };
 ArmState state_at(const ArmColumns& columns, const Eigen::VectorXd& x);
-
-/// The tip at each pose of a measurement and how it moves with each of `wanted` columns.
-class TipWalk {
- public:
-  /// `columns` must outlive it.
-  TipWalk(const ArmColumns& columns, const Eigen::VectorXd& x, std::vector<int> wanted);
-
-  const ArmState& state() const { return state_; }
-
-  /// One pose; world_from_tool. `shift` and `turn` are (3, wanted), column after column with
-  /// `stride` between them: d tip / d column, and the axis about which the tool turns per unit of
-  /// the column; each may be null. `frames` is scratch.
-  Pose tip(const double* q, int tool, int station, RowFrames& frames, double* shift, double* turn,
-           Index stride) const;
-
-  /// The axis about which the i-th wanted column, a plane's tilt, turns that plane's normal.
-  Vec3 plane_turn(std::size_t i) const { return turn_axes_[i]; }
-
-  /// d tip / d q, (3, n), and the tip.
-  Eigen::Matrix3Xd joint_jacobian(const double* q, int tool, int station, RowFrames& frames,
-                                  Vec3& tip) const;
-
- private:
-  /// A row as Rz(value) or Tz(value), then what does not change from pose to pose.
-  struct Step {
-    Pose behind_from_moved;
-    Vec3 x_of_row;  ///< x before the row's last turn, Ry(beta), in the frame behind it
-  };
-  void walk(const double* q, int station, RowFrames& frames) const;
-
-  const ArmColumns& columns_;
-  std::vector<int> wanted_;
-  ArmState state_;
-  std::vector<Step> steps_;
-  std::vector<Pose> row_from_tool_;  ///< of each tool, from the frame behind the last row
-  std::vector<Vec3> turn_axes_;      ///< of each wanted turn, in the frame that it turns in
-};
 
 }  // namespace bathyal

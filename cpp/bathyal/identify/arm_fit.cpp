@@ -46,10 +46,11 @@ std::vector<Eigen::Matrix3d> tip_covariance(const ArmFit& fit, const RowMatrix& 
   const Eigen::Matrix3d base_from_world = walk.state().bases[0].linear().transpose();
   std::vector<Eigen::Matrix3d> out(static_cast<std::size_t>(q.rows()));
   parallel_for(out.size(), kPosesPerChunk, num_threads, [&](std::size_t begin, std::size_t end) {
-    RowFrames frames;
+    WalkFrames frames;
     Eigen::Matrix3Xd jacobian(3, columns);
     for (std::size_t i = begin; i < end; ++i) {
-      walk.tip(q.row(static_cast<Index>(i)).data(), 0, 0, frames, jacobian.data(), nullptr, 3);
+      walk.tip(q.row(static_cast<Index>(i)).data(), kNoRow, 0, 0, frames, jacobian.data(), nullptr,
+               3);
       jacobian = base_from_world * jacobian;
       out[i] = jacobian * covariance * jacobian.transpose();
       if (blind.cols() == 0) continue;

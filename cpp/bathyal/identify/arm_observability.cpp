@@ -86,12 +86,13 @@ RowMatrix exact_joints(const ArmSystem& system, const Eigen::VectorXd& x) {
   if (m.tracked) return q;
   const Eigen::Matrix3Xd centers = system.centroids(x);
   const TipWalk walk(system.arm_columns(), x, {});
-  RowFrames frames;
+  WalkFrames frames;
   for (Index i = 0; i < q.rows(); ++i) {
     const auto miss = [&](const Vec3& tip) {
       return miss_of(m, i, tip, centers, walk.state().planes);
     };
-    q.row(i) = nearest_pose(walk, m.q.row(i), m.tool[i], m.station[i], frames, miss);
+    q.row(i) =
+        nearest_pose(walk, m.q.row(i), m.action_row(i), m.tool[i], m.station[i], frames, miss);
   }
   return q;
 }

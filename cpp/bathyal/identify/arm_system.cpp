@@ -143,13 +143,13 @@ void ArmSystem::fill_tips(const TipWalk& walk, const TipRows& out) const {
 }
 
 void ArmSystem::fill_tips(const TipWalk& walk, Index begin, Index end, const TipRows& out) const {
-  RowFrames frames;
+  WalkFrames frames;
   for (Index i = begin; i < end; ++i) {
     const Index row = 3 * (i - begin);
     double* shift = out.jacobian == nullptr ? nullptr : out.jacobian + row;
     double* turn = out.rotation_jacobian == nullptr ? nullptr : out.rotation_jacobian + row;
-    const Pose pose =
-        walk.tip(q_.row(i).data(), m_.tool[i], m_.station[i], frames, shift, turn, out.stride);
+    const Pose pose = walk.tip(q_.row(i).data(), m_.action_row(i), m_.tool[i], m_.station[i],
+                               frames, shift, turn, out.stride);
     Eigen::Map<Vec3>(out.tips + row) = pose.translation();
     if (out.rotations == nullptr) continue;
     const Vec3 error = vector_of(pose.linear() * m_.rotation[i].transpose());

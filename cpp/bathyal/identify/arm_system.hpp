@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "bathyal/identify/arm_columns.hpp"
 #include "bathyal/identify/least_squares.hpp"
+#include "bathyal/identify/tip_walk.hpp"
 
 // Touches and tracked poses as residuals of an arm's columns. For use inside the room.
 
@@ -15,7 +15,8 @@ enum class Criterion {
   kPairs,     ///< every pair of touches of a point (Yukhimets, Gubankov 2023, eq 7-9)
 };
 
-/// A linear statement about the columns: coefficients · (x - nominal) = 0 ± std.
+/// A linear statement about the columns: coefficients · (x - nominal) = 0 ± std. Columns behind the
+/// last coefficient do not take part.
 struct LinearRow {
   Eigen::VectorXd coefficients;
   double std = 1.0;

@@ -56,6 +56,7 @@ Eigen::MatrixXd ArmSystem::linear_rows_at(const double* y) const {
   }
   for (const LinearRow& linear : linear_) {
     for (Index c = 0; c < columns(); ++c) {
+      if (free_[c] >= linear.coefficients.size()) continue;
       const double factor = linear.coefficients[free_[c]] / linear.std;
       out(row, c) = factor;
       out(row, columns()) += factor * columns_.columns[free_[c]].scale * y[c];

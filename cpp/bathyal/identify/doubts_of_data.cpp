@@ -108,10 +108,11 @@ void doubt_leaning(const Case& seen, Warnings& warnings) {
   const TipWalk walk(seen.system.arm_columns(), seen.fit.values, {});
   std::vector<Eigen::Matrix3d> turned;
   std::vector<Eigen::Matrix3d> sum(static_cast<std::size_t>(m.points()), Eigen::Matrix3d::Zero());
-  RowFrames frames;
+  WalkFrames frames;
   for (Index i = 0; i < m.rows(); ++i) {
-    turned.push_back(
-        walk.tip(m.q.row(i).data(), m.tool[i], m.station[i], frames, nullptr, nullptr, 0).linear());
+    turned.push_back(walk.tip(m.q.row(i).data(), m.action_row(i), m.tool[i], m.station[i], frames,
+                              nullptr, nullptr, 0)
+                         .linear());
     if (m.point[i] >= 0) sum[m.point[i]] += turned.back();
   }
   double widest = 0.0;

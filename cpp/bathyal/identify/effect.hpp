@@ -38,8 +38,8 @@ struct Action {
 
 /// A number of an effect.
 struct EffectParameter {
-  std::string name;  ///< "cos"
-  std::string unit;  ///< "rad"
+  std::string name;    ///< "cos"
+  std::string unit;    ///< "rad"
   double scale = 1.0;  ///< an ordinary size of it, in its unit; above 0
 };
 
@@ -53,27 +53,41 @@ struct EffectVariant {
   std::string cause;
 };
 
+/// Of a base that stands upright, where no other gravity was told [m/s²].
+inline const Vec3 kGravity{0.0, 0.0, -9.80665};
+
 /// Poses, and all that an effect may look at.
 struct EffectData {
-  const Arm* arm = nullptr;  ///< with its base, rows as far as they are known, and masses
-  RowMatrix q;               ///< (N, n)
-  Covariates covariates;     ///< those that were recorded, each (N, k)
-  RowMatrix gravity;         ///< (N, 3) [m/s²], in the arm's base frame
-  std::vector<int> order;    ///< (N,) rows in the order in which they were taken
-  bool has_rotation = false; ///< whether orientations were measured too
+  const Arm* arm = nullptr;   ///< with its base, rows as far as they are known, and masses
+  RowMatrix q;                ///< (N, n)
+  Covariates covariates;      ///< those that were recorded, each (N, k)
+  RowMatrix gravity;          ///< (N, 3) [m/s²], in the arm's base frame
+  std::vector<int> order;     ///< (N,) rows in the order in which they were taken
+  bool has_rotation = false;  ///< whether orientations were measured too
+  /// Whether the rows are a recording, in the order in which they were taken; else each is a pose
+  /// by itself, to be foretold: a tool that slipped has slipped, and without time nothing moves.
+  bool recording = true;
 
   Index rows() const { return q.rows(); }
+  /// Whether it was recorded in every row (NaN is a row without it).
   bool has(std::string_view covariate) const;
   /// \pre has(covariate)
   const RowMatrix& covariate(std::string_view name) const;
 };
 
+/// Fills in gravity, and the order of the rows by time, where time was recorded; `arm` must outlive
+/// it.
+/// \throw std::invalid_argument for covariates of the library (temperature, time, payload,
+///        direction, gravity, session) of another shape, or with values that they cannot have
+EffectData make_effect_data(const Arm& arm, const RowMatrix& q, const Covariates& covariates,
+                            bool has_rotation);
+
 /// What the docs say of an effect.
 struct EffectInfo {
-  std::string name;     ///< as diagnosis names it
-  std::string words;    ///< "a curve along one joint: …", for people
-  std::string formula;  ///< "q + c cos(k q) + s sin(k q)"
-  std::string source;   ///< paper or textbook
+  std::string name;                ///< as diagnosis names it
+  std::string words;               ///< "a curve along one joint: …", for people
+  std::string formula;             ///< "q + c cos(k q) + s sin(k q)"
+  std::string source;              ///< paper or textbook
   std::vector<std::string> needs;  ///< covariates without which it cannot be seen
   struct Range {
     std::string parameter;
@@ -82,6 +96,9 @@ struct EffectInfo {
     double high = 0.0;
   };
   std::vector<Range> ranges;
+  /// Whether it looks at what changes from row to row, not at where a row lies: the ranges of the
+  /// data that taught it are no bounds to it.
+  bool by_difference = false;
 };
 
 /// An effect of the library, or a user's own.
@@ -95,10 +112,25 @@ class Effect {
   virtual std::vector<EffectVariant> variants(const EffectData& data) const = 0;
 
   /// One action or more for each parameter of `variant`, at the rows of `data`: [p] are those of
-  /// parameter p.
+  /// parameter p. What a row gives follows from that row and the variant alone, so that a variant
+  /// found in some data means the same in others. (Speeds need neighbours in time; moments without
+  /// times, the order.)
   virtual std::vector<std::vector<Action>> actions(const EffectVariant& variant,
                                                    const EffectData& data) const = 0;
+
+  /// Forms between two neighbours of a scan, in its order, for a closer look; empty where there is
+  /// nothing between.
+  virtual std::vector<EffectVariant> between(const EffectVariant& /*lower*/,
+                                             const EffectVariant& /*upper*/,
+                                             const EffectData& /*data*/) const {
+    return {};
+  }
 };
+
+/// Effect::actions, and their shapes checked: users' effects too come through here.
+/// \throw std::invalid_argument for actions that the contract does not allow
+std::vector<std::vector<Action>> actions_of(const Effect& effect, const EffectVariant& variant,
+                                            const EffectData& data);
 
 /// The library, in a fixed order; users' effects stand behind it.
 std::vector<std::shared_ptr<const Effect>> library_effects();

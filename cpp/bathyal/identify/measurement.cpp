@@ -73,12 +73,16 @@ Measurement every(const Measurement& m, Index stride) {
     return some;
   };
   Measurement out = m;
+  out.actions.clear();
   out.weights = thinned(m.weights);
   out.tool = thinned(m.tool);
   out.station = thinned(m.station);
   out.point = thinned(m.point);
   out.plane = thinned(m.plane);
   out.rotation = thinned(m.rotation);
+  for (Index i = 0; i < m.rows(); i += stride) {
+    out.actions.push_back(static_cast<int>(m.action_row(i)));
+  }
   out.q.resize(static_cast<Index>(out.weights.size()), m.q.cols());
   if (m.tracked) out.position.resize(3, out.q.rows());
   for (Index i = 0; i < out.q.rows(); ++i) {

@@ -18,6 +18,7 @@ struct Measurement {
   std::vector<double> weights;  ///< (N,) mean 1
   std::vector<int> tool;        ///< (N,)
   std::vector<int> station;     ///< (N,)
+  std::vector<int> actions;     ///< (N,) rows of effects' actions; empty: 0 … N - 1
   int tools = 1;
   int stations = 1;
 
@@ -38,6 +39,7 @@ struct Measurement {
   std::vector<Eigen::Matrix3d> rotation;  ///< (N,), empty when only positions were measured
 
   Index rows() const { return q.rows(); }
+  Index action_row(Index row) const { return actions.empty() ? row : actions[row]; }
   int points() const { return static_cast<int>(labels.size()); }
   /// The name of a label, else its number.
   std::string name_of(int label) const;

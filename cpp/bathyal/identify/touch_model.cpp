@@ -75,10 +75,10 @@ Eigen::MatrixXd tip_derivatives(const TouchModel& model, const RowMatrix& q, int
   Eigen::MatrixXd out(columns, 3 * q.rows());
   parallel_for(static_cast<std::size_t>(q.rows()), kPosesPerChunk, num_threads,
                [&](std::size_t begin, std::size_t end) {
-                 RowFrames frames;
+                 WalkFrames frames;
                  Eigen::Matrix3Xd shift(3, columns);
                  for (auto i = static_cast<Index>(begin); i < static_cast<Index>(end); ++i) {
-                   walk.tip(q.row(i).data(), 0, 0, frames, shift.data(), nullptr, 3);
+                   walk.tip(q.row(i).data(), kNoRow, 0, 0, frames, shift.data(), nullptr, 3);
                    out.middleCols<3>(3 * i) = shift.transpose();
                  }
                });
@@ -92,10 +92,10 @@ RowMatrix settled_on(const TouchModel& model, const RowMatrix& q, const Eigen::M
   const TipWalk walk(model.columns, model.columns.nominal(), {});
   parallel_for(static_cast<std::size_t>(q.rows()), kPosesPerChunk, num_threads,
                [&](std::size_t begin, std::size_t end) {
-                 RowFrames frames;
+                 WalkFrames frames;
                  for (auto i = static_cast<Index>(begin); i < static_cast<Index>(end); ++i) {
                    const auto miss = [&](const Vec3& tip) { return Vec3(targets.col(i) - tip); };
-                   out.row(i) = nearest_pose(walk, q.row(i), 0, 0, frames, miss);
+                   out.row(i) = nearest_pose(walk, q.row(i), kNoRow, 0, 0, frames, miss);
                  }
                });
   return out;
@@ -104,14 +104,15 @@ RowMatrix settled_on(const TouchModel& model, const RowMatrix& q, const Eigen::M
 Eigen::Matrix3Xd tips_of(const TouchModel& model, const RowMatrix& q, int num_threads) {
   Eigen::Matrix3Xd tips(3, q.rows());
   const TipWalk walk(model.columns, model.columns.nominal(), {});
-  parallel_for(static_cast<std::size_t>(q.rows()), kPosesPerChunk, num_threads,
-               [&](std::size_t begin, std::size_t end) {
-                 RowFrames frames;
-                 for (auto i = static_cast<Index>(begin); i < static_cast<Index>(end); ++i) {
-                   tips.col(i) =
-                       walk.tip(q.row(i).data(), 0, 0, frames, nullptr, nullptr, 0).translation();
-                 }
-               });
+  parallel_for(
+      static_cast<std::size_t>(q.rows()), kPosesPerChunk, num_threads,
+      [&](std::size_t begin, std::size_t end) {
+        WalkFrames frames;
+        for (auto i = static_cast<Index>(begin); i < static_cast<Index>(end); ++i) {
+          tips.col(i) =
+              walk.tip(q.row(i).data(), kNoRow, 0, 0, frames, nullptr, nullptr, 0).translation();
+        }
+      });
   return tips;
 }
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The command line: bathyal plan · triangulate · info · survey · identify · touches."""
+"""The command line: bathyal plan · triangulate · info · survey · identify · diagnose · touches."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from typing import Annotated
 
 import typer
 
+from bathyal.cli.diagnose import diagnose
 from bathyal.cli.groups import spread
 from bathyal.cli.identify import identify
 from bathyal.cli.info import info
@@ -31,13 +32,17 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     epilog=_EXIT_CODES,
 )
-for command in (plan, triangulate, info, survey, identify):
+for command in (plan, triangulate, info, survey, identify, diagnose):
     app.command(epilog=_EXIT_CODES)(spread(command))
 
 touches = typer.Typer(rich_markup_mode="rich", no_args_is_help=True)
 for verb in (example, plan_of_touches):
     touches.command(epilog=_EXIT_CODES)(spread(verb))
-app.add_typer(touches, name="touches", help="Plans and tables of touches, for `bathyal identify`.")
+app.add_typer(
+    touches,
+    name="touches",
+    help="Plans and tables of touches, for `bathyal identify` and `diagnose`.",
+)
 
 
 @app.callback(invoke_without_command=True)
@@ -60,6 +65,8 @@ def main(
       bathyal touches example touches.csv --arm ur10e
 
       bathyal identify touches.csv --arm ur10e --known-distance left,right=350mm --out found
+
+      bathyal diagnose touches.csv --arm ur10e --known-distance left,right=350mm --out diagnosis
     """
     if show_version:
         typer.echo(f"bathyal {version('bathyal')}")

@@ -4,18 +4,28 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Any
 
 import typer
 from rich.console import Console
 from rich.markup import escape
-from rich.progress import Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
+from rich.progress import (
+    BarColumn,
+    Progress,
+    SpinnerColumn,
+    Task,
+    TextColumn,
+    TimeElapsedColumn,
+)
 from rich.table import Table
+from rich.text import Text
 from typer.core import TyperGroup
 
 from bathyal._core import Error
+
+Tell = Callable[[float, str], None]
 
 
 class Commands(TyperGroup):
@@ -55,20 +65,23 @@ class Talk:
 
     @contextmanager
     def progress(self) -> Iterator[Any]:
-        """A function `step(name)` for stages; it draws only on a terminal."""
+        """A function `step(name)` for stages; it draws only on a terminal. ``with step(name) as
+        tell:`` gives ``tell(share, words)`` to a stage that knows how far it is."""
         if self.json or self.quiet or not self.err.is_terminal:
             yield _silent
             return
         bar = Progress(
-            SpinnerColumn(), TextColumn("{task.description}"), TimeElapsedColumn(),
-            console=self.err, transient=True,
+            SpinnerColumn(), TextColumn("{task.description}", markup=False), _Share(bar_width=30),
+            TimeElapsedColumn(), console=self.err, transient=True,
         )  # fmt: skip
 
         @contextmanager
-        def step(name: str) -> Iterator[None]:
+        def step(name: str) -> Iterator[Tell]:
             task = bar.add_task(name, total=None)
             try:
-                yield
+                yield lambda share, words: bar.update(
+                    task, total=1.0, completed=share, description=words or name, refresh=True
+                )
             finally:
                 bar.remove_task(task)
 
@@ -96,6 +109,13 @@ class Talk:
                 self.err.print(f"[yellow]warning:[/] {escape(warning)}", soft_wrap=True)
 
 
+class _Share(BarColumn):
+    """A bar for the stages that tell how far they are."""
+
+    def render(self, task: Task) -> Any:
+        return Text() if task.total is None else super().render(task)
+
+
 @contextmanager
-def _silent(_: str) -> Iterator[None]:
-    yield
+def _silent(_: str) -> Iterator[Tell]:
+    yield lambda share, words: None

@@ -27,6 +27,7 @@ from bathyal.cli.values import (
 )
 
 _READING = "Reading"
+_BESIDE = "What was recorded beside"
 _KNOWN = "What is known"
 _FIT = "The search"
 
@@ -127,6 +128,65 @@ class TouchColumns:
             name: _names(getattr(self, name)) for name in ("joints", "position", "orientation")
         }
         return given(**vars(self) | columns)
+
+
+@dataclass(frozen=True)
+class Beside:
+    """What was recorded beside the joints: `covariates` of `read_touches` and `read_tracked`."""
+
+    session: Annotated[
+        str | None, _option(_BESIDE, "Column of the session. [dim]\\[default: session][/]")
+    ] = None
+    time: Annotated[
+        str | None, _option(_BESIDE, "Column of the time. [dim]\\[default: time][/]")
+    ] = None
+    temperature: Annotated[
+        str | None, _option(_BESIDE, "Column of the temperature. [dim]\\[default: temperature][/]")
+    ] = None
+    payload: Annotated[
+        str | None, _option(_BESIDE, "Column of the load at the tip. [dim]\\[default: payload][/]")
+    ] = None
+    direction: Annotated[
+        str | None,
+        _option(
+            _BESIDE,
+            "Columns of how each joint was approached, −1, 0 or 1, in the arm's order. "
+            "[dim]\\[default: direction_1,direction_2,…][/]",
+        ),
+    ] = None
+    gravity: Annotated[
+        str | None,
+        _option(
+            _BESIDE,
+            "Columns of gravity in the base's frame \\[m/s²]. "
+            "[dim]\\[default: gravity_x,gravity_y,gravity_z][/]",
+        ),
+    ] = None
+    covariate: Annotated[
+        list[str] | None,
+        _option(
+            _BESIDE,
+            "Anything else, [b]pressure=P_bar[/b]: structure is looked for against it, too; may "
+            "stand several times.",
+            metavar="NAME=COLUMN",
+        ),
+    ] = None
+
+    def keywords(self) -> dict[str, Any]:
+        named_columns = given(
+            session=self.session,
+            time=self.time,
+            temperature=self.temperature,
+            payload=self.payload,
+            direction=_names(self.direction),
+            gravity=_names(self.gravity),
+        )
+        others = _each(self.covariate, "covariate", named) or {}
+        twice = sorted(set(others) & set(named_columns))
+        if twice:
+            raise typer.BadParameter(f"expected {twice[0]} once", param_hint="--covariate")
+        columns = {**named_columns, **others}
+        return {"covariates": columns} if columns else {}
 
 
 @dataclass(frozen=True)

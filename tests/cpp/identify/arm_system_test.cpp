@@ -170,12 +170,12 @@ TEST(TipWalk, DerivativesAreThoseOfAutomaticDifferentiation) {
     std::vector<int> wanted(static_cast<std::size_t>(count));
     for (int i = 0; i < count; ++i) wanted[i] = i;
     const TipWalk walk(all.columns, all.x, wanted);
-    RowFrames frames;
+    WalkFrames frames;
     Eigen::Matrix3Xd shift(3, count), turn(3, count);
     for (Index row = 0; row < all.m.rows(); ++row) {
       const double* q = all.m.q.row(row).data();
       const int tool = all.m.tool[row], station = all.m.station[row];
-      const Pose pose = walk.tip(q, tool, station, frames, shift.data(), turn.data(), 3);
+      const Pose pose = walk.tip(q, kNoRow, tool, station, frames, shift.data(), turn.data(), 3);
       for (int c = 0; c < count; ++c) {
         using Jet = ceres::Jet<double, 1>;
         std::vector<Jet> x(all.x.begin(), all.x.end());

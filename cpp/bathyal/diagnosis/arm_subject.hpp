@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <map>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "bathyal/diagnosis/arm_probes.hpp"
+#include "bathyal/diagnosis/subject.hpp"
+#include "bathyal/identify/arm_fit.hpp"
+#include "bathyal/identify/arm_problem.hpp"
+#include "bathyal/identify/arm_search.hpp"
+#include "bathyal/identify/effect.hpp"
+
+namespace bathyal {
+
+/// An arm beside touches or tracked poses, with the effects that may be in them. For use inside the
+/// room. Arm, measurement and options must outlive it.
+class ArmSubject final : public Subject {
+ public:
+  using Effects = std::vector<std::shared_ptr<const Effect>>;
+
+  ArmSubject(const Arm& arm, const Measurement& measurement, const Covariates& covariates,
+             const IdentifyOptions& options, const Effects& effects);
+
+  const Units& units() const override { return units_; }
+  const std::vector<Form>& forms() const override { return forms_; }
+  const std::vector<std::vector<int>>& scans() const override { return scans_; }
+  const std::vector<NoiseForm>& noise_forms() const override { return noise_forms_; }
+  std::vector<int> finer(int form) override;
+  std::vector<Eigen::MatrixXd> columns(std::span<const int> forms) const override;
+  const Linearization& linearization() const override { return linearization_; }
+  void settle(const std::vector<int>& forms) override;
+  void set_trust(const Eigen::VectorXd& trust) override;
+  double noise() const override { return problem_.system->noise().position; }
+
+  const ArmFit& fit() const { return fit_; }
+  const EffectData& data() const { return data_; }
+  /// Probes have none.
+  const Effect* effect(int form) const { return sources_[form].effect.get(); }
+  const EffectVariant& variant(int form) const { return sources_[form].variant; }
+  /// Effects of the last `settle`, with their values.
+  std::vector<FoundEffect> found() const;
+  /// Covariance of all values of the last `settle`'s effects, in their units and order, and the
+  /// degrees of freedom of the noise.
+  Eigen::MatrixXd covariance() const;
+  double freedom() const;
+  /// The rigid part where the model stands, base and tool set.
+  Arm arm() const;
+  Eigen::Matrix3Xd deviations() const;
+
+ private:
+  struct Source {
+    std::shared_ptr<const Effect> effect;
+    EffectVariant variant;
+    int probe = -1;
+  };
+  void gather_data(const Covariates& covariates);
+  void gather_units();
+  void gather_forms(const Effects& effects);
+  void gather_noise_forms();
+  std::vector<std::vector<Action>> actions_of(int form) const;
+  void stand_at(const Eigen::VectorXd& x);
+  bool update_noise();
+  /// (3, N) where the model has them. (A field over what was measured would explain its errors by
+  /// themselves.)
+  Eigen::Matrix3Xd tips_from_base() const;
+
+  const Arm& nominal_;
+  const Measurement& m_;
+  ArmProblem problem_;
+  Observability seen_;
+  SearchResult start_;
+  ArmFit fit_;
+  EffectData data_;
+  std::vector<Probe> probes_;
+  Units units_;
+  std::vector<Form> forms_;
+  std::vector<Source> sources_;
+  std::vector<std::vector<int>> scans_;
+  std::map<int, std::pair<int, int>> neighbours_;  ///< of forms of a scan: below and above, or -1
+  std::vector<NoiseForm> noise_forms_;
+  std::size_t geometry_ = 0;    ///< columns that are not effects'
+  std::vector<int> base_free_;  ///< of them, those that are fitted
+  std::vector<int> standing_;   ///< forms of the last `settle`
+  Eigen::VectorXd x_;           ///< of all columns, effects' last
+  Linearization linearization_;
+};
+
+}  // namespace bathyal

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bathyal/diagnosis/blocks.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+
+namespace bathyal {
+namespace {
+
+/// Fewer points than this, and to hold one out would hold out too much.
+constexpr int kLeastPoints = 6;
+
+class Unions {
+ public:
+  explicit Unions(std::size_t count) : parent_(count) {
+    std::iota(parent_.begin(), parent_.end(), 0);
+  }
+  int root(int i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+  void join(int a, int b) {
+    const int first = root(a), second = root(b);
+    parent_[std::max(first, second)] = std::min(first, second);
+  }
+
+ private:
+  std::vector<int> parent_;
+};
+
+/// Numbers 0, 1, … in the order in which values first appear.
+std::vector<int> counted_up(const std::vector<int>& values) {
+  std::map<int, int> known;
+  std::vector<int> out;
+  for (const int value : values) {
+    out.push_back(known.emplace(value, static_cast<int>(known.size())).first->second);
+  }
+  return out;
+}
+
+int count_of(const std::vector<int>& numbers) {
+  return numbers.empty() ? 0 : 1 + *std::max_element(numbers.begin(), numbers.end());
+}
+
+}  // namespace
+
+std::vector<int> find_twins(const Eigen::Ref<const Eigen::MatrixXd>& q, double near) {
+  const Index n = q.rows();
+  Unions unions(static_cast<std::size_t>(n));
+  // Sorted along the column that spreads most: twins lie close together there.
+  Eigen::VectorXd spread(q.cols());
+  for (Index c = 0; c < q.cols(); ++c) spread[c] = q.col(c).maxCoeff() - q.col(c).minCoeff();
+  Index widest = 0;
+  if (q.cols() > 0) spread.maxCoeff(&widest);
+  std::vector<int> order(static_cast<std::size_t>(n));
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](int a, int b) { return q(a, widest) < q(b, widest); });
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    for (std::size_t j = i + 1; j < order.size(); ++j) {
+      if (q(order[j], widest) - q(order[i], widest) > near) break;
+      if ((q.row(order[i]) - q.row(order[j])).cwiseAbs().maxCoeff() <= near) {
+        unions.join(order[i], order[j]);
+      }
+    }
+  }
+  std::vector<int> out;
+  for (int i = 0; i < static_cast<int>(n); ++i) out.push_back(unions.root(i));
+  return counted_up(out);
+}
+
+Blocks make_blocks(const Units& units, int wanted) {
+  const auto n = static_cast<std::size_t>(units.count());
+  Blocks out;
+  out.of.assign(n, 0);
+  const int points = units.point.empty() ? 0 : count_of(units.point);
+  std::vector<int> key = units.twin;
+  if (points >= kLeastPoints) {
+    // What is held out together must not share a point that the model leaves free.
+    Unions unions(n);
+    std::map<int, int> first_of_point, first_twin;
+    for (int i = 0; i < static_cast<int>(n); ++i) {
+      if (units.point[i] >= 0) unions.join(i, first_of_point.emplace(units.point[i], i).first->second);
+      unions.join(i, first_twin.emplace(units.twin[i], i).first->second);
+    }
+    for (int i = 0; i < static_cast<int>(n); ++i) key[i] = unions.root(i);
+    out.how = "whole touched points were held out";
+  }
+  // Groups in the order of their first unit, session by session.
+  std::vector<int> order(n);
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
+    return std::pair(units.session[a], units.order[a]) < std::pair(units.session[b], units.order[b]);
+  });
+  std::map<int, std::size_t> size_in_session;
+  for (const int i : order) ++size_in_session[units.session[i]];
+  std::map<int, int> block_of_key;
+  std::map<int, std::size_t> seen;
+  const int blocks = std::min<int>(wanted, static_cast<int>(n));
+  for (const int i : order) {
+    const std::size_t place = seen[units.session[i]]++;
+    const auto block = static_cast<int>(place * static_cast<std::size_t>(blocks) /
+                                        size_in_session[units.session[i]]);
+    block_of_key.emplace(key[i], block);
+  }
+  std::vector<int> raw(n);
+  for (std::size_t i = 0; i < n; ++i) raw[i] = block_of_key[key[i]];
+  out.of = counted_up(raw);
+  out.count = count_of(out.of);
+  if (out.how.empty()) {
+    out.how = std::to_string(out.count) +
+              " blocks of poses that follow one another were held out in turn" +
+              (size_in_session.size() > 1 ? ", each with its share of every session" : "");
+  }
+  return out;
+}
+
+}  // namespace bathyal

@@ -1,0 +1,497 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bathyal/diagnosis/examination.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <set>
+
+#include "bathyal/diagnosis/hold_out.hpp"
+#include "bathyal/diagnosis/orthonormal.hpp"
+#include "bathyal/diagnosis/scan.hpp"
+#include "bathyal/identify/f_distribution.hpp"
+
+namespace bathyal {
+namespace {
+
+constexpr int kMostPasses = 4;       ///< of naming and standing at what was named
+constexpr int kPeaks = 4;            ///< of each scan that are looked at closely
+constexpr int kMostProbes = 6;       ///< that are asked at once
+constexpr int kFinerRounds = 3;
+constexpr double kShown = 0.01;      ///< corrected p-value below which structure is beyond noise
+constexpr double kLeastFreedom = 10.0;
+constexpr int kLeastBlocks = 3;
+
+class Examiner {
+ public:
+  Examiner(Subject& subject, const ExaminationOptions& options, const Progress& progress)
+      : subject_(subject), options_(options), progress_(progress) {}
+
+  Examination run();
+
+ private:
+  /// What the columns of the base model, and of forms beside it, span where the subject stands.
+  struct Ground {
+    Eigen::MatrixXd basis;
+    double freedom = 0.0;
+  };
+  /// An explanation of everything: forms, and units that do not belong.
+  struct Explanation {
+    std::vector<int> forms;
+    Eigen::VectorXd trust;
+    double score = -std::numeric_limits<double>::infinity();
+  };
+
+  void tell(double done, const std::string& stage) const {
+    if (progress_) progress_(done, stage);
+  }
+  bool is_probe(int form) const { return subject_.forms()[form].probe; }
+
+  Ground ground(const std::vector<int>& forms) const;
+  Pool pool_of(const Ground& base, const std::vector<int>& forms) const;
+  std::vector<int> forms_of(const Pool& pool, const std::vector<int>& set) const;
+  std::vector<int> sharpened(std::vector<int> forms);
+
+  void gather_candidates();
+  void add_peaks(const Ground& beside);
+  std::vector<int> best_forms();
+  Explanation explain(Eigen::VectorXd trust);
+  double score_of(const std::vector<int>& forms, const Eigen::VectorXd& trust) const;
+  void choose_explanation();
+  void weigh_noise();
+
+  std::vector<Dependence> dependences(const Ground& beside) const;
+  void look_beyond_names();
+  void drop_what_foretells_nothing();
+  void tell_evidence();
+  void tell_rivals();
+  void tell_detectable();
+
+  Subject& subject_;
+  const ExaminationOptions& options_;
+  const Progress& progress_;
+  std::vector<int> candidates_;       ///< library forms worth a pool
+  std::vector<int> in_scans_;         ///< forms that only scans look at, sorted
+  std::vector<int> names_;
+  std::vector<int> probes_;
+  Eigen::VectorXd trust_;
+  Examination out_;
+};
+
+Examiner::Ground Examiner::ground(const std::vector<int>& forms) const {
+  const Linearization& at = subject_.linearization();
+  Ground out;
+  out.basis = orthonormal(at.base);
+  for (const Eigen::MatrixXd& columns : subject_.columns(forms)) {
+    const Eigen::MatrixXd more = orthonormal_beside(out.basis, columns);
+    const Index old = out.basis.cols();
+    out.basis.conservativeResize(Eigen::NoChange, old + more.cols());
+    out.basis.rightCols(more.cols()) = more;
+  }
+  out.freedom = static_cast<double>(at.misfit.size() - out.basis.cols()) - at.lost;
+  return out;
+}
+
+Pool Examiner::pool_of(const Ground& base, const std::vector<int>& forms) const {
+  Pool pool(base.basis, subject_.linearization().misfit, base.freedom);
+  pool.add(forms, subject_.forms(), subject_.columns(forms), options_.num_threads);
+  return pool;
+}
+
+std::vector<int> Examiner::forms_of(const Pool& pool, const std::vector<int>& set) const {
+  std::vector<int> forms;
+  for (const int member : set) forms.push_back(pool.form(member));
+  std::sort(forms.begin(), forms.end());
+  return forms;
+}
+
+void Examiner::gather_candidates() {
+  for (const std::vector<int>& family : subject_.scans()) {
+    in_scans_.insert(in_scans_.end(), family.begin(), family.end());
+  }
+  std::sort(in_scans_.begin(), in_scans_.end());
+  for (int form = 0; form < static_cast<int>(subject_.forms().size()); ++form) {
+    if (!is_probe(form) && !std::binary_search(in_scans_.begin(), in_scans_.end(), form)) {
+      candidates_.push_back(form);
+    }
+  }
+}
+
+/// The best of each scan beside what stands already.
+void Examiner::add_peaks(const Ground& beside) {
+  for (const std::vector<int>& family : subject_.scans()) {
+    if (is_probe(family.front())) continue;
+    const std::vector<ScannedForm> scanned =
+        scan(subject_, family, beside.basis, subject_.linearization().misfit, beside.freedom,
+             options_.num_threads);
+    for (const int form : peaks(scanned, kPeaks)) {
+      if (std::find(candidates_.begin(), candidates_.end(), form) == candidates_.end()) {
+        candidates_.push_back(form);
+      }
+    }
+  }
+}
+
+/// Each form of a scan where it fits best, between the points of its grid.
+std::vector<int> Examiner::sharpened(std::vector<int> forms) {
+  for (int& form : forms) {
+    for (int round = 0; round < kFinerRounds; ++round) {
+      std::vector<int> near = subject_.finer(form);
+      if (near.empty()) break;
+      std::vector<int> others = forms;
+      std::erase(others, form);
+      const Ground beside = ground(others);
+      near.push_back(form);
+      const std::vector<ScannedForm> scanned =
+          scan(subject_, near, beside.basis, subject_.linearization().misfit, beside.freedom,
+               options_.num_threads);
+      const auto best = std::max_element(
+          scanned.begin(), scanned.end(),
+          [](const ScannedForm& a, const ScannedForm& b) { return a.gain < b.gain; });
+      form = best->form;
+    }
+    if (std::find(candidates_.begin(), candidates_.end(), form) == candidates_.end()) {
+      candidates_.push_back(form);
+    }
+  }
+  std::sort(forms.begin(), forms.end());
+  return forms;
+}
+
+/// The best set where the subject stands; scans look again beside it.
+std::vector<int> Examiner::best_forms() {
+  const Ground base = ground({});
+  std::vector<int> forms = forms_of(pool_of(base, candidates_), {});
+  for (int round = 0; round < 2; ++round) {
+    const Pool pool = pool_of(base, candidates_);
+    const std::vector<int> found = forms_of(pool, find_best_set(pool));
+    if (round > 0 && found == forms) break;
+    forms = found;
+    if (forms.empty()) break;
+    const std::size_t known = candidates_.size();
+    add_peaks(ground(forms));
+    if (candidates_.size() == known) break;
+  }
+  return sharpened(std::move(forms));
+}
+
+double Examiner::score_of(const std::vector<int>& forms, const Eigen::VectorXd& trust) const {
+  const Ground base = ground({});
+  const Pool pool = pool_of(base, forms);
+  std::vector<int> all(static_cast<std::size_t>(pool.size()));
+  std::iota(all.begin(), all.end(), 0);
+  const auto fit = pool.judge(all);
+  if (!fit) return -std::numeric_limits<double>::infinity();
+  // Units left out count as rows that a column of their own explains.
+  double odd = 0.0, cost = 0.0;
+  const Ground whole = ground(forms);
+  const std::vector<UnitTest> tests =
+      test_units(subject_.linearization(), whole.basis, trust, whole.freedom);
+  for (Index i = 0; i < trust.size(); ++i) {
+    if (trust[i] > 0.0) continue;
+    odd += 3.0;
+    cost += cost_of_freedom(3.0, tests[static_cast<std::size_t>(i)].distance) +
+            std::log(static_cast<double>(trust.size()));
+  }
+  // As judge counts, in metres: noise is another unit from explanation to explanation.
+  const double rows = base.freedom + odd;
+  return fit->score + 0.5 * base.freedom * std::log(fit->left) -
+         0.5 * rows * std::log(fit->left * subject_.noise() * subject_.noise()) - cost;
+}
+
+/// Names and odd units in turn, until both stay.
+Examiner::Explanation Examiner::explain(Eigen::VectorXd trust) {
+  Explanation out{{}, trust, 0.0};
+  subject_.set_trust(trust);
+  subject_.settle({});
+  for (int pass = 0; pass < kMostPasses; ++pass) {
+    const std::vector<int> forms = best_forms();
+    subject_.settle(forms);
+    const Ground whole = ground(forms);
+    const Eigen::VectorXd next =
+        leave_out_odd(subject_.linearization(), whole.basis, out.trust, whole.freedom);
+    const bool same = next == out.trust;
+    const bool settled = same && (forms == out.forms || forms.empty());
+    out.forms = forms;
+    out.trust = next;
+    if (!same) {
+      subject_.set_trust(next);
+      subject_.settle(forms);
+    }
+    if (settled) break;
+  }
+  out.score = score_of(out.forms, out.trust);
+  return out;
+}
+
+/// Gross errors hide causes, and causes look like gross errors: both orders are tried.
+void Examiner::choose_explanation() {
+  const auto units = subject_.units().count();
+  const Eigen::VectorXd all = Eigen::VectorXd::Ones(units);
+  subject_.set_trust(all);
+  subject_.settle({});
+  gather_candidates();
+  {
+    const Ground base = ground({});
+    out_.shown = dependences(base);
+    tell(0.2, "looking for causes");
+    add_peaks(base);
+  }
+  const Ground base = ground({});
+  const Eigen::VectorXd without_odd =
+      leave_out_odd(subject_.linearization(), base.basis, all, base.freedom);
+  Explanation best = explain(all);
+  if (without_odd != all) {
+    Explanation other = explain(without_odd);
+    if (other.score > best.score) best = std::move(other);
+  }
+  subject_.set_trust(best.trust);
+  subject_.settle(best.forms);
+  names_ = best.forms;
+  trust_ = best.trust;
+}
+
+void Examiner::weigh_noise() {
+  const Ground whole = ground(names_);
+  for (int f = 0; f < static_cast<int>(subject_.noise_forms().size()); ++f) {
+    const NoiseForm& form = subject_.noise_forms()[f];
+    NoiseFit fit = fit_noise(form, subject_.linearization(), whole.basis, trust_, subject_.noise(),
+                             out_.blocks);
+    fit.form = f;
+    // A record that shows its step needs no proof that it has one, only that it matters.
+    constexpr double kMatters = 0.04;
+    const bool named = form.known > 0.0
+                           ? fit.share > kMatters
+                           : fit.gain > kNameCost + cost_of_freedom(1.0, 2.0 * fit.gain) &&
+                                 fit.held_out_gain > 0.0;
+    if (named) out_.noise.push_back(std::move(fit));
+  }
+}
+
+/// What each probe adds to what stands, those beyond noise first.
+std::vector<Dependence> Examiner::dependences(const Ground& beside) const {
+  std::vector<int> asked;
+  for (int form = 0; form < static_cast<int>(subject_.forms().size()); ++form) {
+    if (is_probe(form)) asked.push_back(form);
+  }
+  const Eigen::VectorXd& misfit = subject_.linearization().misfit;
+  const std::vector<ScannedForm> scanned =
+      scan(subject_, asked, beside.basis, misfit, beside.freedom, options_.num_threads);
+  const double total =
+      misfit.squaredNorm() - (beside.basis.transpose() * misfit).squaredNorm();
+  const auto rows = static_cast<double>(misfit.size());
+  std::vector<Dependence> out;
+  for (const ScannedForm& form : scanned) {
+    if (form.width == 0.0 || !(beside.freedom > form.width + 1.0)) continue;
+    Dependence d{form.form, form.explained, form.width, 1.0, 0.0, 0.0};
+    const double noise = (total - form.explained) / (beside.freedom - form.width);
+    d.p = std::min(1.0, static_cast<double>(asked.size()) *
+                            f_tail(form.explained / form.width / noise, form.width,
+                                   beside.freedom - form.width));
+    const double beyond = std::max(form.explained - form.width * noise, 0.0);
+    d.size = std::sqrt(beyond / rows);
+    d.share = total > 0.0 ? beyond / total : 0.0;
+    out.push_back(d);
+  }
+  std::stable_sort(out.begin(), out.end(), [](const Dependence& a, const Dependence& b) {
+    return std::pair(a.p, -a.share) < std::pair(b.p, -b.share);
+  });
+  return out;
+}
+
+/// Structure that the names leave: probes take part in the search, and may show that a name was
+/// only the nearest thing to what it is.
+void Examiner::look_beyond_names() {
+  for (int round = 0; round < kMostPasses; ++round) {
+    std::vector<int> standing = names_;
+    standing.insert(standing.end(), probes_.begin(), probes_.end());
+    const std::vector<Dependence> beyond = dependences(ground(standing));
+    std::vector<int> asked = candidates_;
+    asked.insert(asked.end(), probes_.begin(), probes_.end());
+    const std::size_t known = asked.size();
+    for (const Dependence& d : beyond) {
+      if (d.p > kShown || asked.size() == known + kMostProbes) break;
+      asked.push_back(d.form);
+    }
+    if (asked.size() == known) return;
+    const Pool pool = pool_of(ground({}), asked);
+    std::vector<int> names, probes;
+    for (const int form : forms_of(pool, find_best_set(pool))) {
+      (is_probe(form) ? probes : names).push_back(form);
+    }
+    if (names == names_ && probes == probes_) return;
+    if (names != names_) subject_.settle(names);
+    names_ = names;
+    probes_ = probes;
+  }
+}
+
+/// A name must foretell what it has not seen.
+void Examiner::drop_what_foretells_nothing() {
+  const Linearization& at = subject_.linearization();
+  for (;;) {
+    const auto error_of = [&](const std::vector<int>& forms) {
+      Eigen::MatrixXd columns = at.base;
+      for (const Eigen::MatrixXd& more : subject_.columns(forms)) {
+        const Index old = columns.cols();
+        columns.conservativeResize(Eigen::NoChange, old + more.cols());
+        columns.rightCols(more.cols()) = more;
+      }
+      return hold_out(at.misfit, columns, at.unit, out_.blocks, options_.num_threads);
+    };
+    const HeldOutErrors with = error_of(names_);
+    out_.names.clear();
+    int worst = -1;
+    double least = 0.0;
+    for (const int form : names_) {
+      std::vector<int> others = names_;
+      std::erase(others, form);
+      const HeldOutErrors without = error_of(others);
+      Chosen chosen;
+      chosen.form = form;
+      chosen.held_out_with = with.of_block.sum() / with.rows;
+      chosen.held_out_without = without.of_block.sum() / with.rows;
+      const double gain = chosen.held_out_without - chosen.held_out_with;
+      if (gain <= least) {
+        worst = form;
+        least = gain;
+      }
+      out_.names.push_back(chosen);
+    }
+    if (worst < 0) {
+      const HeldOutErrors before = error_of({});
+      out_.error_before = before.error;
+      out_.error_after = with.error;
+      const Eigen::VectorXd gains = before.of_block - with.of_block;
+      out_.luck = sign_flip_p(gains);
+      return;
+    }
+    std::erase(names_, worst);
+    subject_.settle(names_);
+  }
+}
+
+void Examiner::tell_evidence() {
+  const Ground base = ground({});
+  std::vector<int> all = names_;
+  all.insert(all.end(), probes_.begin(), probes_.end());
+  const Pool pool = pool_of(base, all);
+  std::vector<int> named, everything;
+  for (int m = 0; m < pool.size(); ++m) {
+    everything.push_back(m);
+    if (!pool.about(m).probe) named.push_back(m);
+  }
+  const auto whole = pool.judge(everything);
+  const auto names_only = pool.judge(named);
+  out_.base_squares = pool.total();
+  if (!whole || !names_only) return;
+  out_.freedom = names_only->freedom;
+  const auto width_of = [&](const std::vector<int>& members) {
+    double width = 0.0;
+    for (const int m : members) width += static_cast<double>(pool.width(m));
+    return width;
+  };
+  const double noise = whole->noise();
+  out_.removed = std::max(pool.total() - names_only->left - width_of(named) * noise, 0.0);
+  out_.left_over = std::max(names_only->left - whole->left -
+                                (width_of(everything) - width_of(named)) * noise,
+                            0.0);
+  const auto rows = static_cast<double>(subject_.linearization().misfit.size());
+  std::set<std::string> effects;
+  for (const Form& form : subject_.forms()) {
+    if (!form.probe) effects.insert(form.effect);
+  }
+  for (std::size_t i = 0; i < everything.size(); ++i) {
+    const int m = everything[i];
+    const double width = whole->width[i], f = whole->f[i];
+    Chosen chosen;
+    chosen.form = pool.form(m);
+    if (!pool.about(m).probe) {
+      chosen = *std::find_if(out_.names.begin(), out_.names.end(),
+                             [&](const Chosen& c) { return c.form == pool.form(m); });
+    }
+    chosen.f = f;
+    chosen.width = width;
+    chosen.explained = f * width * noise;
+    chosen.size = std::sqrt(std::max(f * width - width, 0.0) / rows);
+    chosen.p = std::min(1.0, pool.about(m).trials * static_cast<double>(effects.size()) *
+                                 f_tail(f, width, whole->freedom));
+    if (pool.about(m).probe) {
+      out_.probes.push_back(chosen);
+    } else {
+      *std::find_if(out_.names.begin(), out_.names.end(),
+                    [&](const Chosen& c) { return c.form == chosen.form; }) = chosen;
+    }
+  }
+}
+
+void Examiner::tell_rivals() {
+  if (names_.empty()) return;
+  std::vector<int> asked = candidates_;
+  for (const int form : names_) {
+    if (std::find(asked.begin(), asked.end(), form) == asked.end()) asked.push_back(form);
+  }
+  const Pool pool = pool_of(ground({}), asked);
+  std::vector<int> set;
+  for (int m = 0; m < pool.size(); ++m) {
+    if (std::find(names_.begin(), names_.end(), pool.form(m)) != names_.end()) set.push_back(m);
+  }
+  for (const Rival& rival : find_rivals(pool, set)) {
+    out_.rivals.push_back({pool.form(rival.member), pool.form(rival.instead), rival.odds});
+  }
+}
+
+/// Of a form with two columns among fifty: the size at which its evidence would have been enough.
+void Examiner::tell_detectable() {
+  constexpr double kWidth = 2.0, kTrials = 50.0;
+  const auto rows = static_cast<double>(subject_.linearization().misfit.size());
+  double explained = 20.0;
+  for (int round = 0; round < 50; ++round) {
+    explained = 2.0 * (kNameCost + std::log(kTrials) + cost_of_freedom(kWidth, explained / kWidth));
+  }
+  out_.detectable = std::sqrt(explained / rows);
+}
+
+Examination Examiner::run() {
+  tell(0.0, "finding the geometry");
+  out_.blocks = make_blocks(subject_.units(), options_.blocks);
+  choose_explanation();
+  tell_detectable();
+  const Ground whole = ground(names_);
+  out_.held_out = out_.blocks.count >= kLeastBlocks && whole.freedom >= kLeastFreedom;
+  if (!out_.held_out) {
+    subject_.settle({});
+    names_.clear();
+    return std::move(out_);
+  }
+  weigh_noise();
+  if (!out_.noise.empty()) {
+    // Rows count by their own noise from here on, and what was named is asked again.
+    Eigen::VectorXd trust = trust_;
+    for (const NoiseFit& fit : out_.noise) trust.array() /= fit.factor.array();
+    subject_.set_trust(trust);
+    subject_.settle(names_);
+    names_ = best_forms();
+    subject_.settle(names_);
+  }
+  tell(0.6, "looking for what is left");
+  look_beyond_names();
+  tell(0.8, "measuring the gain");
+  drop_what_foretells_nothing();
+  tell_evidence();
+  tell_rivals();
+  for (Index i = 0; i < trust_.size(); ++i) {
+    if (!(trust_[i] > 0.0)) out_.odd.push_back(static_cast<int>(i));
+  }
+  tell(1.0, "done");
+  return std::move(out_);
+}
+
+}  // namespace
+
+Examination examine(Subject& subject, const ExaminationOptions& options, const Progress& progress) {
+  return Examiner(subject, options, progress).run();
+}
+
+}  // namespace bathyal

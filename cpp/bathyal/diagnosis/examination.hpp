@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "bathyal/diagnosis/blocks.hpp"
+#include "bathyal/diagnosis/odd_units.hpp"
+#include "bathyal/diagnosis/set_search.hpp"
+#include "bathyal/diagnosis/subject.hpp"
+
+namespace bathyal {
+
+/// Called with the share of the work that is done, 0 … 1, and what comes next; throws to stop.
+using Progress = std::function<void(double done, const std::string& stage)>;
+
+struct ExaminationOptions {
+  int num_threads = 0;
+  int blocks = 10;           ///< that are held out in turn
+  double rival_odds = 0.05;  ///< from which a rival cannot be told apart
+  double leftover = 0.25;    ///< of what the names removed: more is left, and they are not the cause
+};
+
+/// A form that was chosen.
+struct Chosen {
+  int form = 0;
+  double explained = 0.0;  ///< sum of squares that goes without it
+  double f = 0.0;          ///< Wald's statistic per column
+  double width = 0.0;      ///< columns
+  double p = 1.0;          ///< by Fisher's F, times the trials
+  double size = 0.0;       ///< root mean square of what it does beside all else, per row [noise]
+  double held_out_without = 0.0;  ///< mean square per row foretold by the others [noise²]
+  double held_out_with = 0.0;
+};
+
+struct RivalForm {
+  int form = 0;     ///< chosen
+  int instead = 0;  ///< form
+  double odds = 0.0;
+};
+
+/// What the rows depend on.
+struct Dependence {
+  int form = 0;
+  double explained = 0.0;
+  double width = 0.0;
+  double p = 1.0;     ///< corrected
+  double size = 0.0;  ///< per row [noise]
+  double share = 0.0;
+};
+
+/// Findings of one subject: which forms explain what its base model does not.
+struct Examination {
+  bool held_out = false;            ///< there was enough to hold out
+  Blocks blocks;
+  std::vector<Chosen> names;
+  std::vector<Chosen> probes;       ///< structure beside the names
+  std::vector<RivalForm> rivals;    ///< likeliest first, by name
+  std::vector<Dependence> shown;    ///< of the base model alone, likeliest first
+  std::vector<int> odd;             ///< units left out
+  std::vector<NoiseFit> noise;      ///< noise forms that were named
+  double base_squares = 0.0;        ///< beside the base model, before anything was named
+  double removed = 0.0;             ///< by the names, noise taken out
+  double left_over = 0.0;           ///< by the probes, noise taken out
+  double freedom = 0.0;             ///< of what remains
+  double detectable = 0.0;          ///< size per row that would have been found [noise]
+  Eigen::VectorXd error_before;     ///< (M,) held out, base model alone [noise]
+  Eigen::VectorXd error_after;      ///< (M,) with the names
+  double luck = 1.0;                ///< probability that the gain is
+};
+
+/// Shows, names and measures; leaves the subject standing at what it named.
+Examination examine(Subject& subject, const ExaminationOptions& options, const Progress& progress);
+
+}  // namespace bathyal

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "bathyal/arm/arm.hpp"
+#include "bathyal/identify/effect.hpp"
+
+namespace bathyal {
+
+/// "a wave of order 2 along joint 3 (elbow)": a form for people, who count joints from 1.
+std::string words_of(const EffectVariant& variant, const Arm& arm);
+
+}  // namespace bathyal

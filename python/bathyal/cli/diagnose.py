@@ -1,0 +1,88 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""bathyal diagnose: measured data in, a folder that says what the simulation gets wrong out."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from bathyal.cli import options as opt
+from bathyal.cli import touch_options as own
+from bathyal.cli.talk import Talk
+
+_MOST_NAMES = 3  # of tables, in a title
+
+
+def diagnose(
+    *,
+    data: Annotated[
+        list[Path],
+        typer.Argument(
+            metavar="DATA",
+            help="A table of touches as bathyal identify takes it, or a table for each point. With "
+            "--tracked a table of measured poses, or one for each session.",
+        ),
+    ],
+    arm: Annotated[
+        str,
+        typer.Option(help="The simulation: a name such as ur10e, or a .urdf or .json file."),
+    ],
+    out: Annotated[
+        Path, typer.Option("--out", "-o", help="Folder for the results; made if missing.")
+    ],
+    tip: Annotated[
+        str | None, typer.Option(help="Of a .urdf with several ends: the link that is the tip.")
+    ] = None,
+    tracked: Annotated[
+        bool,
+        typer.Option(
+            "--tracked", help="The table holds positions that an instrument measured: x_mm …"
+        ),
+    ] = False,
+    reading: own.TouchColumns,
+    beside: own.Beside,
+    known: own.Known,
+    json: opt.Json = False,
+    quiet: opt.Quiet = False,
+) -> None:
+    """Say what the simulation of an arm gets wrong: show it, name the cause, extend the model and
+    measure the gain on data that were not used.
+
+    Writes model.json report.html report.json report.png residuals.csv, all or none. Whatever the
+    verdict, clean, named, ambiguous, unknown or none, the exit code is 0.
+
+    [bold]Examples:[/]
+
+      bathyal diagnose touches.csv --arm ur10e --out diagnosis
+
+      bathyal diagnose tracked.csv --tracked --arm my.urdf -o diagnosis
+
+      bathyal diagnose monday.csv tuesday.csv --tracked --arm ur10 --temperature T_arm_C
+      --covariate pressure=P_bar -o diagnosis
+    """
+    from bathyal.arm_files import find_arm
+    from bathyal.diagnose_report import diagnose_files
+
+    talk = Talk(json=json, quiet=quiet)
+    nominal = find_arm(arm, **({} if tip is None else {"tip": tip}))
+    read = {**reading.keywords(), **beside.keywords(), **known.keywords()}
+    with talk.progress() as progress:
+        found = diagnose_files(data, nominal, tracked=tracked, read=read, step=progress)
+        names = [file.name for file in data]
+        tables = ", ".join(names) if len(names) <= _MOST_NAMES else f"{len(names)} tables"
+        files = found.write(
+            out, title=f"{nominal.name or Path(arm).stem} from {tables}", step=progress
+        )
+    facts = {name: value for name, value in found.facts.items() if name != "made by"}
+    rows = {
+        "verdict": facts.pop("verdict"),
+        "found": found.words,
+        "next": " ".join(found.next),
+        **facts,
+        "folder": str(out),
+        "files": " ".join(file.name for file in files),
+    }
+    talk.warn(found.warnings)
+    talk.result({**found.summary, "files": [str(file) for file in files]}, rows)

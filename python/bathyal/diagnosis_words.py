@@ -1,0 +1,405 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What a diagnosis found, how surely, and what to do next, in sentences."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from bathyal._core import Touches
+from bathyal.diagnosis_numbers import (
+    chance_text,
+    estimate_text,
+    figures,
+    is_setting,
+    length_text,
+    odds_text,
+    parameter_name,
+    share_text,
+    shown_unit,
+    spaced,
+)
+
+if TYPE_CHECKING:
+    from bathyal._core import Diagnosis
+
+# What each verdict says, in a word or two and in a sentence.
+VERDICTS = {
+    "clean": ("Clean", "Nothing is there beyond noise."),
+    "named": ("Named", "What the simulation got wrong has a name."),
+    "ambiguous": ("Ambiguous", "These data cannot tell the causes apart."),
+    "unknown": ("Unknown", "Something is there that no cause of the library explains."),
+    "none": ("No verdict", "No data could be held out."),
+}
+SIGNIFICANT = 0.01
+"""Corrected chances below it count as beyond noise."""
+_MOST_TOLD = 3  # causes, with their numbers, in the paragraph
+_MOST_PARAMETERS = 4  # of one cause, in the paragraph
+_MOST_ROWS = 10  # by number
+_NEAR = 0.1  # odds of a rival that is worth a word
+# What data without a covariate cannot show.
+_BLIND = {
+    "temperature": "growth with temperature",
+    "time": "drift, slips and clocks out of step",
+    "payload": "a load's share of what gives way",
+    "direction": "backlash",
+    "session": "a base or tool that moved between sessions",
+}
+
+
+def summary(report: Diagnosis, *, warnings: bool = True) -> str:
+    """The diagnosis as one paragraph: verdict, causes, the gain on data not used, what is left, and
+    what to do.
+
+    Parameters
+    ----------
+    report : Diagnosis
+    warnings : bool
+        Whether the report's warnings stand at the end.
+
+    Returns
+    -------
+    str
+    """
+    parts = [*_FOUND[report.verdict](report), *next_steps(report)[:2]]
+    if warnings:
+        parts += [f"Warning: {warning}" for warning in report.warnings]
+    return " ".join(_sentence(part) for part in parts if part)
+
+
+def headline(report: Diagnosis) -> str:
+    """The verdict in one line."""
+    title = VERDICTS[report.verdict][0]
+    if report.verdict == "named":
+        return f"{title}: {_causes(report.effects)}."
+    if report.verdict == "ambiguous" and report.ambiguous:
+        return f"{title}: {_any_of(report.ambiguous)}."
+    if report.verdict == "unknown":
+        return f"{title}: something is there that no cause of the library explains."
+    if report.verdict == "clean":
+        return f"{title}: nothing beyond noise."
+    return f"{title}: {_lower(VERDICTS[report.verdict][1])}"
+
+
+def effect_text(effect: Any) -> str:
+    """A cause with its numbers: "a harmonic of order 2 along joint 3 (amplitude 0.03°, …)"."""
+    if effect.rows:
+        return f"{effect.words} ({_rows(effect.rows)})"
+    told = [f"{parameter_name(name)} {estimate_text(name, estimate)}"
+            for name, estimate in effect.parameters.items() if not is_setting(name)]  # fmt: skip
+    rest = len(told) - _MOST_PARAMETERS
+    told = told[:_MOST_PARAMETERS] + ([_count(rest, "more number")] if rest > 0 else [])
+    amplitude = amplitude_text(effect)
+    told = [f"amplitude {amplitude}", *told] if amplitude else told
+    return f"{effect.words} ({', '.join(told)})" if told else str(effect.words)
+
+
+def amplitude_text(effect: Any) -> str:
+    """√(cos² + sin²) of a harmonic; empty for other causes."""
+    if effect.name != "joint_harmonic" or not {"cos", "sin"} <= effect.parameters.keys():
+        return ""
+    cos, sin = effect.parameters["cos"], effect.parameters["sin"]
+    unit, factor = shown_unit("cos", cos.unit)
+    return f"{figures(factor * math.hypot(float(cos.value), float(sin.value)))}{spaced(unit)}"
+
+
+def gain_text(report: Diagnosis) -> str:
+    """What the causes bring on data that were not used."""
+    held = report.held_out
+    text = (
+        f"On data held out ({_bare(held.how)}; {_count(held.blocks, 'block')}) the error falls "
+        f"from {length_text(held.rms_before)} to {length_text(held.rms_after)} (3-D rms), with a "
+        f"floor of {length_text(held.noise)} by noise"
+    )
+    if math.isfinite(report.gain):
+        text += f": {share_text(report.gain)} of the variance above noise is gone"
+    return f"{text}; that this is luck has {chance_text(held.p_value)}."
+
+
+def evidence_texts(report: Diagnosis) -> list[str]:
+    """Of each cause a sentence: what it takes from data held out, and what else might do it."""
+    return [_sentence(_evidence(effect)) for effect in report.effects]
+
+
+def _evidence(effect: Any) -> str:
+    text = (
+        f"{_upper(effect.words)}: {share_text(effect.gain)} of the variance above noise on data "
+        f"held out ({length_text(effect.held_out_before)} without it, "
+        f"{length_text(effect.held_out_after)} with it; {chance_text(effect.p_value)})"
+    )
+    if not effect.rivals:
+        return text
+    best = max(effect.rivals, key=lambda rival: rival.odds)
+    return f"{text}; next best: {best.words}, {odds_text(best.odds)}"
+
+
+def leftover_text(report: Diagnosis) -> str:
+    """What the named causes leave."""
+    left = report.leftover
+    if left is None or left.size <= 0 or left.p_value >= SIGNIFICANT:
+        return "Nothing beyond noise is left over."
+    text = f"Left over: {_bare(left.words)}"
+    return f"{text} ({length_text(left.size)} per axis, {chance_text(left.p_value)})."
+
+
+def next_steps(report: Diagnosis) -> list[str]:
+    """What to do or to measure, the most important first."""
+    return [step for step in _NEXT[report.verdict](report) if step]
+
+
+def structure_text(shown: Any) -> str:
+    """A dependence of the residuals, with its size and chance."""
+    return (
+        f"{_bare(shown.words)} ({length_text(shown.size)} per axis, {share_text(shown.share)} of "
+        f"the variance above noise, {chance_text(shown.p_value)})"
+    )
+
+
+def significant(shown: Iterable[Any]) -> list[Any]:
+    """Structures beyond noise, the largest first."""
+    return sorted((s for s in shown if s.p_value < SIGNIFICANT), key=lambda s: -s.size)
+
+
+# What was found -----------------------------------------------------------------------------------
+
+
+def _named(report: Diagnosis) -> list[str]:
+    return [_told(report, VERDICTS["named"][0]), gain_text(report), leftover_text(report)]
+
+
+def _clean(report: Diagnosis) -> list[str]:
+    parts = [f"Clean: {len(report.data):,} poses show nothing beyond noise that geometry does not "
+             "explain"]  # fmt: skip
+    least = min(report.shown, key=lambda s: s.p_value, default=None)
+    if least is not None:
+        parts.append(f"the most suspect, against {least.against}, has {chance_text(least.p_value)}")
+    held = report.held_out
+    return [
+        f"{'; '.join(parts)}.",
+        f"What moves the tip by {length_text(report.detectable)} or more per axis would have been "
+        f"seen; noise is {length_text(report.noise)} per axis ({_bare(report.noise_source)}).",
+        f"Geometry alone foretells data that were held out to {length_text(held.rms_before)} "
+        f"(3-D rms), with a floor of {length_text(held.noise)} by noise.",
+    ]
+
+
+def _ambiguous(report: Diagnosis) -> list[str]:
+    first, *others = report.ambiguous
+    odds = [first.words, *(f"{cause.words} ({odds_text(cause.odds)})" for cause in others)]
+    either = f"Ambiguous, these data cannot tell apart: {_list(odds, '; ', ' or ')}."
+    told = _told(report, "Named beside them") if report.effects else ""
+    return [either, told, gain_text(report), leftover_text(report)]
+
+
+def _unknown(report: Diagnosis) -> list[str]:
+    found = significant(report.shown)
+    left = report.leftover
+    looks = f"It looks like this: {_bare(left.words)}" if left is not None and left.words else ""
+    if looks and left.size > 0:
+        looks += (
+            f" ({length_text(left.size)} per axis, {share_text(left.share)} of the variance above "
+            f"noise, {chance_text(left.p_value)})"
+        )
+    shown = f"Before anything was named: {structure_text(found[0])}." if found else ""
+    if not report.effects:
+        held = report.held_out
+        return [
+            headline(report),
+            f"{looks}." if looks else "",
+            shown,
+            f"Geometry alone foretells data that were held out to {length_text(held.rms_before)} "
+            f"(3-D rms), with a floor of {length_text(held.noise)} by noise.",
+        ]
+    return [
+        headline(report),
+        f"{looks}." if looks else "",
+        _told(report, "A part of it may be"),
+        "A cause that explains a part is not the cause.",
+        gain_text(report),
+    ]
+
+
+def _none(report: Diagnosis) -> list[str]:
+    held = report.held_out
+    why = _bare(held.how) if held is not None and held.how else "the data are too few"
+    found = significant(report.shown)
+    shown = f"What the residuals show: {structure_text(found[0])}." if found else (
+        "Within the data themselves nothing stands out.")  # fmt: skip
+    return [
+        f"No verdict, no data could be held out: {why}.",
+        f"Without data held out, a cause cannot be told from luck, so none is named. {shown}",
+    ]
+
+
+_FOUND = {
+    "clean": _clean,
+    "named": _named,
+    "ambiguous": _ambiguous,
+    "unknown": _unknown,
+    "none": _none,
+}
+
+
+def _told(report: Diagnosis, how: str) -> str:
+    """The causes with their numbers."""
+    effects = list(report.effects)
+    told = [f"{effect_text(e)}, {length_text(e.size)} per axis" for e in effects[:_MOST_TOLD]]
+    if len(effects) > _MOST_TOLD:
+        told.append(f"{len(effects) - _MOST_TOLD} more with smaller numbers")
+    return f"{how}: {_list(told, '; ')}." if told else ""
+
+
+# What to do ---------------------------------------------------------------------------------------
+
+
+def _after_named(report: Diagnosis) -> list[str]:
+    near = [(effect, rival) for effect in report.effects for rival in effect.rivals
+            if rival.odds >= _NEAR]  # fmt: skip
+    steps = [
+        "Use the corrected arm (report.model) within the range of joints that taught it, and check "
+        "it on a dozen poses that were no part of this."
+    ]
+    for effect, rival in near[:1]:
+        steps.append(
+            f"{_upper(rival.words)} is not far behind {effect.words} ({odds_text(rival.odds)}): "
+            f"poses in which the two differ would settle it."
+        )
+    return [*steps, _next_poses(report), _not_recorded(report)]
+
+
+def _after_clean(report: Diagnosis) -> list[str]:
+    return [
+        "Use the arm that was identified (report.fit.arm). To see smaller effects measure more: "
+        "four times the poses halve what can be seen.",
+        _not_recorded(report),
+    ]
+
+
+def _after_ambiguous(report: Diagnosis) -> list[str]:
+    what = _next_poses(report) or (
+        "No pose would tell them apart: record more beside the joints, or in another order."
+    )
+    return [what, "Until then any of them corrects the arm alike where the data lie, and nowhere "
+            "else.", _not_recorded(report)]  # fmt: skip
+
+
+def _after_unknown(report: Diagnosis) -> list[str]:
+    left = report.leftover
+    against = left.against if left is not None else ""
+    where = _where_to_look(against)
+    return [
+        _not_recorded(report) or where,
+        where if _not_recorded(report) else "",
+        "Do not put a correction on this arm until the cause is known; its geometry "
+        "(report.fit.arm) may be used with the error shown here.",
+        _next_poses(report),
+    ]
+
+
+def _after_none(report: Diagnosis) -> list[str]:
+    what = (
+        "touch each point in twice as many poses, or touch more points"
+        if isinstance(report.data, Touches)
+        else "measure two or three times as many poses, spread over the joints' ranges"
+    )
+    return [f"{_upper(what)}, better on two days, and diagnose again.", _not_recorded(report)]
+
+
+_NEXT = {
+    "clean": _after_clean,
+    "named": _after_named,
+    "ambiguous": _after_ambiguous,
+    "unknown": _after_unknown,
+    "none": _after_none,
+}
+
+
+def _where_to_look(against: str) -> str:
+    if against.startswith("time"):
+        return (
+            "It goes with time: look for what runs in that rhythm (a pump, a machine, the sun), "
+            "and measure the same poses again at another hour."
+        )
+    if against.startswith(("position", "x", "y", "z")):
+        return (
+            "It goes with the place: check the instrument's own field with a body of known size, "
+            "or measure the same places from another station."
+        )
+    if against.startswith("session"):
+        return "It goes with the session: find what was changed between them, and repeat one pose."
+    if against.startswith("joint"):
+        return (
+            f"It goes with {against}: sweep {'these' if 'and' in against else 'that joint'} in "
+            "small steps, up and down, with the others still, and look at the curve."
+        )
+    return "Repeat a few poses, each approached from both sides, and see what changes."
+
+
+def _next_poses(report: Diagnosis) -> str:
+    count = 0 if report.next_poses is None else len(np.atleast_2d(report.next_poses))
+    if count == 0 or np.size(report.next_poses) == 0:
+        return ""
+    return (
+        f"Measure the {_count(count, 'pose')} of report.next_poses, where the causes differ most, "
+        "and diagnose again with all data together."
+    )
+
+
+def _not_recorded(report: Diagnosis) -> str:
+    missing = [name for name in _BLIND if name not in report.data.covariates]
+    if not missing:
+        return ""
+    blind = [_BLIND[name] for name in missing]
+    return f"Not recorded: {_list(missing)}; so these data cannot show {_list(blind, last=' or ')}."
+
+
+# Grammar ------------------------------------------------------------------------------------------
+
+
+def _causes(effects: Sequence[Any]) -> str:
+    told = [str(effect.words) for effect in effects[:_MOST_TOLD]]
+    rest = len(effects) - len(told)
+    return _list(told + ([f"{rest} more"] if rest else []), "; ") if told else "no cause"
+
+
+def _any_of(causes: Sequence[Any]) -> str:
+    told = [str(cause.words) for cause in causes[:_MOST_TOLD]]
+    rest = len(causes) - len(told)
+    return _list(told + ([f"one of {rest} more"] if rest else []), last=" or ")
+
+
+def _list(texts: Sequence[str], between: str = ", ", last: str = " and ") -> str:
+    if len(texts) < 2:
+        return "".join(texts)
+    last = f"{between.rstrip()}{last}" if between != ", " else last
+    return f"{between.join(texts[:-1])}{last}{texts[-1]}"
+
+
+def _rows(rows: Sequence[int]) -> str:
+    told = ", ".join(str(row) for row in rows[:_MOST_ROWS])
+    rest = len(rows) - _MOST_ROWS
+    return f"rows {told}" + (f" and {rest} more" if rest > 0 else "")
+
+
+def _count(count: int, what: str) -> str:
+    return f"{count:,} {what}{'' if count == 1 else 's'}"
+
+
+def _bare(text: str) -> str:
+    return text.strip().rstrip(".")
+
+
+def _upper(text: str) -> str:
+    return text[:1].upper() + text[1:]
+
+
+def _lower(text: str) -> str:
+    return text[:1].lower() + text[1:]
+
+
+def _sentence(text: str) -> str:
+    text = _upper(text.strip())
+    return text if text.endswith((".", "!", "?")) else f"{text}."
