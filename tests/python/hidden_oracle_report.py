@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 
 from hidden_arms import Array
+from hidden_effect_set import rivals_of
 from hidden_effects import Case
 from hidden_oracle import Oracle, chance
-from hidden_sealing import rivals_of
 from hidden_shapes import Poses, beside, column
 
 

@@ -9,7 +9,8 @@ import numpy as np
 
 import hidden_motion as motion
 import hidden_outside as outside
-from hidden_arms import Array, SimArm, draw_arm, pose
+from hidden_arm_draws import draw_arm
+from hidden_arms import Array, SimArm, pose
 from hidden_draws import LIBRARY, draw_names
 
 CONFOUNDED = {
@@ -34,6 +35,9 @@ class Plan:
     outside_size: float = 0.0
     confounded: str = ""
     needs: set[str] = field(default_factory=set)
+
+    def size_of(self, name: str) -> float:
+        return self.sizes[self.names.index(name)]
 
     @property
     def rivals(self) -> list[str]:

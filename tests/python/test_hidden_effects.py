@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import bathyal
-from hidden_arms import draw_arm
+from hidden_arm_draws import draw_arm
 from hidden_effects import KINDS, Answer, draw_case, make_case, read_case, write_case
 from hidden_judge import judge
 from hidden_oracle_report import OracleEffect, OracleReport, oracle
