@@ -11,7 +11,6 @@
 
 #include "arm_inverse.hpp"
 #include "bathyal/base/error.hpp"
-#include "bindings.hpp"
 #include "effects_docs.hpp"
 #include "identify_parts.hpp"
 

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "bathyal/base/error.hpp"
-#include "bindings.hpp"
+#include "identify_parts.hpp"
 #include "effects_docs.hpp"
 #include "effects_parts.hpp"
 #include "words.hpp"
