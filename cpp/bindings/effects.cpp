@@ -41,7 +41,7 @@ std::vector<std::pair<std::string, Value>> items_argument(std::string_view name,
   std::vector<std::pair<std::string, Value>> items;
   for (const auto& [key, value] : dict) {
     try {
-      items.emplace_back(key.cast<std::string>(), value.cast<Value>());
+      items.emplace_back(py::cast<std::string>(key), py::cast<Value>(value));
     } catch (const py::cast_error&) {
       throw_argument(name, expected, py::repr(dict).cast<std::string>());
     }
