@@ -12,7 +12,7 @@ from typing import Any
 from bathyal import corrected_arm_files
 from bathyal._core import Arm, CorrectedArm, Error
 from bathyal.arm_exports import write_ros_kinematics, write_ur_calibration
-from bathyal.arm_json import MOST_BYTES, VERSION, arm_told, read_json, rigid_arm, write_json
+from bathyal.arm_json import MOST_BYTES, arm_told, read_json, rigid_arm, write_json
 from bathyal.errors import argument_error
 from bathyal.files import PathLike, known_suffix, opened, reading
 from bathyal.urdf import arm_from_urdf
@@ -61,12 +61,8 @@ def read_arm(path: PathLike, **options: Any) -> Arm | CorrectedArm:
         if size > MOST_BYTES:
             raise Error(f"expected at most {MOST_BYTES >> 20} MB, got {size / 2**20:.0f} MB")
         told = read_json(stream.read())
-        if told.get("version") == VERSION:
-            return rigid_arm(told)
-        if told.get("version") == corrected_arm_files.VERSION:
-            return corrected_arm_files.corrected_arm(told)
-        known = f"{VERSION}, or {corrected_arm_files.VERSION} of an arm with effects"
-        raise Error(f"expected version {known}, got {told.get('version')!r}")
+        corrected = any(key in told for key in corrected_arm_files.KEYS)
+        return corrected_arm_files.corrected_arm(told) if corrected else rigid_arm(told)
 
 
 def find_arm(name: PathLike, **options: Any) -> Arm:

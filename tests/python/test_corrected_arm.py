@@ -267,12 +267,12 @@ def test_identification_holds_the_effects() -> None:
     data = bathyal.Tracked(Q, seen, covariates=COVARIATES)
     start = bathyal.CorrectedArm(nominal, true.effects, true.support)
     fit = bathyal.identify_arm(start, data)
-    assert fit.rms_after < 1e-9 < 1e-5 < bathyal.identify_arm(nominal, data).rms_after
+    assert fit.rms_after < 1e-7 < 1e-5 < bathyal.identify_arm(nominal, data).rms_after
     held = {p.name: p for p in fit.parameters if p.name.startswith("joint_harmonic")}
     assert [(p.value, p.status) for p in held.values()] == [(1e-3, "fixed"), (5e-4, "fixed")]
     again = bathyal.CorrectedArm(fit.arm, true.effects, true.support)
     tips = again.forward(Q, covariates=COVARIATES)[:, :3, 3]
-    np.testing.assert_allclose(tips, seen, atol=1e-8)
+    np.testing.assert_allclose(tips, seen, atol=1e-7)
 
 
 def test_identification_leaves_effects_out_beyond_their_support() -> None:
@@ -343,7 +343,7 @@ def without(contents: dict[str, Any], key: str) -> dict[str, Any]:
 
 BREAKS: dict[str, Any] = {
     "version": lambda c: c | {"version": 3},
-    "version_1": lambda c: c | {"version": 1},
+    "no_effects": lambda c: c | {"effects": None},
     "no_support": lambda c: without(c, "support"),
     "support_list": lambda c: c | {"support": [1]},
     "no_joints": lambda c: c | {"support": without(c["support"], "joints")},
