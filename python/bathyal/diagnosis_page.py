@@ -259,17 +259,18 @@ def _card(effect: Any) -> str:
     told = f" · {html.escape(', '.join(settings))}" if settings else ""
     bar = 100 * min(max(effect.gain, 0.0), 1.0) if math.isfinite(effect.gain) else 0.0
     words = html.escape(effect.words[:1].upper() + effect.words[1:])
+    rivals = "Rivals for what it explains:" if effect.rivals else "No rival comes near."
     return (
         f"<div class='card'><h3>{words}</h3><p class='small'>{name}{told}</p>"
         f"<div class='gain'><i style='width:{bar:.1f}%'></i></div>"
         f"<div class='sides'><div>{numbers}</div><div>{evidence}</div></div>"
-        f"<p class='small'>Rivals for what it explains:</p>{_rivals(effect.rivals)}</div>"
+        f"<p class='small'>{rivals}</p>{_rivals(effect.rivals)}</div>"
     )
 
 
 def _rivals(causes: Sequence[Any]) -> str:
     if not causes:
-        return "<p class='small'>None comes near.</p>"
+        return ""
     rows = "".join(
         f"<tr><td>{html.escape(cause.words)}</td><td class='odds'>"
         f"<i style='width:{100 * min(max(cause.odds, 0.0), 1.0):.1f}%'></i></td>"

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 Floats = NDArray[np.float64]
 
 _BINS = 20  # along one quantity, of equal counts
-_FEWEST_IN_BIN = 12
+_FEWEST_IN_BIN = 8
 _CELLS = 14  # of a map, to a side
 _MOST_VALUES = 8  # a quantity with no more of them is drawn value by value
 _CURVE = 241
