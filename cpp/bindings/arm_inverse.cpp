@@ -1,29 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "bathyal/arm/inverse.hpp"
+#include "arm_inverse.hpp"
 
 #include <pybind11/stl.h>
 
-#include <algorithm>
 #include <memory>
 #include <optional>
 #include <string>
 
 #include "arm_class.hpp"
 #include "arm_docs.hpp"
-#include "arrays.hpp"
 #include "bathyal/base/error.hpp"
-#include "words.hpp"
 
 namespace bathyal::python {
 namespace {
 
-const Words<InverseTask>& task_words() {
-  static const Words<InverseTask> words{{"pose", InverseTask::kPose},
-                                        {"position", InverseTask::kPosition},
-                                        {"position_axis", InverseTask::kPositionAxis}};
-  return words;
-}
 const Words<InverseMethod>& method_words() {
   static const Words<InverseMethod> words{{"damped", InverseMethod::kDampedLeastSquares},
                                           {"pseudo_inverse", InverseMethod::kPseudoInverse},
@@ -31,11 +22,28 @@ const Words<InverseMethod>& method_words() {
   return words;
 }
 
-/// (N, 4, 4) or (4, 4); of a task that looks at positions alone also (N, 3) or (3,).
-struct Targets {
-  std::vector<double> poses;  ///< (N, 4, 4)
-  bool single = false;
-};
+InverseAnswer inverse_python(const Arm& arm, const py::object& poses, const py::object& start,
+                             const InverseOptions& options) {
+  const Targets targets = targets_argument(poses, options.task);
+  const Rows starts = start.is_none() ? Rows{} : rows_argument("start", start, arm.size());
+  InverseAnswer answer;
+  answer.single = targets.single;
+  const py::gil_scoped_release release;
+  answer.result =
+      inverse(arm, targets.poses,
+              JointView(starts.table.data(), start.is_none() ? 0 : starts.table.rows(), arm.size()),
+              options);
+  return answer;
+}
+
+}  // namespace
+
+const Words<InverseTask>& task_words() {
+  static const Words<InverseTask> words{{"pose", InverseTask::kPose},
+                                        {"position", InverseTask::kPosition},
+                                        {"position_axis", InverseTask::kPositionAxis}};
+  return words;
+}
 
 Targets targets_argument(const py::object& object, InverseTask task) {
   const std::string shapes = task == InverseTask::kPosition
@@ -69,82 +77,34 @@ Targets targets_argument(const py::object& object, InverseTask task) {
   return targets;
 }
 
-/// What Arm.inverse returns; of a single pose the arrays have no first dimension.
-struct PythonResult {
-  InverseResult result;
-  bool single = false;
-
-  py::object numbers(const std::vector<double>& values) const {
-    if (single) return py::float_(values.front());
-    return to_numpy(values);
-  }
-  py::object counts(const std::vector<int>& values) const {
-    if (single) return py::int_(values.front());
-    return to_numpy(values);
-  }
-  py::object q() const {
-    return to_numpy(std::vector<double>(result.q.data(), result.q.data() + result.q.size()), single,
-                    {result.q.cols()});
-  }
-  py::object status() const {
-    if (single) return py::str(std::string(to_text(result.status.front())));
-    py::list words;
-    for (const InverseStatus status : result.status) words.append(std::string(to_text(status)));
-    const py::object array =
-        py::module_::import("numpy").attr("array")(words, py::arg("dtype") = "<U12");
-    array.attr("setflags")(py::arg("write") = false);
-    return array;
-  }
-  std::size_t reached() const {
-    return static_cast<std::size_t>(
-        std::count(result.status.begin(), result.status.end(), InverseStatus::kReached));
-  }
-};
-
-PythonResult inverse_python(const Arm& arm, const py::object& poses, const py::object& start,
-                            const InverseOptions& options) {
-  const Targets targets = targets_argument(poses, options.task);
-  const Rows starts = start.is_none() ? Rows{} : rows_argument("start", start, arm.size());
-  PythonResult answer;
-  answer.single = targets.single;
-  const py::gil_scoped_release release;
-  answer.result =
-      inverse(arm, targets.poses,
-              JointView(starts.table.data(), start.is_none() ? 0 : starts.table.rows(), arm.size()),
-              options);
-  return answer;
-}
-
-}  // namespace
-
 void bind_inverse_result(py::module_& module) {
-  py::class_<PythonResult>(module, "InverseResult",
-                           "Joint angles found for poses, and how well; of a single pose each "
-                           "array lacks its first dimension.")
-      .def_property_readonly("q", &PythonResult::q,
+  py::class_<InverseAnswer>(module, "InverseResult",
+                            "Joint angles found for poses, and how well; of a single pose each "
+                            "array lacks its first dimension.")
+      .def_property_readonly("q", &InverseAnswer::q,
                              "(N, n) [rad] or [m], by \"damped\" always within the limits; where "
                              "nothing was reached, the nearest found.")
-      .def_property_readonly("status", &PythonResult::status,
+      .def_property_readonly("status", &InverseAnswer::status,
                              "(N,) \"reached\", \"limit\", \"singular\" or \"out_of_reach\".")
       .def_property_readonly(
-          "error", [](const PythonResult& r) { return r.numbers(r.result.error); },
+          "error", [](const InverseAnswer& r) { return r.numbers(r.result.error); },
           "(N,) left of position and angle together, a radian weighing a fifth of the arm's "
           "length [m].")
       .def_property_readonly(
           "position_error",
-          [](const PythonResult& r) { return r.numbers(r.result.position_error); },
+          [](const InverseAnswer& r) { return r.numbers(r.result.position_error); },
           "(N,) distance left [m].")
       .def_property_readonly(
-          "angle_error", [](const PythonResult& r) { return r.numbers(r.result.angle_error); },
+          "angle_error", [](const InverseAnswer& r) { return r.numbers(r.result.angle_error); },
           "(N,) angle left [rad]; 0 where the task has none.")
       .def_property_readonly(
-          "iterations", [](const PythonResult& r) { return r.counts(r.result.iterations); },
+          "iterations", [](const InverseAnswer& r) { return r.counts(r.result.iterations); },
           "(N,) over all starts.")
       .def_property_readonly(
-          "starts", [](const PythonResult& r) { return r.counts(r.result.starts); },
+          "starts", [](const InverseAnswer& r) { return r.counts(r.result.starts); },
           "(N,) that were tried.")
-      .def("__len__", [](const PythonResult& r) { return r.result.status.size(); })
-      .def("__repr__", [](const PythonResult& r) {
+      .def("__len__", [](const InverseAnswer& r) { return r.result.status.size(); })
+      .def("__repr__", [](const InverseAnswer& r) {
         return "InverseResult(" + std::to_string(r.reached()) + " of " +
                std::to_string(r.result.status.size()) + " reached)";
       });

@@ -124,7 +124,7 @@ class ProbeMaker {
 
   void of_position() {
     for (const int degree : {2, 3}) {
-      along_axes("position", "a field over the measured positions", Axes::kBase, 2.0, [=, this] {
+      along_axes("position", "a field over the tip's position", Axes::kBase, 2.0, [=, this] {
         Functions u(position_.cols(), 3);
         for (int axis = 0; axis < 3; ++axis) u.col(axis) = spread_out(position_.row(axis).transpose());
         std::vector<Eigen::VectorXd> terms;

@@ -22,8 +22,8 @@ struct Probe {
   std::function<std::vector<Action>()> actions;  ///< one for each column
 };
 
-/// All that can be asked of these data. `position` (3, N) is where the tips were measured, or were
-/// found, in the arm's base frame. `data` must outlive the probes.
+/// All that can be asked of these data. `position` (3, N) is where the model has the tips, in
+/// the arm's base frame. `data` must outlive the probes.
 std::vector<Probe> make_probes(const EffectData& data, const Eigen::Matrix3Xd& position);
 
 }  // namespace bathyal

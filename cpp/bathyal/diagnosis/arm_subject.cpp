@@ -8,6 +8,7 @@
 
 #include "bathyal/diagnosis/blocks.hpp"
 #include "bathyal/diagnosis/logged_step.hpp"
+#include "bathyal/diagnosis/words.hpp"
 #include "bathyal/identify/arm_report.hpp"
 #include "bathyal/identify/effect_columns.hpp"
 #include "bathyal/identify/least_squares.hpp"
@@ -97,7 +98,12 @@ void ArmSubject::gather_forms(const Effects& effects) {
       sources_.push_back({effect, std::move(variant), -1});
     }
     for (auto& [cause, family] : by_cause) {
-      if (family.size() > kScanFrom) scans_.push_back(std::move(family));
+      if (family.size() <= kScanFrom) continue;
+      for (std::size_t i = 0; i < family.size(); ++i) {
+        neighbours_[family[i]] = {i > 0 ? family[i - 1] : -1,
+                                  i + 1 < family.size() ? family[i + 1] : -1};
+      }
+      scans_.push_back(std::move(family));
     }
   }
   probes_ = make_probes(data_, tips_from_base());
@@ -109,6 +115,36 @@ void ArmSubject::gather_forms(const Effects& effects) {
     sources_.push_back({nullptr, {}, p});
   }
   for (auto& [number, family] : families) scans_.push_back(std::move(family));
+}
+
+std::vector<int> ArmSubject::finer(int form) {
+  const auto found = neighbours_.find(form);
+  if (found == neighbours_.end()) return {};
+  const auto [lower, upper] = found->second;
+  std::vector<int> chain;
+  const auto add_between = [&](int from, int to) {
+    if (from < 0 || to < 0) return;
+    const Source here = sources_[form];
+    for (EffectVariant& variant :
+         here.effect->between(sources_[from].variant, sources_[to].variant, data_)) {
+      Form about = forms_[form];
+      about.words = words_of(variant, nominal_);
+      chain.push_back(static_cast<int>(forms_.size()));
+      forms_.push_back(std::move(about));
+      sources_.push_back({here.effect, std::move(variant), -1});
+    }
+  };
+  if (lower >= 0) chain.push_back(lower);
+  add_between(lower, form);
+  chain.push_back(form);
+  add_between(form, upper);
+  if (upper >= 0) chain.push_back(upper);
+  for (std::size_t i = 0; i < chain.size(); ++i) {
+    if (chain[i] == lower || chain[i] == upper) continue;
+    neighbours_[chain[i]] = {i > 0 ? chain[i - 1] : -1, i + 1 < chain.size() ? chain[i + 1] : -1};
+  }
+  std::erase_if(chain, [&](int f) { return f == lower || f == upper || f == form; });
+  return chain;
 }
 
 std::vector<std::vector<Action>> ArmSubject::actions_of(int form) const {
@@ -273,23 +309,15 @@ void ArmSubject::set_trust(const Eigen::VectorXd& trust) {
 }
 
 Eigen::Matrix3Xd ArmSubject::tips_from_base() const {
-  if (!m_.tracked) {
-    Eigen::Matrix3Xd tips(3, m_.rows());
-    const TipWalk walk(problem_.columns, x_, {});
-    WalkFrames frames;
-    for (Index i = 0; i < m_.rows(); ++i) {
-      tips.col(i) = fit_.bases[m_.station[i]].inverse() *
-                    walk.tip(m_.q.row(i).data(), i, m_.tool[i], m_.station[i], frames, nullptr,
-                             nullptr, 0)
-                        .translation();
-    }
-    return tips;
-  }
-  Eigen::Matrix3Xd seen = m_.position;
+  Eigen::Matrix3Xd tips(3, m_.rows());
+  const TipWalk walk(problem_.columns, x_, {});
+  WalkFrames frames;
   for (Index i = 0; i < m_.rows(); ++i) {
-    seen.col(i) = fit_.bases[m_.station[i]].inverse() * Vec3(m_.position.col(i));
+    const Pose tip =
+        walk.tip(m_.q.row(i).data(), i, m_.tool[i], m_.station[i], frames, nullptr, nullptr, 0);
+    tips.col(i) = fit_.bases[m_.station[i]].inverse() * tip.translation();
   }
-  return seen;
+  return tips;
 }
 
 std::vector<FoundEffect> ArmSubject::found() const {

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <map>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "bathyal/diagnosis/arm_probes.hpp"
@@ -26,6 +28,7 @@ class ArmSubject final : public Subject {
   const std::vector<Form>& forms() const override { return forms_; }
   const std::vector<std::vector<int>>& scans() const override { return scans_; }
   const std::vector<NoiseForm>& noise_forms() const override { return noise_forms_; }
+  std::vector<int> finer(int form) override;
   std::vector<Eigen::MatrixXd> columns(std::span<const int> forms) const override;
   const Linearization& linearization() const override { return linearization_; }
   void settle(const std::vector<int>& forms) override;
@@ -60,7 +63,8 @@ class ArmSubject final : public Subject {
   std::vector<std::vector<Action>> actions_of(int form) const;
   void stand_at(const Eigen::VectorXd& x);
   bool update_noise();
-  /// (3, N) measured, or of touches modelled, in the arm's base frame.
+  /// (3, N) where the model has them. (A field over what was measured would explain its errors by
+  /// themselves.)
   Eigen::Matrix3Xd tips_from_base() const;
 
   const Arm& nominal_;
@@ -75,6 +79,7 @@ class ArmSubject final : public Subject {
   std::vector<Form> forms_;
   std::vector<Source> sources_;
   std::vector<std::vector<int>> scans_;
+  std::map<int, std::pair<int, int>> neighbours_;  ///< of forms of a scan: below and above, or -1
   std::vector<NoiseForm> noise_forms_;
   std::size_t geometry_ = 0;    ///< columns that are not effects'
   std::vector<int> base_free_;  ///< of them, those that are fitted

@@ -64,7 +64,8 @@ Eigen::MatrixXd ArmSystem::square(const double* y) const {
   Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(wide, wide);
   for (const Eigen::MatrixXd& part : parts) sum += part;
   const Eigen::MatrixXd linear = linear_rows_at(y);
-  sum.selfadjointView<Eigen::Lower>().rankUpdate(linear.transpose());
+  // Eigen divides by the number of rows where columns are many.
+  if (linear.rows() > 0) sum.selfadjointView<Eigen::Lower>().rankUpdate(linear.transpose());
   Eigen::VectorXd factors(wide);
   factors << scales(), 1.0;
   const Eigen::MatrixXd both = sum.selfadjointView<Eigen::Lower>();

@@ -64,6 +64,9 @@ struct EffectData {
   RowMatrix gravity;          ///< (N, 3) [m/s²], in the arm's base frame
   std::vector<int> order;     ///< (N,) rows in the order in which they were taken
   bool has_rotation = false;  ///< whether orientations were measured too
+  /// Whether the rows are a recording, in the order in which they were taken; else each is a pose
+  /// by itself, to be foretold: a tool that slipped has slipped, and without time nothing moves.
+  bool recording = true;
 
   Index rows() const { return q.rows(); }
   /// Whether it was recorded in every row (NaN is a row without it).
@@ -93,6 +96,9 @@ struct EffectInfo {
     double high = 0.0;
   };
   std::vector<Range> ranges;
+  /// Whether it looks at what changes from row to row, not at where a row lies: the ranges of the
+  /// data that taught it are no bounds to it.
+  bool by_difference = false;
 };
 
 /// An effect of the library, or a user's own.
@@ -111,6 +117,14 @@ class Effect {
   /// times, the order.)
   virtual std::vector<std::vector<Action>> actions(const EffectVariant& variant,
                                                    const EffectData& data) const = 0;
+
+  /// Forms between two neighbours of a scan, in its order, for a closer look; empty where there is
+  /// nothing between.
+  virtual std::vector<EffectVariant> between(const EffectVariant& /*lower*/,
+                                             const EffectVariant& /*upper*/,
+                                             const EffectData& /*data*/) const {
+    return {};
+  }
 };
 
 /// Effect::actions, and their shapes checked: users' effects too come through here.

@@ -2,6 +2,9 @@
 #include "bathyal/identify/effects_library.hpp"
 
 #include <algorithm>
+#include <cmath>
+
+#include "bathyal/base/error.hpp"
 
 namespace bathyal {
 
@@ -28,11 +31,42 @@ bool varies(const Eigen::VectorXd& numbers) {
   return high - low > 1e-9 * std::max(std::abs(high), std::abs(low));
 }
 
+int joint_of(const EffectVariant& variant, const EffectData& data) {
+  const auto count = static_cast<int>(data.q.cols());
+  if (variant.joint < 0 || variant.joint >= count) {
+    throw_argument("joint of " + variant.effect, "one from 0 to " + std::to_string(count - 1),
+                   std::to_string(variant.joint));
+  }
+  return variant.joint;
+}
+
+double setting_of(const EffectVariant& variant, const std::string& name) {
+  const auto found = variant.settings.find(name);
+  if (found == variant.settings.end()) {
+    throw_argument("settings of " + variant.effect, name, "none of that name");
+  }
+  return found->second;
+}
+
+int index_of(const EffectVariant& variant, const std::string& name, Index count) {
+  const double number = setting_of(variant, name);
+  const bool fits =
+      number == std::floor(number) && number >= 0.0 && number < static_cast<double>(count);
+  if (!fits) {
+    throw_argument("setting " + name + " of " + variant.effect,
+                   "a whole number from 0 to " + std::to_string(count - 1), to_text(number));
+  }
+  return static_cast<int>(number);
+}
+
 Action move_joint(int coordinate, const Eigen::VectorXd& values) {
   return {Site::kJoint, coordinate, values};
 }
 
 Action move_frame(int frame, int axis, const Eigen::VectorXd& values) {
+  if (axis < 0 || axis >= 6) {
+    throw_argument("axis of a frame", "one from 0 to 5", std::to_string(axis));
+  }
   RowMatrix all = RowMatrix::Zero(values.size(), 6);
   all.col(axis) = values;
   return {Site::kFrame, frame, std::move(all)};

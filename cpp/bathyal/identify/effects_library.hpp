@@ -48,6 +48,15 @@ std::string unit_of(const Arm& arm, int coordinate);
 bool varies(const Eigen::VectorXd& numbers);
 inline bool moves(const EffectData& data, int coordinate) { return varies(data.q.col(coordinate)); }
 
+// A variant may come from a file that somebody wrote: what does not fit the arm is refused.
+/// \throw std::invalid_argument for a variant without a joint, or with one that the arm has not
+int joint_of(const EffectVariant& variant, const EffectData& data);
+/// \throw std::invalid_argument where there is none
+double setting_of(const EffectVariant& variant, const std::string& name);
+/// A setting that counts something: a whole number from 0 to count - 1.
+/// \throw std::invalid_argument for any other, and where there is none
+int index_of(const EffectVariant& variant, const std::string& name, Index count);
+
 Action move_joint(int coordinate, const Eigen::VectorXd& values);
 /// The `axis`-th of shift x y z, turn x y z of a frame.
 Action move_frame(int frame, int axis, const Eigen::VectorXd& values);

@@ -52,7 +52,8 @@ class LinkCompliance final : public Effect {
   }
 
   Actions actions(const EffectVariant& variant, const EffectData& data) const override {
-    const auto row = static_cast<int>(variant.settings.at("row"));
+    const auto rows = static_cast<Index>(data.arm->joints().size());
+    const int row = index_of(variant, "row", rows);
     return {{{Site::kFrame, row + 1, bend(data, loads_of(data), row)}}};
   }
 

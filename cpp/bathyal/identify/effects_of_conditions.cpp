@@ -33,7 +33,7 @@ class Thermal final : public Effect {
 
   Actions actions(const EffectVariant& variant, const EffectData& data) const override {
     const Eigen::ArrayXd warmer =
-        data.covariate("temperature").col(0).array() - variant.settings.at("mean_temperature");
+        data.covariate("temperature").col(0).array() - setting_of(variant, "mean_temperature");
     return {{{Site::kLength, 0, warmer.matrix()}}};
   }
 };
@@ -64,7 +64,7 @@ class Drift final : public Effect {
 
   Actions actions(const EffectVariant& variant, const EffectData& data) const override {
     const Eigen::ArrayXd since =
-        data.covariate("time").col(0).array() - variant.settings.at("first_time");
+        data.covariate("time").col(0).array() - setting_of(variant, "first_time");
     Actions out;
     for (int axis = 0; axis < 6; ++axis) out.push_back({move_frame(0, axis, since)});
     return out;
@@ -86,7 +86,8 @@ class ClockShift final : public Effect {
             "Furgale, Rehder, Siegwart: Unified temporal and spatial calibration for multi-sensor "
             "systems, 2013",
             {"time"},
-            {{"delay", "s", 1e-5, 1.0}}};
+            {{"delay", "s", 1e-5, 1.0}},
+            true};
   }
 
   std::vector<EffectVariant> variants(const EffectData& data) const override {

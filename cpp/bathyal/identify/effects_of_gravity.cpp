@@ -98,15 +98,16 @@ class JointCompliance final : public Effect {
 
   Actions actions(const EffectVariant& variant, const EffectData& data) const override {
     Actions out;
+    const int j = joint_of(variant, data);
+    const auto links = static_cast<Index>(data.arm->joints().size());
     for (const EffectParameter& parameter : variant.parameters) {
-      const auto lumped = variant.settings.find(parameter.name);
-      if (lumped != variant.settings.end()) {
-        const LumpedMoments moments(data, variant.joint);
-        out.push_back(
-            {move_joint(variant.joint, moments.torque(static_cast<int>(lumped->second)))});
+      if (variant.settings.contains(parameter.name)) {
+        const LumpedMoments moments(data, j);
+        const int moment = index_of(variant, parameter.name, LumpedMoments::kKinds * links);
+        out.push_back({move_joint(j, moments.torque(moment))});
       } else {
         const GravityLoads loads(data, GravityLoads::Bodies::kArm, payload_of(data));
-        out.push_back({move_joint(variant.joint, loads.torque(variant.joint))});
+        out.push_back({move_joint(j, loads.torque(j))});
       }
     }
     return out;
@@ -160,7 +161,7 @@ class UnknownPayload final : public Effect {
     const GravityLoads loads = of_one_kilogram(data);
     Actions out;
     for (const EffectParameter& parameter : variant.parameters) {
-      const auto j = static_cast<int>(variant.settings.at(parameter.name));
+      const int j = index_of(variant, parameter.name, data.q.cols());
       out.push_back({move_joint(j, loads.torque(j))});
     }
     return out;

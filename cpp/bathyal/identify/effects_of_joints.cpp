@@ -54,8 +54,21 @@ class JointHarmonic final : public Effect {
   }
 
   Actions actions(const EffectVariant& variant, const EffectData& data) const override {
-    const Eigen::ArrayXd phase = variant.settings.at("order") * data.q.col(variant.joint).array();
-    return {{move_joint(variant.joint, phase.cos())}, {move_joint(variant.joint, phase.sin())}};
+    const int j = joint_of(variant, data);
+    const Eigen::ArrayXd phase = setting_of(variant, "order") * data.q.col(j).array();
+    return {{move_joint(j, phase.cos())}, {move_joint(j, phase.sin())}};
+  }
+
+  std::vector<EffectVariant> between(const EffectVariant& lower, const EffectVariant& upper,
+                                     const EffectData&) const override {
+    constexpr int kParts = 8;
+    const double low = lower.settings.at("order"), high = upper.settings.at("order");
+    std::vector<EffectVariant> out;
+    for (int i = 1; i < kParts; ++i) {
+      out.push_back(lower);
+      out.back().settings["order"] = low + (high - low) * i / kParts;
+    }
+    return out;
   }
 
  private:
@@ -119,12 +132,13 @@ class JointMap final : public Effect {
   }
 
   Actions actions(const EffectVariant& variant, const EffectData& data) const override {
-    const Eigen::ArrayXd angle = variant.settings.at("wave") * data.q.col(variant.joint).array();
+    const int j = joint_of(variant, data);
+    const Eigen::ArrayXd angle = setting_of(variant, "wave") * data.q.col(j).array();
     Actions out;
     for (std::size_t term = 1; 2 * term <= variant.parameters.size(); ++term) {
       const Eigen::ArrayXd phase = static_cast<double>(term) * angle;
-      out.push_back({move_joint(variant.joint, phase.cos())});
-      out.push_back({move_joint(variant.joint, phase.sin())});
+      out.push_back({move_joint(j, phase.cos())});
+      out.push_back({move_joint(j, phase.sin())});
     }
     return out;
   }
@@ -154,7 +168,8 @@ class JointScale final : public Effect {
   }
 
   Actions actions(const EffectVariant& variant, const EffectData& data) const override {
-    return {{move_joint(variant.joint, data.q.col(variant.joint))}};
+    const int j = joint_of(variant, data);
+    return {{move_joint(j, data.q.col(j))}};
   }
 };
 
@@ -187,8 +202,8 @@ class JointCoupling final : public Effect {
   }
 
   Actions actions(const EffectVariant& variant, const EffectData& data) const override {
-    const auto by = static_cast<Index>(variant.settings.at("by"));
-    return {{move_joint(variant.joint, data.q.col(by))}};
+    const int by = index_of(variant, "by", data.q.cols());
+    return {{move_joint(joint_of(variant, data), data.q.col(by))}};
   }
 };
 
@@ -219,8 +234,9 @@ class Backlash final : public Effect {
   }
 
   Actions actions(const EffectVariant& variant, const EffectData& data) const override {
-    const Eigen::VectorXd direction = data.covariate("direction").col(variant.joint);
-    return {{move_joint(variant.joint, -0.5 * direction)}};
+    const int j = joint_of(variant, data);
+    const Eigen::VectorXd direction = data.covariate("direction").col(j);
+    return {{move_joint(j, -0.5 * direction)}};
   }
 };
 

@@ -67,7 +67,7 @@ class FrameBySession : public Effect {
     const Eigen::ArrayXd session = data.covariate("session").col(0).array();
     const auto from = variant.settings.find("from");
     const std::size_t frames = from != variant.settings.end() ? 1 : variant.settings.size();
-    const int axes = static_cast<int>(variant.parameters.size() / frames);
+    const int axes = static_cast<int>(variant.parameters.size() / std::max<std::size_t>(1, frames));
     Actions out;
     const auto add = [&](const Eigen::ArrayXd& moved) {
       for (int axis = 0; axis < axes; ++axis) {
@@ -79,7 +79,7 @@ class FrameBySession : public Effect {
       return out;
     }
     for (std::size_t s = 2; s <= frames + 1; ++s) {
-      const double label = variant.settings.at(numbered("session", s));
+      const double label = setting_of(variant, numbered("session", s));
       add((session == label).cast<double>());
     }
     return out;
@@ -128,7 +128,7 @@ class ToolChange final : public FrameBySession {
 };
 
 /// Settings: "moment", how many rows came before it, and, where times were told, "time", halfway
-/// between the rows beside it.
+/// between the rows beside it. Poses to foretell of which no time is told come after it.
 class ToolSlip final : public Effect {
  public:
   EffectInfo info() const override {
@@ -148,16 +148,17 @@ class ToolSlip final : public Effect {
     const std::size_t step = (moments.size() + kMostMoments - 1) / kMostMoments;
     std::vector<EffectVariant> out;
     for (std::size_t i = 0; i < moments.size(); i += step) {
-      EffectVariant variant{"tool_slip",
-                            -1,
-                            {{"moment", moments[i]}},
-                            shift_and_turn(data.has_rotation),
-                            "tool_slip"};
-      if (data.has("time")) {
-        variant.settings["time"] =
-            0.5 * (time_of(data, moments[i] - 1) + time_of(data, moments[i]));
-      }
-      out.push_back(std::move(variant));
+      out.push_back(slip_at(moments[i], data));
+    }
+    return out;
+  }
+
+  std::vector<EffectVariant> between(const EffectVariant& lower, const EffectVariant& upper,
+                                     const EffectData& data) const override {
+    std::vector<EffectVariant> out;
+    const auto end = static_cast<int>(upper.settings.at("moment"));
+    for (int m = static_cast<int>(lower.settings.at("moment")) + 1; m < end; ++m) {
+      if (parts(data, m)) out.push_back(slip_at(m, data));
     }
     return out;
   }
@@ -167,9 +168,13 @@ class ToolSlip final : public Effect {
     const auto time = variant.settings.find("time");
     if (time != variant.settings.end() && data.has("time")) {
       after = (data.covariate("time").col(0).array() > time->second).cast<double>();
+    } else if (data.recording) {
+      const double moment = setting_of(variant, "moment");
+      for (std::size_t i = 0; i < data.order.size(); ++i) {
+        if (static_cast<double>(i) >= moment) after[data.order[i]] = 1.0;
+      }
     } else {
-      const auto moment = static_cast<std::size_t>(variant.settings.at("moment"));
-      for (std::size_t i = moment; i < data.order.size(); ++i) after[data.order[i]] = 1.0;
+      after.setOnes();
     }
     Actions out;
     const int flange = static_cast<int>(data.arm->joints().size()) + 1;
@@ -180,6 +185,14 @@ class ToolSlip final : public Effect {
   }
 
  private:
+  static EffectVariant slip_at(int moment, const EffectData& data) {
+    EffectVariant variant{
+        "tool_slip", -1, {{"moment", moment}}, shift_and_turn(data.has_rotation), "tool_slip"};
+    if (data.has("time")) {
+      variant.settings["time"] = 0.5 * (time_of(data, moment - 1) + time_of(data, moment));
+    }
+    return variant;
+  }
   static double time_of(const EffectData& data, int place) {
     return data.covariate("time")(data.order[place], 0);
   }

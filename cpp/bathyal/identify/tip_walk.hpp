@@ -63,7 +63,7 @@ class TipWalk {
   struct Pull {
     Site site;
     int index;
-    const RowMatrix* values;
+    const double* values;  ///< as Action::values
     double size;
   };
   void find_turn_axes(const Eigen::VectorXd& x);

@@ -8,11 +8,16 @@
 // The walk along a chain in which effects act.
 
 namespace bathyal {
+namespace {
+
+using Vector6 = Eigen::Matrix<double, 6, 1>;
+
+}  // namespace
 
 void TipWalk::find_pulls(const Eigen::VectorXd& x) {
   const auto pulls_of = [&](int column, std::vector<Pull>& out) {
     for (const Action& action : columns_.actions[columns_.places[column].index]) {
-      out.push_back({action.site, action.index, &action.values, x[column]});
+      out.push_back({action.site, action.index, action.values.data(), x[column]});
     }
   };
   for (int i = 0; i < static_cast<int>(columns_.places.size()); ++i) {
@@ -41,13 +46,14 @@ void TipWalk::walk_with_effects(const double* q, Index row, int station, WalkFra
   for (const Pull& pull : active_) {
     switch (pull.site) {
       case Site::kJoint:
-        frames.q[pull.index] += pull.size * (*pull.values)(row, 0);
+        frames.q[pull.index] += pull.size * pull.values[row];
         break;
       case Site::kLength:
-        frames.growth += pull.size * (*pull.values)(row, 0);
+        frames.growth += pull.size * pull.values[row];
         break;
       case Site::kFrame:
-        frames.put_in.col(pull.index) += pull.size * pull.values->row(row).transpose();
+        frames.put_in.col(pull.index) +=
+            pull.size * Eigen::Map<const Vector6>(pull.values + 6 * row);
         break;
     }
   }
@@ -122,21 +128,19 @@ void TipWalk::find_unit_moves(const Vec3& tip, bool turns, WalkFrames& frames) c
   }
 }
 
-Eigen::Matrix<double, 6, 1> TipWalk::move_of_effect(std::size_t i, Index row,
-                                                    const WalkFrames& frames) const {
-  Eigen::Matrix<double, 6, 1> move = Eigen::Matrix<double, 6, 1>::Zero();
+Vector6 TipWalk::move_of_effect(std::size_t i, Index row, const WalkFrames& frames) const {
+  Vector6 move = Vector6::Zero();
   for (std::size_t p = first_pull_[i]; p < first_pull_[i + 1]; ++p) {
     const Pull& pull = wanted_pulls_[p];
-    const RowMatrix& values = *pull.values;
     switch (pull.site) {
       case Site::kJoint:
-        move += values(row, 0) * frames.by_joint.col(pull.index);
+        move += pull.values[row] * frames.by_joint.col(pull.index);
         break;
       case Site::kLength:
-        move.head<3>() += values(row, 0) * frames.by_length;
+        move.head<3>() += pull.values[row] * frames.by_length;
         break;
       case Site::kFrame:
-        move += frames.by_frame[pull.index] * values.row(row).transpose();
+        move += frames.by_frame[pull.index] * Eigen::Map<const Vector6>(pull.values + 6 * row);
         break;
     }
   }

@@ -1,0 +1,339 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bathyal/identify/corrected_arm.hpp"
+
+#include <pybind11/stl.h>
+
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "arm_inverse.hpp"
+#include "bathyal/base/error.hpp"
+#include "bindings.hpp"
+#include "effects_docs.hpp"
+#include "identify_parts.hpp"
+
+namespace bathyal::python {
+namespace {
+
+const Words<TipFrame>& frame_words() {
+  static const Words<TipFrame> words{{"world", TipFrame::kWorld}, {"tool", TipFrame::kTool}};
+  return words;
+}
+
+// Arguments -------------------------------------------------------------------------------------
+
+/// A number for all rows, one a row as (N,), or (N, k); of what has several columns also one row
+/// as (k,).
+RowMatrix covariate_argument(const std::string& name, const py::object& object, Index columns) {
+  const std::string argument = "covariates " + name;
+  const py::array array = py::array::ensure(object);
+  if (!array) {
+    PyErr_Clear();
+    throw_argument(argument, "real numbers of shape (), (N,) or (N, k)",
+                   py::str(py::type::of(object).attr("__name__")).cast<std::string>());
+  }
+  if (array.ndim() == 0) return covariate_argument(name, array.attr("reshape")(1), 1);
+  if (array.ndim() == 1) {
+    const Values values = values_argument(argument, array);
+    if (columns > 1) return values.view().transpose();
+    return values.view();
+  }
+  return table_argument(argument, array, array.ndim() == 2 ? array.shape(1) : 1);
+}
+
+Covariates asked_covariates(const CorrectedArm& model, const py::object& object) {
+  Covariates covariates;
+  if (object.is_none()) return covariates;
+  if (!py::isinstance<py::dict>(object)) {
+    throw_argument("covariates", "a dict of name to numbers",
+                   py::str(py::type::of(object).attr("__name__")).cast<std::string>());
+  }
+  for (const auto& [key, value] : object.cast<py::dict>()) {
+    const std::string name = py::str(key);
+    const auto taught = model.support().covariates.find(name);
+    const Index columns = name == "gravity"                            ? 3
+                          : taught == model.support().covariates.end() ? 1
+                                                                       : taught->second.low.size();
+    covariates[name] = covariate_argument(name, py::reinterpret_borrow<py::object>(value), columns);
+  }
+  return covariates;
+}
+
+JointView view_of(const Rows& rows) {
+  return {rows.table.data(), rows.table.rows(), rows.table.cols()};
+}
+
+Support::Range range_argument(const std::string& name, const py::object& object, Index columns) {
+  const py::array array = py::array::ensure(object);
+  if (!array || array.ndim() != 2 || array.shape(0) != 2) {
+    PyErr_Clear();
+    throw_argument(name, "least and greatest, of shape (2, k)",
+                   py::repr(object).cast<std::string>());
+  }
+  const RowMatrix table = table_argument(name, array, columns > 0 ? columns : array.shape(1));
+  return {table.row(0).transpose(), table.row(1).transpose()};
+}
+
+Support make_support(const py::object& joints, const py::object& gravity,
+                     const py::dict& covariates, const py::object& sessions) {
+  Support support = support_of(RowMatrix::Zero(1, 1), {});
+  support.joints = range_argument("joints", joints, 0);
+  if (!gravity.is_none()) support.gravity = range_argument("gravity", gravity, 3);
+  for (const auto& [key, value] : covariates) {
+    const std::string name = py::str(key);
+    support.covariates[name] =
+        range_argument("covariates " + name, py::reinterpret_borrow<py::object>(value), 0);
+  }
+  if (!sessions.is_none()) {
+    const Values values = values_argument("sessions", sessions);
+    support.sessions.assign(values.data(), values.data() + values.rows());
+  }
+  support.check(support.joints.low.size());
+  return support;
+}
+
+Support support_argument(const py::object& data) {
+  const auto of = [](const auto& known) { return support_of(known.q, known.covariates); };
+  if (py::isinstance<Support>(data)) return data.cast<Support>();
+  if (py::isinstance<Touches>(data)) return of(data.cast<const Touches&>());
+  if (py::isinstance<Tracked>(data)) return of(data.cast<const Tracked&>());
+  throw_argument("data", "Touches, Tracked or Support",
+                 py::str(py::type::of(data).attr("__name__")).cast<std::string>());
+}
+
+// Results ---------------------------------------------------------------------------------------
+
+py::array to_numpy(const Support::Range& range) {
+  RowMatrix table(2, range.low.size());
+  table << range.low.transpose(), range.high.transpose();
+  return python::to_numpy(table);
+}
+
+py::array to_numpy(const SupportMask& mask, bool single) {
+  py::array_t<bool> array({mask.rows(), mask.cols()});
+  std::copy(mask.data(), mask.data() + mask.size(), array.mutable_data());
+  array.attr("setflags")(py::arg("write") = false);
+  return single ? py::array(array[py::int_(0)]) : py::array(array);
+}
+
+/// One warning of a call that left effects out, told from where it was called.
+void warn_of_support(const CorrectedArm& model, const SupportMask& mask,
+                     const Covariates& covariates) {
+  if (mask.all()) return;
+  py::list left_out;
+  for (std::size_t e = 0; e < model.effects().size(); ++e) {
+    const auto rows = mask.rows() - mask.col(static_cast<Index>(e)).count();
+    std::vector<std::string> untold;
+    for (const std::string& name : model.effects()[e].effect->info().needs) {
+      if (!covariates.contains(name)) untold.push_back(name);
+    }
+    if (rows > 0) left_out.append(py::make_tuple(words_of(model.effects()[e]), rows, untold));
+  }
+  py::module_::import("bathyal.support_warning")
+      .attr("warn")(left_out, mask.rows(), to_numpy(mask, false));
+}
+
+// Methods ---------------------------------------------------------------------------------------
+
+py::array forward_python(const CorrectedArm& model, const py::object& q,
+                         const py::object& covariates, bool links, int num_threads) {
+  const Rows rows = rows_argument("q", q, model.size());
+  const Covariates asked = asked_covariates(model, covariates);
+  CorrectedPoses found;
+  {
+    const py::gil_scoped_release release;
+    found = links ? model.forward_links(view_of(rows), asked, num_threads)
+                  : model.forward(view_of(rows), asked, num_threads);
+  }
+  warn_of_support(model, found.in_support, asked);
+  std::vector<py::ssize_t> tail{4, 4};
+  if (links) tail.insert(tail.begin(), static_cast<py::ssize_t>(model.arm().links().size()));
+  return python::to_numpy(std::move(found.poses), rows.single, std::move(tail));
+}
+
+py::array jacobian_python(const CorrectedArm& model, const py::object& q,
+                          const py::object& covariates, const std::string& frame, int num_threads) {
+  const Rows rows = rows_argument("q", q, model.size());
+  const Covariates asked = asked_covariates(model, covariates);
+  const TipFrame axes = word_argument("frame", frame, frame_words());
+  CorrectedJacobians found;
+  {
+    const py::gil_scoped_release release;
+    found = model.jacobian(view_of(rows), asked, axes, num_threads);
+  }
+  warn_of_support(model, found.in_support, asked);
+  return python::to_numpy(std::move(found.jacobians), rows.single, {6, model.size()});
+}
+
+InverseAnswer inverse_python(const CorrectedArm& model, const py::object& poses,
+                             const py::object& start, const py::object& covariates,
+                             const InverseOptions& options) {
+  const Targets targets = targets_argument(poses, options.task);
+  const Rows starts = start.is_none() ? Rows{} : rows_argument("start", start, model.size());
+  const Covariates asked = asked_covariates(model, covariates);
+  CorrectedInverse found;
+  {
+    const py::gil_scoped_release release;
+    const JointView view(starts.table.data(), start.is_none() ? 0 : starts.table.rows(),
+                         model.size());
+    found = model.inverse(targets.poses, view, asked, options);
+  }
+  warn_of_support(model, found.in_support, asked);
+  return {std::move(found.result), targets.single};
+}
+
+py::array in_support_python(const CorrectedArm& model, const py::object& q,
+                            const py::object& covariates) {
+  const Rows rows = rows_argument("q", q, model.size());
+  const Covariates asked = asked_covariates(model, covariates);
+  SupportMask mask;
+  {
+    const py::gil_scoped_release release;
+    mask = model.in_support(view_of(rows), asked);
+  }
+  return to_numpy(mask, rows.single);
+}
+
+std::string repr_of(const CorrectedArm& model) {
+  const Arm& arm = model.arm();
+  std::string text = "CorrectedArm(" + (arm.name().empty() ? "" : "\"" + arm.name() + "\", ");
+  text += std::to_string(arm.size()) + (arm.size() == 1 ? " joint" : " joints");
+  for (const FoundEffect& found : model.effects()) text += ", " + words_of(found);
+  return text + ")";
+}
+
+// Classes ---------------------------------------------------------------------------------------
+
+void bind_support(py::module_& module) {
+  py::class_<Support>(module, "Support", kSupportDoc)
+      .def(py::init(&make_support), py::arg("joints"), py::kw_only(),
+           py::arg("gravity") = py::none(), py::arg("covariates") = py::dict(),
+           py::arg("sessions") = py::none())
+      .def_property_readonly(
+          "joints", [](const Support& s) { return to_numpy(s.joints); },
+          "(2, n) least and greatest of each coordinate [rad] or [m].")
+      .def_property_readonly(
+          "gravity", [](const Support& s) { return to_numpy(s.gravity); }, "(2, 3) [m/s²]")
+      .def_property_readonly(
+          "covariates",
+          [](const Support& s) {
+            py::dict dict;
+            for (const auto& [name, range] : s.covariates) dict[py::str(name)] = to_numpy(range);
+            return dict;
+          },
+          "Name to (2, k): all but `session` and `gravity`.")
+      .def_property_readonly(
+          "sessions", [](const Support& s) { return python::to_numpy(s.sessions); },
+          "(s,) that were seen.")
+      .def("__repr__", [](const Support& s) {
+        return "Support(" + std::to_string(s.joints.low.size()) + " joints, " +
+               std::to_string(s.covariates.size()) + " covariates, " +
+               std::to_string(s.sessions.size()) + " sessions)";
+      });
+}
+
+/// What a corrected arm has of its rigid part.
+void add_rigid_part(py::class_<CorrectedArm>& cls) {
+  cls.def_property_readonly(
+         "arm", [](const CorrectedArm& m) { return m.arm(); },
+         "Arm: a copy of the rigid part, for what knows no effects (.to_urdf() of it).")
+      .def_property_readonly("name", [](const CorrectedArm& m) { return m.arm().name(); })
+      .def_property_readonly(
+          "source", [](const CorrectedArm& m) { return m.arm().source(); },
+          "Where the numbers come from.")
+      .def_property_readonly("size", &CorrectedArm::size,
+                             "Number of coordinates n, the width of every q.")
+      .def_property(
+          "base", [](const CorrectedArm& m) { return python::to_numpy(m.arm().base()); },
+          [](CorrectedArm& m, const py::object& pose) { m.set_base(pose_argument("base", pose)); },
+          "(4, 4) world_from_base; may be set, None is the identity.")
+      .def_property(
+          "tool", [](const CorrectedArm& m) { return python::to_numpy(m.arm().tool()); },
+          [](CorrectedArm& m, const py::object& pose) { m.set_tool(pose_argument("tool", pose)); },
+          "(4, 4) flange_from_tool; may be set, None is the identity.");
+  for (const char* name : {"joint_names", "joint_types", "link_names", "links", "lower", "upper",
+                           "velocity", "effort", "within_limits", "to_urdf", "show", "plot"}) {
+    const std::string doc = "As of `Arm`: `arm`'s own.";
+    cls.def_property_readonly(
+        name, [name](const CorrectedArm& m) { return py::cast(m.arm()).attr(name); }, doc.c_str());
+  }
+}
+
+void add_files(py::class_<CorrectedArm>& cls) {
+  const auto write = [](const py::object& model, const py::object& path) {
+    py::module_::import("bathyal.corrected_arm_files").attr("save_corrected_arm")(model, path);
+  };
+  const char* doc =
+      "Write all of it to a .json file, for bathyal.read_arm "
+      "(bathyal.corrected_arm_files.save_corrected_arm).";
+  cls.def("save", write, py::arg("path"), doc).def("write", write, py::arg("path"), doc);
+}
+
+void add_inverse(py::class_<CorrectedArm>& cls) {
+  const InverseOptions defaults;
+  cls.def(
+      "inverse",
+      [](const CorrectedArm& model, const py::object& poses, const py::object& start,
+         const py::object& covariates, const std::string& task, const py::object& axis,
+         std::optional<double> position_tolerance, std::optional<double> angle_tolerance,
+         int max_iterations, int max_starts, int candidates, std::optional<int> centering_steps,
+         std::uint64_t seed, int num_threads) {
+        InverseOptions options;
+        options.task = word_argument("task", task, task_words());
+        options.axis = vector_argument("axis", axis);
+        options.position_tolerance = position_tolerance;
+        options.angle_tolerance = angle_tolerance;
+        options.max_iterations = max_iterations;
+        options.max_starts = max_starts;
+        options.candidates = candidates;
+        options.centering_steps = centering_steps;
+        options.seed = seed;
+        options.num_threads = num_threads;
+        return inverse_python(model, poses, start, covariates, options);
+      },
+      py::arg("poses"), py::arg("start") = py::none(), py::kw_only(),
+      py::arg("covariates") = py::none(), py::arg("task") = word_of(defaults.task, task_words()),
+      py::arg("axis") = py::make_tuple(defaults.axis.x(), defaults.axis.y(), defaults.axis.z()),
+      py::arg("position_tolerance") = defaults.position_tolerance,
+      py::arg("angle_tolerance") = defaults.angle_tolerance,
+      py::arg("max_iterations") = defaults.max_iterations,
+      py::arg("max_starts") = defaults.max_starts, py::arg("candidates") = defaults.candidates,
+      py::arg("centering_steps") = defaults.centering_steps, py::arg("seed") = defaults.seed,
+      py::arg("num_threads") = defaults.num_threads, kCorrectedInverseDoc);
+}
+
+}  // namespace
+
+void bind_corrected_arm(py::module_& module) {
+  bind_support(module);
+  py::class_<CorrectedArm> cls(module, "CorrectedArm", kCorrectedArmDoc);
+  cls.def(py::init([](const Arm& arm, std::vector<FoundEffect> effects, const py::object& data) {
+            return CorrectedArm(arm, std::move(effects), support_argument(data));
+          }),
+          py::arg("arm"), py::arg("effects"), py::arg("data"))
+      .def_property_readonly("effects", &CorrectedArm::effects, "The FoundEffects: a list.")
+      .def_property_readonly("support", &CorrectedArm::support, "What the data covered.")
+      .def("forward", &forward_python, py::arg("q"), py::kw_only(),
+           py::arg("covariates") = py::none(), py::arg("links") = false, py::arg("num_threads") = 0,
+           kCorrectedForwardDoc)
+      .def("jacobian", &jacobian_python, py::arg("q"), py::kw_only(),
+           py::arg("covariates") = py::none(),
+           py::arg("frame") = word_of(TipFrame::kWorld, frame_words()), py::arg("num_threads") = 0,
+           kCorrectedJacobianDoc)
+      .def("in_support", &in_support_python, py::arg("q"), py::kw_only(),
+           py::arg("covariates") = py::none(), kInSupportDoc)
+      .def(
+          "copy", [](const CorrectedArm& m) { return m; }, "One of its own, base and tool too.")
+      .def("__copy__", [](const CorrectedArm& m) { return m; })
+      .def(
+          "__deepcopy__", [](const CorrectedArm& m, const py::dict&) { return m; }, py::arg("memo"))
+      .def("__repr__", &repr_of);
+  add_rigid_part(cls);
+  add_inverse(cls);
+  add_files(cls);
+}
+
+}  // namespace bathyal::python

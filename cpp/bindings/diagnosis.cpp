@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bathyal/diagnosis/diagnose.hpp"
+
+#include <pybind11/stl.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bathyal/base/error.hpp"
+#include "bathyal/identify/corrected_arm.hpp"
+#include "bindings.hpp"
+#include "diagnosis_docs.hpp"
+#include "identify_parts.hpp"
+#include "words.hpp"
+
+namespace bathyal::python {
+namespace {
+
+namespace py = pybind11;
+
+const Words<Verdict>& verdict_words() {
+  static const Words<Verdict> words{{"none", Verdict::kNone},
+                                    {"clean", Verdict::kClean},
+                                    {"named", Verdict::kNamed},
+                                    {"ambiguous", Verdict::kAmbiguous},
+                                    {"unknown", Verdict::kUnknown}};
+  return words;
+}
+
+std::optional<int> joint_or_none(int joint) {
+  return joint < 0 ? std::nullopt : std::optional<int>(joint);
+}
+
+std::string on_joint(int joint) { return joint < 0 ? "" : ", joint=" + std::to_string(joint); }
+
+void bind_parts(py::module_& module) {
+  py::class_<Estimate>(module, "Estimate", kEstimateDoc)
+      .def_readonly("name", &Estimate::name)
+      .def_readonly("value", &Estimate::value)
+      .def_readonly("unit", &Estimate::unit)
+      .def_readonly("std", &Estimate::std, "0 of what was counted or chosen, not measured.")
+      .def_property_readonly(
+          "interval", [](const Estimate& e) { return py::make_tuple(e.low, e.high); },
+          "(low, high) that holds the truth in 95 of 100 cases.")
+      .def("__float__", [](const Estimate& e) { return e.value; })
+      .def("__int__", [](const Estimate& e) { return static_cast<long>(e.value); })
+      .def("__repr__", [](const Estimate& e) {
+        return "Estimate(" + e.name + "=" + to_text(e.value) + " " + e.unit + ", " +
+               to_text(e.low) + " to " + to_text(e.high) + ")";
+      });
+  py::class_<Cause>(module, "Cause", "A cause by name, as lists of rivals hold it.")
+      .def_readonly("name", &Cause::name)
+      .def_property_readonly("joint", [](const Cause& c) { return joint_or_none(c.joint); })
+      .def_readonly("words", &Cause::words)
+      .def_readonly("odds", &Cause::odds, "Against the best explanation, 0 to 1.")
+      .def("__repr__",
+           [](const Cause& c) { return "Cause(" + c.name + on_joint(c.joint) + ")"; });
+  py::class_<NamedEffect>(module, "NamedEffect", kNamedEffectDoc)
+      .def_readonly("name", &NamedEffect::name)
+      .def_property_readonly("joint", [](const NamedEffect& e) { return joint_or_none(e.joint); },
+                             "Coordinate in error, from 0, or None.")
+      .def_readonly("words", &NamedEffect::words)
+      .def_property_readonly(
+          "parameters",
+          [](const NamedEffect& e) {
+            py::dict out;
+            for (const Estimate& p : e.parameters) out[py::str(p.name)] = p;
+            return out;
+          },
+          "Estimate of each parameter, by name.")
+      .def_readonly("rows", &NamedEffect::rows, "Of outliers: the rows.")
+      .def_readonly("size", &NamedEffect::size,
+                    "rms of what it moves beside all else that was fitted, per axis [m].")
+      .def_readonly("gain", &NamedEffect::gain,
+                    "Share of the held-out variance above noise that it removes; of effects on the "
+                    "noise itself: held-out log likelihood.")
+      .def_readonly("held_out_before", &NamedEffect::held_out_before, "Without it, 3-D rms [m].")
+      .def_readonly("held_out_after", &NamedEffect::held_out_after, "With it, 3-D rms [m].")
+      .def_readonly("p_value", &NamedEffect::p_value,
+                    "Of its F test among the others, corrected for all that was tried.")
+      .def_readonly("rivals", &NamedEffect::rivals, "Cause: the best other explanations of it.")
+      .def("__repr__", [](const NamedEffect& e) {
+        return "NamedEffect(" + e.name + on_joint(e.joint) + ")";
+      });
+  py::class_<Structure>(module, "Structure", "A dependence of residuals that chance does not make.")
+      .def_readonly("against", &Structure::against)
+      .def_readonly("words", &Structure::words)
+      .def_readonly("size", &Structure::size, "rms per axis, noise taken out [m].")
+      .def_readonly("share", &Structure::share, "Of the residuals' variance, noise taken out.")
+      .def_readonly("p_value", &Structure::p_value, "Corrected for all that was asked.")
+      .def("__repr__", [](const Structure& s) {
+        return "Structure(" + (s.against.empty() ? "nothing" : s.against) + ", " +
+               to_text(s.size) + " m)";
+      });
+}
+
+void bind_held_out(py::module_& module) {
+  py::class_<HeldOut::Part>(module, "HeldOutPart", "One session, or one touched point.")
+      .def_readonly("name", &HeldOut::Part::name)
+      .def_readonly("rows", &HeldOut::Part::rows)
+      .def_readonly("rms_before", &HeldOut::Part::rms_before, "3-D [m].")
+      .def_readonly("rms_after", &HeldOut::Part::rms_after, "3-D [m].");
+  py::class_<HeldOut>(module, "HeldOut", "Errors of rows that were foretold by all others.")
+      .def_readonly("how", &HeldOut::how, "What was held out at once.")
+      .def_readonly("blocks", &HeldOut::blocks)
+      .def_readonly("rms_before", &HeldOut::rms_before, "Geometry alone, 3-D [m].")
+      .def_readonly("rms_after", &HeldOut::rms_after, "With the effects, 3-D [m].")
+      .def_readonly("noise", &HeldOut::noise, "Floor, 3-D [m].")
+      .def_readonly("p_value", &HeldOut::p_value, "That the gain is luck, over the blocks.")
+      .def_readonly("parts", &HeldOut::parts)
+      .def_property_readonly(
+          "before", [](const HeldOut& h) { return to_numpy(h.before); },
+          "(N,) geometry alone [m]; NaN of outliers.")
+      .def_property_readonly(
+          "after", [](const HeldOut& h) { return to_numpy(h.after); }, "(N,) [m].");
+}
+
+py::object words_about(const char* function, const py::object& self) {
+  return py::module_::import("bathyal.diagnosis_words").attr(function)(self);
+}
+
+void bind_result(py::module_& module) {
+  py::class_<Diagnosis>(module, "Diagnosis", kDiagnosisDoc)
+      .def_property_readonly(
+          "verdict", [](const Diagnosis& d) { return word_of(d.verdict, verdict_words()); },
+          "\"clean\", \"named\", \"ambiguous\", \"unknown\", or \"none\" where nothing can be held "
+          "out.")
+      .def_readonly("effects", &Diagnosis::effects,
+                    "NamedEffect, largest first; partial when the verdict is unknown.")
+      .def_readonly("ambiguous", &Diagnosis::ambiguous,
+                    "Cause: all among which these data cannot choose.")
+      .def_property_readonly(
+          "next_poses", [](const Diagnosis& d) { return to_numpy(RowMatrix(d.next_poses)); },
+          "(m, n) poses that would tell them apart [rad or m].")
+      .def_readonly("shown", &Diagnosis::shown,
+                    "Structure in the residuals of geometry alone, likeliest first.")
+      .def_readonly("leftover", &Diagnosis::leftover,
+                    "Structure beside all that was named; its size is 0 when there is none.")
+      .def_readonly("held_out", &Diagnosis::held_out)
+      .def_readonly("gain", &Diagnosis::gain, "(r0² - r1²) / (r0² - noise²) of held-out rms.")
+      .def_readonly("fit", &Diagnosis::fit, "ArmFit: geometry alone.")
+      .def_property_readonly(
+          "model",
+          [](const Diagnosis& d) { return CorrectedArm(d.arm, d.found, d.support); },
+          "CorrectedArm: geometry and effects, with the support that taught them.")
+      .def_readonly("noise", &Diagnosis::noise, "Standard deviation per axis [m].")
+      .def_readonly("noise_source", &Diagnosis::noise_source)
+      .def_readonly("detectable", &Diagnosis::detectable,
+                    "Size of an effect that would have been found, per axis [m].")
+      .def_property_readonly(
+          "residuals_before",
+          [](const Diagnosis& d) { return to_numpy(RowMatrix(d.residuals_before)); },
+          "(3, N) tip less measured (of touches: less their mean), geometry alone [m].")
+      .def_property_readonly(
+          "residuals_after",
+          [](const Diagnosis& d) { return to_numpy(RowMatrix(d.residuals_after)); },
+          "(3, N) the same with the effects [m].")
+      .def_readonly("warnings", &Diagnosis::warnings, "Sentences.")
+      .def(
+          "summary", [](const py::object& self) { return words_about("summary", self); },
+          "One paragraph that a person can act on.")
+      .def(
+          "write",
+          [](const py::object& self, const py::object& path) {
+            py::module_::import("bathyal.diagnosis_files").attr("write_diagnosis")(self, path);
+          },
+          py::arg("path"), kDiagnosisWriteDoc)
+      .def("__repr__", [](const Diagnosis& d) {
+        std::string text = "Diagnosis(" + word_of(d.verdict, verdict_words());
+        for (const NamedEffect& e : d.effects) {
+          text += ", " + e.name + (e.joint < 0 ? "" : "[" + std::to_string(e.joint) + "]");
+        }
+        return text + ")";
+      });
+}
+
+std::vector<std::shared_ptr<const Effect>> effects_argument(const py::object& effects) {
+  if (effects.is_none()) return library_effects();
+  std::vector<std::shared_ptr<const Effect>> out;
+  for (const py::handle effect : effects) {
+    if (!py::isinstance<Effect>(effect)) {
+      throw_argument("effects", "effects, as in bathyal.effects.list()",
+                     py::repr(effect).cast<std::string>());
+    }
+    out.push_back(effect.cast<std::shared_ptr<Effect>>());
+  }
+  return out;
+}
+
+void bind_function(py::module_& module) {
+  const DiagnoseOptions defaults;
+  module.def(
+      "diagnose",
+      [](const Arm& arm, const py::object& data, const py::object& effects,
+         std::vector<std::string> fixed, int blocks, double rival_odds, double leftover,
+         int num_next_poses, const py::object& progress, int num_threads) {
+        const DiagnoseOptions options{.fixed = std::move(fixed),
+                                      .blocks = blocks,
+                                      .rival_odds = rival_odds,
+                                      .leftover = leftover,
+                                      .num_next_poses = num_next_poses,
+                                      .num_threads = num_threads};
+        const auto asked = effects_argument(effects);
+        const DiagnosisProgress tell = [&](double done, const std::string& stage) {
+          const py::gil_scoped_acquire acquire;
+          if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+          if (!progress.is_none()) progress(done, stage);
+        };
+        const auto run = [&](const auto& known) {
+          const py::gil_scoped_release release;
+          return diagnose(arm, known, options, asked, tell);
+        };
+        if (py::isinstance<Touches>(data)) return run(data.cast<const Touches&>());
+        if (py::isinstance<Tracked>(data)) return run(data.cast<const Tracked&>());
+        throw_argument("data", "Touches or Tracked",
+                       std::string(py::str(py::type::of(data).attr("__name__"))));
+      },
+      py::arg("arm"), py::arg("data"), py::kw_only(), py::arg("effects") = py::none(),
+      py::arg("fixed") = defaults.fixed, py::arg("blocks") = defaults.blocks,
+      py::arg("rival_odds") = defaults.rival_odds, py::arg("leftover") = defaults.leftover,
+      py::arg("num_next_poses") = defaults.num_next_poses, py::arg("progress") = py::none(),
+      py::arg("num_threads") = defaults.num_threads, kDiagnoseDoc);
+}
+
+}  // namespace
+
+void bind_diagnosis(py::module_& module) {
+  bind_parts(module);
+  bind_held_out(module);
+  bind_result(module);
+  bind_function(module);
+}
+
+}  // namespace bathyal::python

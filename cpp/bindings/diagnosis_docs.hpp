@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+// Docstrings of diagnosis.cpp.
+
+namespace bathyal::python {
+
+inline constexpr const char* kEstimateDoc =
+    R"(A number and the interval that holds it in 95 of 100 cases; float() gives the number.)";
+
+inline constexpr const char* kNamedEffectDoc =
+    R"(A cause that was found, with its evidence.)";
+
+inline constexpr const char* kDiagnosisWriteDoc =
+    R"(Write the report: a page (.html), a picture (.png) or everything for machines (.json).
+
+Parameters
+----------
+path : str or os.PathLike
+    The ending says what is written.
+
+Raises
+------
+ValueError
+    For another ending.
+)";
+
+inline constexpr const char* kDiagnosisDoc =
+    R"(What the model of an arm gets wrong, by its measurements; see `diagnose`.)";
+
+inline constexpr const char* kDiagnoseDoc =
+    R"(Show what the best rigid model of an arm gets wrong, name the cause, measure the gain.
+
+The arm's geometry is identified first. What it leaves is compared with each effect of the library,
+alone and in growing sets, fitted jointly with the geometry; sets are judged by their likelihood
+less what their freedom costs, and each name must foretell data that it has not seen. Structure that
+nothing in the library explains is told as such, without a name.
+
+Parameters
+----------
+arm : Arm
+    Nominal; its masses, where they are told, make loads of gravity known.
+data : Touches or Tracked
+    With any of the covariates `temperature` (N,) [°C], `time` (N,) [s], `payload` (N,) [kg at the
+    tool centre point], `direction` (N, n) -1, 0 or 1, `gravity` (N, 3) [m/s², base frame] and
+    `session` (N,); others are looked at for structure.
+effects : list of Effect, optional
+    What may be named; `bathyal.effects.list()` unless given.
+fixed : list of str
+    Names of geometric parameters to hold at nominal.
+blocks : int
+    How many blocks are held out in turn, 3 to 50.
+rival_odds : float
+    Odds of a rival against the best explanation from which the two count as not to be told apart.
+leftover : float
+    Structure left over, as a share of the variance that the names removed, from which the verdict
+    is "unknown" and the names stand as partial.
+num_next_poses : int
+    How many poses to propose where causes cannot be told apart.
+progress : callable, optional
+    Called with (share done, what comes next).
+num_threads : int
+    0 = all; the same bytes for any number.
+
+Returns
+-------
+Diagnosis
+
+Raises
+------
+ValueError
+    For bad data, covariates or options, another number of joints, an effect given twice.
+bathyal.Error
+    For an effect of the user's own that fails.
+
+Examples
+--------
+>>> import numpy as np
+>>> import bathyal
+>>> arm = bathyal.arms.ur10()
+>>> random = np.random.default_rng(1)
+>>> q = random.uniform(-1.5, 1.5, (150, 6))
+>>> wrong = q.copy()
+>>> wrong[:, 1] += 1e-3 * np.cos(2.0 * q[:, 1])  # an eccentric encoder
+>>> seen = arm.forward(wrong)[:, :3, 3] + random.normal(0.0, 1e-4, (150, 3))
+>>> report = bathyal.diagnose(arm, bathyal.Tracked(q, seen))
+>>> report
+Diagnosis(named, joint_harmonic[1])
+>>> round(float(report.effects[0].parameters["order"]))
+2
+)";
+
+}  // namespace bathyal::python

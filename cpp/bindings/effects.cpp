@@ -1,0 +1,262 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bathyal/identify/effect.hpp"
+
+#include <pybind11/stl.h>
+
+#include <utility>
+
+#include "bathyal/base/error.hpp"
+#include "bindings.hpp"
+#include "effects_docs.hpp"
+#include "effects_parts.hpp"
+#include "words.hpp"
+
+namespace bathyal::python {
+namespace {
+
+namespace py = pybind11;
+
+constexpr double kOrdinarySize = 1e-3;  ///< of a parameter of which nobody said more
+
+const Words<UserSite>& site_words() {
+  static const Words<UserSite> words{{"joint", UserSite::kJoint},
+                                     {"base", UserSite::kBase},
+                                     {"tool", UserSite::kTool},
+                                     {"lengths", UserSite::kLengths}};
+  return words;
+}
+
+/// Value by name; `otherwise` where the dict does not have it.
+template <class Value>
+Value told_or(const std::map<std::string, Value>& told, const std::string& name, Value otherwise) {
+  const auto found = told.find(name);
+  return found == told.end() ? std::move(otherwise) : found->second;
+}
+
+/// Names of a dict in its own order, with what it says of them.
+template <class Value>
+std::vector<std::pair<std::string, Value>> items_argument(std::string_view name,
+                                                          const py::dict& dict,
+                                                          std::string_view expected) {
+  std::vector<std::pair<std::string, Value>> items;
+  for (const auto& [key, value] : dict) {
+    try {
+      items.emplace_back(key.cast<std::string>(), value.cast<Value>());
+    } catch (const py::cast_error&) {
+      throw_argument(name, expected, py::repr(dict).cast<std::string>());
+    }
+  }
+  return items;
+}
+
+std::shared_ptr<Effect> make_effect(std::string name, py::function function,
+                                    const py::dict& parameters, const py::object& joints,
+                                    const std::string& site, std::vector<std::string> needs,
+                                    std::string words, std::string formula, std::string source,
+                                    const std::map<std::string, double>& scales,
+                                    bool by_difference) {
+  UserEffect told;
+  told.info.name = std::move(name);
+  told.info.words = std::move(words);
+  told.info.formula = std::move(formula);
+  told.info.source = std::move(source);
+  told.info.needs = std::move(needs);
+  told.info.by_difference = by_difference;
+  told.site = word_argument("site", site, site_words());
+  for (auto& [parameter, unit] :
+       items_argument<std::string>("parameters", parameters, "a dict of name to unit")) {
+    const double scale = told_or(scales, parameter, kOrdinarySize);
+    told.parameters.push_back({std::move(parameter), std::move(unit), scale});
+  }
+  if (py::isinstance<py::str>(joints)) {
+    const auto word = joints.cast<std::string>();
+    if (word != "each") throw_argument("joints", "\"each\" or a list", "\"" + word + "\"");
+    told.each_joint = true;
+  } else if (!joints.is_none()) {
+    try {
+      told.joints = joints.cast<std::vector<int>>();
+    } catch (const py::cast_error&) {
+      throw_argument("joints", "\"each\" or a list of whole numbers",
+                     py::repr(joints).cast<std::string>());
+    }
+  }
+  return make_python_effect(std::move(told), std::move(function));
+}
+
+std::string text_of(const EffectInfo& info) {
+  std::string text = info.name;
+  const auto line = [&text](const char* what, const std::string& told) {
+    if (!told.empty()) text += "\n  " + std::string(what) + told;
+  };
+  line("", info.words);
+  line("formula: ", info.formula);
+  for (const EffectInfo::Range& range : info.ranges) {
+    line("", range.parameter + ": " + to_text(range.low) + " to " + to_text(range.high) + " " +
+                 range.unit);
+  }
+  std::string needs;
+  for (const std::string& name : info.needs) needs += (needs.empty() ? "" : ", ") + name;
+  line("needs: ", needs);
+  line("source: ", info.source);
+  return text;
+}
+
+/// The unit that an effect's ranges give for a parameter: "shift_x_2" has that of "shift_x".
+std::string unit_of(const EffectInfo& info, const std::string& parameter) {
+  std::string unit;
+  std::size_t longest = 0;
+  for (const EffectInfo::Range& range : info.ranges) {
+    if (parameter.starts_with(range.parameter) && range.parameter.size() >= longest) {
+      longest = range.parameter.size();
+      unit = range.unit;
+    }
+  }
+  return unit;
+}
+
+std::shared_ptr<const Effect> effect_argument(const py::object& effect) {
+  if (py::isinstance<Effect>(effect)) return effect.cast<std::shared_ptr<Effect>>();
+  const py::object found = py::module_::import("bathyal.effects").attr("get")(effect);
+  return found.cast<std::shared_ptr<Effect>>();
+}
+
+FoundEffect make_found(const py::object& effect, const py::dict& parameters,
+                       std::optional<int> joint, std::map<std::string, double> settings,
+                       const std::map<std::string, std::string>& units,
+                       const std::map<std::string, double>& scales, std::string cause) {
+  FoundEffect found;
+  found.effect = effect_argument(effect);
+  const EffectInfo info = found.effect->info();
+  found.variant.effect = info.name;
+  found.variant.joint = joint.value_or(-1);
+  found.variant.settings = std::move(settings);
+  found.variant.cause = std::move(cause);
+  const auto values = items_argument<double>("parameters", parameters, "a dict of name to number");
+  found.values.resize(static_cast<Eigen::Index>(values.size()));
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const std::string& name = values[i].first;
+    found.values[static_cast<Eigen::Index>(i)] = values[i].second;
+    found.variant.parameters.push_back(
+        {name, told_or(units, name, unit_of(info, name)), told_or(scales, name, kOrdinarySize)});
+  }
+  return found;
+}
+
+template <class Get>
+py::dict by_parameter(const FoundEffect& found, const Get& get) {
+  py::dict dict;
+  for (std::size_t i = 0; i < found.variant.parameters.size(); ++i) {
+    dict[py::str(found.variant.parameters[i].name)] = get(i);
+  }
+  return dict;
+}
+
+std::string repr_of(const FoundEffect& found) {
+  std::string text = "FoundEffect(\"" + found.variant.effect + "\"";
+  if (found.variant.joint >= 0) text += ", joint=" + std::to_string(found.variant.joint);
+  for (std::size_t i = 0; i < found.variant.parameters.size(); ++i) {
+    text += ", " + found.variant.parameters[i].name + "=" +
+            to_text(found.values[static_cast<Eigen::Index>(i)]);
+  }
+  return text + ")";
+}
+
+void bind_effect(py::module_& module) {
+  py::class_<EffectInfo::Range>(module, "EffectRange", "Plausible sizes of a parameter.")
+      .def_readonly("parameter", &EffectInfo::Range::parameter)
+      .def_readonly("unit", &EffectInfo::Range::unit)
+      .def_readonly("low", &EffectInfo::Range::low)
+      .def_readonly("high", &EffectInfo::Range::high)
+      .def("__repr__", [](const EffectInfo::Range& range) {
+        return "EffectRange(" + range.parameter + ", " + to_text(range.low) + " to " +
+               to_text(range.high) + " " + range.unit + ")";
+      });
+  py::class_<Effect, std::shared_ptr<Effect>>(module, "Effect", kEffectDoc)
+      .def(py::init(&make_effect), py::arg("name"), py::arg("function"), py::kw_only(),
+           py::arg("parameters"), py::arg("joints") = py::none(), py::arg("site") = "joint",
+           py::arg("needs") = std::vector<std::string>{}, py::arg("words") = "",
+           py::arg("formula") = "", py::arg("source") = "",
+           py::arg("scales") = std::map<std::string, double>{}, py::arg("by_difference") = false)
+      .def_property_readonly("name", [](const Effect& e) { return e.info().name; })
+      .def_property_readonly(
+          "words", [](const Effect& e) { return e.info().words; }, "What it is, for people.")
+      .def_property_readonly("formula", [](const Effect& e) { return e.info().formula; })
+      .def_property_readonly(
+          "source", [](const Effect& e) { return e.info().source; }, "Paper or textbook.")
+      .def_property_readonly(
+          "needs", [](const Effect& e) { return e.info().needs; },
+          "Covariates without which it cannot be seen.")
+      .def_property_readonly(
+          "ranges", [](const Effect& e) { return e.info().ranges; },
+          "EffectRange of each parameter.")
+      .def_property_readonly(
+          "by_difference", [](const Effect& e) { return e.info().by_difference; },
+          "Whether it looks at how rows differ from their neighbours.")
+      .def("__str__", [](const Effect& e) { return text_of(e.info()); })
+      .def("__repr__", [](const Effect& e) { return "Effect(\"" + e.info().name + "\")"; });
+}
+
+void bind_found_effect(py::module_& module) {
+  py::class_<FoundEffect>(module, "FoundEffect", kFoundEffectDoc)
+      .def(py::init(&make_found), py::arg("effect"), py::arg("parameters"), py::kw_only(),
+           py::arg("joint") = py::none(), py::arg("settings") = std::map<std::string, double>{},
+           py::arg("units") = std::map<std::string, std::string>{},
+           py::arg("scales") = std::map<std::string, double>{}, py::arg("cause") = "")
+      .def_property_readonly("name", [](const FoundEffect& f) { return f.variant.effect; })
+      .def_property_readonly(
+          "effect", [](const FoundEffect& f) { return std::const_pointer_cast<Effect>(f.effect); },
+          "The Effect itself.")
+      .def_property_readonly(
+          "joint",
+          [](const FoundEffect& f) -> py::object {
+            return f.variant.joint < 0 ? py::object(py::none()) : py::int_(f.variant.joint);
+          },
+          "Counted from 0, or None.")
+      .def_property_readonly(
+          "settings", [](const FoundEffect& f) { return f.variant.settings; },
+          "What tells this form of the effect from others.")
+      .def_property_readonly(
+          "parameters",
+          [](const FoundEffect& f) {
+            return by_parameter(f, [&](std::size_t i) {
+              return py::float_(f.values[static_cast<Eigen::Index>(i)]);
+            });
+          },
+          "Name to value.")
+      .def_property_readonly(
+          "units",
+          [](const FoundEffect& f) {
+            return by_parameter(
+                f, [&](std::size_t i) { return py::str(f.variant.parameters[i].unit); });
+          },
+          "Name to unit.")
+      .def_property_readonly(
+          "scales",
+          [](const FoundEffect& f) {
+            return by_parameter(
+                f, [&](std::size_t i) { return py::float_(f.variant.parameters[i].scale); });
+          },
+          "Name to an ordinary size.")
+      .def_property_readonly("cause", [](const FoundEffect& f) { return f.variant.cause; })
+      .def("__repr__", &repr_of);
+}
+
+}  // namespace
+
+void bind_effects(py::module_& module) {
+  bind_effect_rows(module);
+  bind_effect(module);
+  bind_found_effect(module);
+  module.def(
+      "library_effects",
+      [] {
+        std::vector<std::shared_ptr<Effect>> effects;
+        for (const std::shared_ptr<const Effect>& effect : library_effects()) {
+          effects.push_back(std::const_pointer_cast<Effect>(effect));
+        }
+        return effects;
+      },
+      "The effects of the library, in a fixed order (bathyal.effects.list).");
+}
+
+}  // namespace bathyal::python

@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <utility>
+
+#include "arrays.hpp"
+#include "bathyal/base/check.hpp"
+#include "effects_docs.hpp"
+#include "effects_parts.hpp"
+#include "identify_parts.hpp"
+
+namespace bathyal::python {
+namespace {
+
+/// What a user's function looks at. It owns all of it: the function may keep it.
+struct EffectRows {
+  explicit EffectRows(const EffectData& data)
+      : arm(py::cast(*data.arm)),
+        q(to_numpy(data.q)),
+        gravity(to_numpy(data.gravity)),
+        order(to_numpy(data.order)),
+        has_rotation(data.has_rotation),
+        recording(data.recording) {
+    for (const auto& [name, values] : data.covariates) {
+      covariates[py::str(name)] =
+          values.cols() == 1
+              ? to_numpy(std::vector<double>(values.data(), values.data() + values.size()))
+              : to_numpy(values);
+    }
+  }
+
+  py::object arm;
+  py::array q, gravity, order;
+  py::dict covariates;
+  bool has_rotation, recording;
+};
+
+/// A function that may be let go of by any thread.
+class Function {
+ public:
+  explicit Function(py::function function) : function_(std::move(function)) {}
+  Function(const Function&) = delete;
+  Function& operator=(const Function&) = delete;
+  ~Function() {
+    if (Py_IsInitialized() == 0) {
+      function_.release();  // the interpreter is gone, and all that it held
+      return;
+    }
+    const py::gil_scoped_acquire gil;
+    function_ = py::function();
+  }
+  const py::function& get() const { return function_; }
+
+ private:
+  py::function function_;
+};
+
+/// Whether a covariate was told in every row and differs from row to row.
+bool changes(const EffectData& data, const std::string& name) {
+  const auto found = data.covariates.find(name);
+  if (found == data.covariates.end() || !found->second.allFinite()) return false;
+  const RowMatrix& values = found->second;
+  return (values.rowwise() - values.row(0)).cwiseAbs().maxCoeff() > 0.0;
+}
+
+class PythonEffect final : public Effect {
+ public:
+  PythonEffect(UserEffect told, py::function function)
+      : told_(std::move(told)), function_(std::move(function)) {}
+
+  EffectInfo info() const override { return told_.info; }
+
+  std::vector<EffectVariant> variants(const EffectData& data) const override {
+    const bool seen = std::all_of(told_.info.needs.begin(), told_.info.needs.end(),
+                                  [&](const std::string& name) { return changes(data, name); });
+    std::vector<EffectVariant> variants;
+    if (!seen) return variants;
+    if (told_.site != UserSite::kJoint) {
+      variants.push_back(variant_of(-1));
+    } else if (told_.each_joint) {
+      for (int j = 0; j < static_cast<int>(data.q.cols()); ++j) variants.push_back(variant_of(j));
+    } else {
+      for (const int joint : told_.joints) {
+        if (joint >= static_cast<int>(data.q.cols())) {
+          throw_argument(name(), "joints from 0 to " + std::to_string(data.q.cols() - 1),
+                         std::to_string(joint));
+        }
+        variants.push_back(variant_of(joint));
+      }
+    }
+    return variants;
+  }
+
+  std::vector<std::vector<Action>> actions(const EffectVariant& variant,
+                                           const EffectData& data) const override {
+    const py::gil_scoped_acquire gil;
+    const Index parameters = static_cast<Index>(told_.parameters.size());
+    const Index width = is_frame() ? 6 : 1;
+    const RowMatrix numbers = call(variant, data, parameters, width);
+    std::vector<std::vector<Action>> actions;
+    for (Index p = 0; p < parameters; ++p) {
+      actions.push_back({site_of(variant, *data.arm)});
+      actions.back().front().values = numbers.middleCols(p * width, width);
+    }
+    return actions;
+  }
+
+ private:
+  std::string name() const { return "effect " + told_.info.name; }
+  bool is_frame() const { return told_.site == UserSite::kBase || told_.site == UserSite::kTool; }
+
+  EffectVariant variant_of(int joint) const {
+    EffectVariant variant;
+    variant.effect = told_.info.name;
+    variant.joint = joint;
+    variant.parameters = told_.parameters;
+    variant.cause = joint < 0 ? told_.info.name : told_.info.name + " " + std::to_string(joint);
+    return variant;
+  }
+
+  Action site_of(const EffectVariant& variant, const Arm& arm) const {
+    switch (told_.site) {
+      case UserSite::kJoint:
+        return {Site::kJoint, variant.joint, {}};
+      case UserSite::kBase:
+        return {Site::kFrame, 0, {}};
+      case UserSite::kTool:
+        return {Site::kFrame, static_cast<int>(arm.joints().size()) + 1, {}};
+      case UserSite::kLengths:
+        break;
+    }
+    return {Site::kLength, 0, {}};
+  }
+
+  /// (N, parameters · width), the numbers of one parameter beside each other.
+  RowMatrix call(const EffectVariant& variant, const EffectData& data, Index parameters,
+                 Index width) const {
+    py::object result;
+    try {
+      const py::object rows = py::cast(EffectRows(data));
+      result = told_.site == UserSite::kJoint ? function_.get()(rows, variant.joint)
+                                              : function_.get()(rows);
+    } catch (const py::error_already_set& error) {
+      if (!error.matches(PyExc_Exception)) throw;  // an interrupt is the caller's own
+      throw Error(name() + ": its function raised " + error.what());
+    }
+    return numbers_of(result, data.rows(), parameters, width);
+  }
+
+  RowMatrix numbers_of(const py::object& result, Index rows, Index parameters, Index width) const {
+    const std::string tail = width == 1 ? "" : ", " + std::to_string(width);
+    const std::string expected = "real numbers of shape (" + std::to_string(rows) + ", " +
+                                 std::to_string(parameters) + tail + ")";
+    const py::array array = py::array::ensure(result);
+    const bool real =
+        array && std::string_view("fiu").find(array.dtype().kind()) != std::string_view::npos;
+    if (!real) {
+      PyErr_Clear();
+      throw_argument(name(), expected,
+                     array ? "dtype " + py::str(array.dtype()).cast<std::string>()
+                           : py::str(py::type::of(result).attr("__name__")).cast<std::string>());
+    }
+    std::vector<Index> wanted{rows};
+    // Of one parameter its own dimension may be left out.
+    const bool alone = parameters == 1 && array.ndim() == (width == 1 ? 1 : 2);
+    if (!alone) wanted.push_back(parameters);
+    if (width > 1) wanted.push_back(width);
+    const std::vector<Index> shape(array.shape(), array.shape() + array.ndim());
+    if (shape != wanted) {
+      throw_argument(name(), expected, "shape " + py::str(array.attr("shape")).cast<std::string>());
+    }
+    const auto numbers = py::array_t<double, py::array::c_style | py::array::forcecast>(array);
+    RowMatrix table = Eigen::Map<const RowMatrix>(numbers.data(), rows, parameters * width);
+    if (!table.allFinite()) {
+      Index row = 0;
+      while (table.row(row).allFinite()) ++row;
+      throw_argument(name(), "finite numbers", "others in row " + std::to_string(row));
+    }
+    return table;
+  }
+
+  UserEffect told_;
+  Function function_;
+};
+
+void check(const UserEffect& told) {
+  if (told.info.name.empty()) throw_argument("name", "a name", "none");
+  const std::string name = "effect " + told.info.name;
+  if (told.parameters.empty()) throw_argument(name, "one parameter or more", "none");
+  for (const EffectParameter& parameter : told.parameters) {
+    check_positive(name + " scale of " + parameter.name, parameter.scale);
+  }
+  const bool joints = told.each_joint || !told.joints.empty();
+  if (joints != (told.site == UserSite::kJoint)) {
+    throw_argument(name, "`joints` where its site is \"joint\", and there alone",
+                   joints ? "joints of another site" : "none");
+  }
+  for (const int joint : told.joints) {
+    if (joint < 0) throw_argument(name, "joints from 0", std::to_string(joint));
+  }
+}
+
+}  // namespace
+
+std::shared_ptr<Effect> make_python_effect(UserEffect told, py::function function) {
+  check(told);
+  return std::make_shared<PythonEffect>(std::move(told), std::move(function));
+}
+
+void bind_effect_rows(py::module_& module) {
+  py::class_<EffectRows>(module, "EffectRows", kEffectRowsDoc)
+      .def_readonly("arm", &EffectRows::arm, "Arm: rows as far as they are known, and masses.")
+      .def_readonly("q", &EffectRows::q, "(N, n) as recorded [rad] or [m].")
+      .def_readonly("covariates", &EffectRows::covariates, "Name to (N,) or (N, k) array.")
+      .def_readonly("gravity", &EffectRows::gravity, "(N, 3) [m/s²], in the arm's base frame.")
+      .def_readonly("order", &EffectRows::order, "(N,) rows in the order in which they were taken.")
+      .def_readonly("has_rotation", &EffectRows::has_rotation,
+                    "Whether orientations were measured too.")
+      .def_readonly("recording", &EffectRows::recording,
+                    "Whether the rows follow each other in time; else each is a pose by itself.")
+      .def("__len__", [](const EffectRows& rows) { return rows.q.shape(0); });
+}
+
+}  // namespace bathyal::python

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bathyal/diagnosis/diagnose.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+
+#include "bathyal/arm/dh.hpp"
+#include "bathyal/arm/row_frames.hpp"
+#include "bathyal/base/random.hpp"
+
+namespace bathyal {
+namespace {
+
+Arm six_joints() {
+  constexpr double kQuarter = std::numbers::pi / 2.0;
+  DhTable table;
+  table.rows = {{0.0, kQuarter, 0.1273, 0.0},     {-0.612, 0.0, 0.0, 0.0},
+                {-0.5723, 0.0, 0.0, 0.0},         {0.0, kQuarter, 0.163941, 0.0},
+                {0.0, -kQuarter, 0.1157, 0.0},    {0.0, 0.0, 0.0922, 0.0}};
+  table.types.assign(6, JointType::kRevolute);
+  return arm_from_dh(table);
+}
+
+/// Poses, and where the tip of an arm with an error in joint 1 was seen.
+Tracked wavy(double size, double noise, Index rows) {
+  const Arm arm = six_joints();
+  Tracked out;
+  out.q = RowMatrix(rows, 6);
+  out.position = RowMatrix(rows, 3);
+  for (Index i = 0; i < rows; ++i) {
+    RandomStream random(3, static_cast<std::uint64_t>(i));
+    for (Index j = 0; j < 6; ++j) out.q(i, j) = random.uniform(-2.0, 2.0);
+    Eigen::VectorXd q = out.q.row(i);
+    q[1] += size * std::cos(2.0 * q[1]);
+    const RowFrames frames = row_frames(arm, {q.data(), 6});
+    for (Index axis = 0; axis < 3; ++axis) {
+      out.position(i, axis) =
+          frames.world_from_tool.translation()[axis] + noise * random.normal();
+    }
+  }
+  return out;
+}
+
+TEST(Diagnose, NamesAnEccentricEncoder) {
+  const Diagnosis found = diagnose(six_joints(), wavy(1e-3, 1e-4, 150));
+  for (const auto& e : found.effects) std::printf("%s %d size %g gain %g p %g\n", e.name.c_str(), e.joint, e.size, e.gain, e.p_value);
+  for (const auto& e : found.ambiguous) std::printf("  rival %s %g\n", e.words.c_str(), e.odds);
+  ASSERT_EQ(found.verdict, Verdict::kNamed);
+  ASSERT_EQ(found.effects.size(), 1u);
+  EXPECT_EQ(found.effects[0].joint, 1);
+}
+
+TEST(Diagnose, CleanDataAreClean) {
+  const Diagnosis found = diagnose(six_joints(), wavy(0.0, 1e-4, 150));
+  EXPECT_EQ(found.verdict, Verdict::kClean);
+}
+
+}  // namespace
+}  // namespace bathyal
