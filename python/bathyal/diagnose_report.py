@@ -70,7 +70,7 @@ class Diagnosed:
             what: f"{len(self.data):,}",
             "recorded beside": covariates,
             "geometry alone": f"{length_text(self.report.fit.rms_after)} (rms, 3-D, fitted)",
-            "noise": f"{length_text(self.report.noise)} per axis, {self.report.noise_source}",
+            "noise": f"{length_text(self.report.noise)} per axis, by {self.report.noise_source}",
             "made by": f"bathyal {version('bathyal')}",
         }
 

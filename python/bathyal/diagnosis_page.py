@@ -37,14 +37,17 @@ from bathyal.diagnosis_numbers import (
 )
 from bathyal.diagnosis_panels import MOST_MARKS, MOST_PARTS
 from bathyal.diagnosis_style import PAGE
-from bathyal.diagnosis_tables import supports
+from bathyal.diagnosis_tables import against_text, supports
 from bathyal.diagnosis_words import (
     SIGNIFICANT,
     VERDICTS,
     amplitude_text,
+    groups_of,
     headline,
+    is_of_noise,
     leftover_text,
     next_steps,
+    noise_evidence,
     summary,
 )
 from bathyal.files import PathLike, replacing
@@ -153,9 +156,10 @@ def _tiles(report: Diagnosis) -> str:
     tiles = []
     if report.verdict == "clean":
         least = min((s.p_value for s in report.shown), default=math.nan)
+        chance = chance_text(least) if math.isfinite(least) else f"p > {SIGNIFICANT}"
         tiles += [
             (length_text(report.detectable), "per axis would have been seen"),
-            (chance_text(least), "for the most suspect structure"),
+            (chance, "for the most suspect structure"),
             (length_text(held.rms_before), "error on data held out (3-D rms)"),
         ]
     elif report.verdict == "none":
@@ -169,7 +173,7 @@ def _tiles(report: Diagnosis) -> str:
         ]
     if report.verdict == "unknown" and report.leftover is not None:
         tiles.append((length_text(report.leftover.size), "per axis has no name"))
-    tiles.append((length_text(report.noise), f"noise per axis: {report.noise_source}"))
+    tiles.append((length_text(report.noise), f"noise per axis, by {report.noise_source}"))
     return "".join(
         f"<div><b>{html.escape(value)}</b><span>{html.escape(words)}</span></div>"
         for value, words in tiles
@@ -199,10 +203,10 @@ def _marks_text(report: Diagnosis) -> str:
 def _structures(report: Diagnosis) -> str:
     shown = sorted(report.shown, key=lambda s: (s.p_value, -s.size))
     if not shown:
-        return "<p>No structure was looked for.</p>"
+        return f"<p>No structure that was looked for has a chance below {SIGNIFICANT}.</p>"
     rows = [
         (
-            s.against, length_text(s.size), share_text(s.share), chance_text(s.p_value),
+            against_text(s), length_text(s.size), share_text(s.share), chance_text(s.p_value),
             s.words, "strong" if s.p_value < SIGNIFICANT else "weak",
         )
         for s in shown
@@ -225,27 +229,53 @@ def _causes(report: Diagnosis) -> str:
             else "Nothing in the library explains it."  # fmt: skip
         parts.append(f"<p>{partial}</p>")
     if report.ambiguous:
-        parts.append("<p>Each of these explains the data as well as they can tell:</p>")
-        parts.append(_rivals(report.ambiguous))
+        parts.append("<p>The data cannot tell apart:</p>")
+        parts += [f"<div class='card'>{_rivals(group)}</div>" for group in groups_of(report)]
     parts += [_card(effect) for effect in report.effects]
     return "".join(parts)
 
 
 def _card(effect: Any) -> str:
     """A cause: its numbers to the left, the evidence to the right."""
-    settings = [setting_text(name, float(estimate.value))
-                for name, estimate in effect.parameters.items() if is_setting(name)]  # fmt: skip
+    numbers_of = effect.parameters.items()
+    told = [setting_text(name, float(one.value)) for name, one in numbers_of if is_setting(one)]
+    settings = [text for text in told if text]
     amplitude = amplitude_text(effect)
     rows = [("amplitude", amplitude)] if amplitude else []
-    rows += [(parameter_name(name), estimate_text(name, estimate))
-             for name, estimate in effect.parameters.items() if not is_setting(name)]  # fmt: skip
+    rows += [
+        (parameter_name(name), estimate_text(name, one))
+        for name, one in numbers_of
+        if not is_setting(one)
+    ]
     numbers = _table(("", "value (95 % interval)"), rows) if rows else ""
     if len(effect.rows):
         listed = ", ".join(str(row) for row in effect.rows[:_MOST_OUTLIERS])
         rest = len(effect.rows) - _MOST_OUTLIERS
         listed += f" and {rest:,} more" if rest > 0 else ""
         numbers += f"<p>Rows, counted from 0: {listed}</p>"
-    evidence = _table(
+    evidence = _evidence(effect)
+    name = f"<code>{html.escape(effect.name)}</code>"
+    form = f" · {html.escape(', '.join(settings))}" if settings else ""
+    bar = "" if is_of_noise(effect) else _bar(effect.gain)
+    words = html.escape(effect.words[:1].upper() + effect.words[1:])
+    rivals = "Rivals for what it explains:" if effect.rivals else "No rival comes near."
+    rivals = "" if is_of_noise(effect) else rivals
+    return (
+        f"<div class='card'><h3>{words}</h3><p class='small'>{name}{form}</p>"
+        f"{bar}<div class='sides'><div>{numbers}</div><div>{evidence}</div></div>"
+        f"<p class='small'>{rivals}</p>{_rivals(effect.rivals)}</div>"
+    )
+
+
+def _bar(share: float) -> str:
+    wide = 100 * min(max(share, 0.0), 1.0) if math.isfinite(share) else 0.0
+    return f"<div class='gain'><i style='width:{wide:.1f}%'></i></div>"
+
+
+def _evidence(effect: Any) -> str:
+    if is_of_noise(effect):
+        return f"<p>{html.escape(noise_evidence(effect))}</p>"
+    return _table(
         ("evidence", ""),
         [
             ("of the variance above noise, held out", share_text(effect.gain)),
@@ -254,17 +284,6 @@ def _card(effect: Any) -> str:
             ("moves the tip, per axis", length_text(effect.size)),
             ("chance", chance_text(effect.p_value)),
         ],
-    )
-    name = f"<code>{html.escape(effect.name)}</code>"
-    told = f" · {html.escape(', '.join(settings))}" if settings else ""
-    bar = 100 * min(max(effect.gain, 0.0), 1.0) if math.isfinite(effect.gain) else 0.0
-    words = html.escape(effect.words[:1].upper() + effect.words[1:])
-    rivals = "Rivals for what it explains:" if effect.rivals else "No rival comes near."
-    return (
-        f"<div class='card'><h3>{words}</h3><p class='small'>{name}{told}</p>"
-        f"<div class='gain'><i style='width:{bar:.1f}%'></i></div>"
-        f"<div class='sides'><div>{numbers}</div><div>{evidence}</div></div>"
-        f"<p class='small'>{rivals}</p>{_rivals(effect.rivals)}</div>"
     )
 
 

@@ -5,6 +5,7 @@ binned; the curve of each joint effect; where the data lie."""
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
@@ -113,6 +114,9 @@ def quantities(report: Diagnosis) -> list[Quantity]:
     place = positions(report)
     found += [Quantity(axis, axis, "m", place[:, k]) for k, axis in enumerate("xyz")]
     found += _covariates(report.data.covariates)
+    if "time" not in report.data.covariates:
+        rows = np.arange(len(report.data), dtype=float)
+        found.append(Quantity("the order of the rows", "row", "", rows))
     return [one for one in found if np.ptp(one.values) > 0]
 
 
@@ -138,19 +142,36 @@ def _covariates(covariates: dict[str, Any]) -> Iterator[Quantity]:
             yield Quantity(told, told, _UNITS.get(name, ""), columns[:, k])
 
 
+def against_text(structure: Any) -> str:
+    """What a structure goes with. One that has the shape of an effect goes with what that effect
+    needs: "joint 3" of a wave along it."""
+    told = str(structure.against)
+    if told not in _EFFECTS_GO_WITH and not told.startswith("joint_"):
+        return told
+    joint = re.search(r"\bjoint \d+", structure.words)
+    return _EFFECTS_GO_WITH.get(told) or (joint[0] if joint else told)
+
+
+_EFFECTS_GO_WITH = {
+    "base_shift": "session", "tool_change": "session", "tool_slip": "time", "drift": "time",
+    "clock_shift": "time", "thermal": "temperature", "payload": "the load of gravity",
+    "base_compliance": "the load of gravity", "link_compliance": "", "backlash": "",
+}  # fmt: skip
+
+
 def concerns(structure: Any, quantity: Quantity) -> bool:
     """Whether a structure is one against this quantity alone: "joint 3", "time, period 12.1 s",
-    "position z"."""
-    against = structure.against.split(",")[0].strip().lower()
+    "position"."""
+    against = against_text(structure).split(",")[0].strip().lower()
     key = quantity.key.lower()
     if key in ("x", "y", "z"):
-        return against in (key, f"position {key}", "position", "measured position")
+        return against in (key, f"position {key}", "position")
     return bool(against == key)
 
 
 def pair_of(structure: Any, known: list[Quantity]) -> tuple[Quantity, Quantity] | None:
     """The two quantities of a structure against a pair, "joints 2 and 3"; None for others."""
-    against = structure.against.split(",")[0].strip().lower()
+    against = against_text(structure).split(",")[0].strip().lower()
     sides = against.split(" and ")
     if len(sides) != 2:
         return None
@@ -217,7 +238,7 @@ def joint_curve(report: Diagnosis, effect: Any) -> JointCurve | None:
         along = round(float(effect.parameters["by"].value))
     q = np.asarray(data.q)[:, along]
     place = np.linspace(q.min(), q.max(), _CURVE)
-    terms = _TERMS[effect.name](effect, place, slides)
+    terms = _TERMS[effect.name](effect, place)
     if terms is None:
         return None
     middle = sum((float(p.value) * basis for p, basis in terms), np.zeros(_CURVE))
@@ -241,7 +262,7 @@ def joint_curve(report: Diagnosis, effect: Any) -> JointCurve | None:
 Terms = list[tuple[Any, Floats]]
 
 
-def _harmonic(effect: Any, q: Floats, slides: bool) -> Terms | None:
+def _harmonic(effect: Any, q: Floats) -> Terms | None:
     numbers = effect.parameters
     if not {"order", "cos", "sin"} <= numbers.keys():
         return None
@@ -249,9 +270,10 @@ def _harmonic(effect: Any, q: Floats, slides: bool) -> Terms | None:
     return [(numbers["cos"], np.cos(phase)), (numbers["sin"], np.sin(phase))]
 
 
-def _map(effect: Any, q: Floats, slides: bool) -> Terms | None:
-    """A sliding joint's map is told over 1.5 times the way that was measured."""
-    base = 2 * math.pi / (1.5 * float(np.ptp(q))) if slides else 1.0
+def _map(effect: Any, q: Floats) -> Terms | None:
+    if "wave" not in effect.parameters:
+        return None
+    base = float(effect.parameters["wave"].value)
     terms = []
     for name, number in effect.parameters.items():
         kind, _, order = name.partition("_")
@@ -261,11 +283,11 @@ def _map(effect: Any, q: Floats, slides: bool) -> Terms | None:
     return terms or None
 
 
-def _scale(effect: Any, q: Floats, slides: bool) -> Terms | None:
+def _scale(effect: Any, q: Floats) -> Terms | None:
     return [(effect.parameters["scale"], q)] if "scale" in effect.parameters else None
 
 
-def _coupling(effect: Any, q: Floats, slides: bool) -> Terms | None:
+def _coupling(effect: Any, q: Floats) -> Terms | None:
     return [(effect.parameters["ratio"], q)] if "ratio" in effect.parameters else None
 
 

@@ -22,6 +22,7 @@ from bathyal.diagnosis_numbers import (
     shown_unit,
     spaced,
 )
+from bathyal.diagnosis_tables import against_text
 
 if TYPE_CHECKING:
     from bathyal._core import Diagnosis
@@ -76,7 +77,8 @@ def headline(report: Diagnosis) -> str:
     if report.verdict == "named":
         return f"{title}: {_causes(report.effects)}."
     if report.verdict == "ambiguous" and report.ambiguous:
-        return f"{title}: {_any_of(report.ambiguous)}."
+        told = [_list([cause.words for cause in group], last=" or ") for group in groups_of(report)]
+        return f"{title}: {_list(told, '; ')}."
     if report.verdict == "unknown":
         return f"{title}: something is there that no cause of the library explains."
     if report.verdict == "clean":
@@ -84,17 +86,42 @@ def headline(report: Diagnosis) -> str:
     return f"{title}: {_lower(VERDICTS[report.verdict][1])}"
 
 
+def groups_of(report: Diagnosis) -> list[list[Any]]:
+    """Causes that the data cannot tell apart, group by group: each begins with the one that was
+    chosen."""
+    chosen = {_key(effect) for effect in report.effects}
+    groups: list[list[Any]] = []
+    for cause in report.ambiguous:
+        if not groups or _key(cause) in chosen:
+            groups.append([])
+        groups[-1].append(cause)
+    return groups
+
+
+def settled(report: Diagnosis) -> list[Any]:
+    """Causes that have no rival among those that cannot be told apart."""
+    doubtful = {_key(cause) for cause in report.ambiguous}
+    return [effect for effect in report.effects if _key(effect) not in doubtful]
+
+
+def _key(cause: Any) -> tuple[str, int | None, str]:
+    return cause.name, cause.joint, cause.words
+
+
 def effect_text(effect: Any) -> str:
-    """A cause with its numbers: "a harmonic of order 2 along joint 3 (amplitude 0.03°, …)"."""
-    if effect.rows:
+    """A cause with its numbers: "a wave of order 2 along joint 3 with amplitude 0.03°, …"."""
+    if len(effect.rows):
         return f"{effect.words} ({_rows(effect.rows)})"
-    told = [f"{parameter_name(name)} {estimate_text(name, estimate)}"
-            for name, estimate in effect.parameters.items() if not is_setting(name)]  # fmt: skip
+    told = [
+        f"{parameter_name(name)} {estimate_text(name, estimate)}"
+        for name, estimate in effect.parameters.items()
+        if not is_setting(estimate)
+    ]
     rest = len(told) - _MOST_PARAMETERS
     told = told[:_MOST_PARAMETERS] + ([_count(rest, "more number")] if rest > 0 else [])
     amplitude = amplitude_text(effect)
     told = [f"amplitude {amplitude}", *told] if amplitude else told
-    return f"{effect.words} ({', '.join(told)})" if told else str(effect.words)
+    return f"{effect.words} with {', '.join(told)}" if told else str(effect.words)
 
 
 def amplitude_text(effect: Any) -> str:
@@ -124,7 +151,15 @@ def evidence_texts(report: Diagnosis) -> list[str]:
     return [_sentence(_evidence(effect)) for effect in report.effects]
 
 
+def is_of_noise(effect: Any) -> bool:
+    """Whether a cause works on the noise, or on single rows, and takes nothing from the error
+    held out: likelihood judges it."""
+    return effect.name in ("outliers", "range_noise", "quantisation")
+
+
 def _evidence(effect: Any) -> str:
+    if is_of_noise(effect):
+        return f"{_upper(effect.words)}: {noise_evidence(effect)}"
     text = (
         f"{_upper(effect.words)}: {share_text(effect.gain)} of the variance above noise on data "
         f"held out ({length_text(effect.held_out_before)} without it, "
@@ -134,6 +169,13 @@ def _evidence(effect: Any) -> str:
         return text
     best = max(effect.rivals, key=lambda rival: rival.odds)
     return f"{text}; next best: {best.words}, {odds_text(best.odds)}"
+
+
+def noise_evidence(effect: Any) -> str:
+    """Why a cause that works on the noise was named."""
+    if len(effect.rows):
+        return "so far off that noise does not make them"
+    return f"the log likelihood of data held out gains {figures(effect.gain)}"
 
 
 def leftover_text(report: Diagnosis) -> str:
@@ -167,31 +209,41 @@ def significant(shown: Iterable[Any]) -> list[Any]:
 
 
 def _named(report: Diagnosis) -> list[str]:
-    return [_told(report, VERDICTS["named"][0]), gain_text(report), leftover_text(report)]
+    return [_told(report.effects, VERDICTS["named"][0]), gain_text(report), leftover_text(report)]
 
 
 def _clean(report: Diagnosis) -> list[str]:
-    parts = [f"Clean: {len(report.data):,} poses show nothing beyond noise that geometry does not "
-             "explain"]  # fmt: skip
     least = min(report.shown, key=lambda s: s.p_value, default=None)
-    if least is not None:
-        parts.append(f"the most suspect, against {least.against}, has {chance_text(least.p_value)}")
+    suspect = (
+        f"no structure that was looked for has a chance below {SIGNIFICANT}, all tests counted"
+        if least is None
+        else f"the most suspect, against {against_text(least)}, has {chance_text(least.p_value)}"
+    )
     held = report.held_out
     return [
-        f"{'; '.join(parts)}.",
+        f"Clean: {len(report.data):,} poses show nothing beyond noise that geometry does not "
+        f"explain; {suspect}.",
         f"What moves the tip by {length_text(report.detectable)} or more per axis would have been "
-        f"seen; noise is {length_text(report.noise)} per axis ({_bare(report.noise_source)}).",
+        f"seen; {noise_text(report)}.",
         f"Geometry alone foretells data that were held out to {length_text(held.rms_before)} "
         f"(3-D rms), with a floor of {length_text(held.noise)} by noise.",
     ]
 
 
+def noise_text(report: Diagnosis) -> str:
+    """How large the noise is, and by what."""
+    return f"noise is {length_text(report.noise)} per axis, by {_bare(report.noise_source)}"
+
+
 def _ambiguous(report: Diagnosis) -> list[str]:
-    first, *others = report.ambiguous
-    odds = [first.words, *(f"{cause.words} ({odds_text(cause.odds)})" for cause in others)]
-    either = f"Ambiguous, these data cannot tell apart: {_list(odds, '; ', ' or ')}."
-    told = _told(report, "Named beside them") if report.effects else ""
-    return [either, told, gain_text(report), leftover_text(report)]
+    told = []
+    for first, *others in groups_of(report):
+        odds = [first.words, *(f"{cause.words} ({odds_text(cause.odds)})" for cause in others)]
+        told.append(_list(odds, ", ", " or "))
+    either = f"Ambiguous, these data cannot tell apart: {_list(told, '; ')}."
+    sure = settled(report)
+    return [either, _told(sure, "Beside them stands" if len(sure) == 1 else "Beside them stand"),
+            gain_text(report), leftover_text(report)]  # fmt: skip
 
 
 def _unknown(report: Diagnosis) -> list[str]:
@@ -216,7 +268,7 @@ def _unknown(report: Diagnosis) -> list[str]:
     return [
         headline(report),
         f"{looks}." if looks else "",
-        _told(report, "A part of it may be"),
+        _told(report.effects, "A part of it may be"),
         "A cause that explains a part is not the cause.",
         gain_text(report),
     ]
@@ -243,10 +295,14 @@ _FOUND = {
 }
 
 
-def _told(report: Diagnosis, how: str) -> str:
-    """The causes with their numbers."""
-    effects = list(report.effects)
-    told = [f"{effect_text(e)}, {length_text(e.size)} per axis" for e in effects[:_MOST_TOLD]]
+def _told(effects: Sequence[Any], how: str) -> str:
+    """Causes with their numbers."""
+    told = [
+        f"{effect_text(e)} (moves the tip by {length_text(e.size)} per axis)"
+        if not is_of_noise(e)
+        else effect_text(e)
+        for e in effects[:_MOST_TOLD]
+    ]
     if len(effects) > _MOST_TOLD:
         told.append(f"{len(effects) - _MOST_TOLD} more with smaller numbers")
     return f"{how}: {_list(told, '; ')}." if told else ""
@@ -288,7 +344,7 @@ def _after_ambiguous(report: Diagnosis) -> list[str]:
 
 def _after_unknown(report: Diagnosis) -> list[str]:
     left = report.leftover
-    against = left.against if left is not None else ""
+    against = against_text(left) if left is not None else ""
     where = _where_to_look(against)
     return [
         _not_recorded(report) or where,
@@ -323,7 +379,14 @@ def _where_to_look(against: str) -> str:
             "It goes with time: look for what runs in that rhythm (a pump, a machine, the sun), "
             "and measure the same poses again at another hour."
         )
-    if against.startswith(("position", "x", "y", "z")):
+    if against.startswith("the order of the rows"):
+        return "It goes with the order of the rows: record the time, and measure in another order."
+    if against.startswith("the last move"):
+        return (
+            "It goes with the side from which a joint came: record `direction`, and approach each "
+            "pose from both sides."
+        )
+    if against.startswith("position"):
         return (
             "It goes with the place: check the instrument's own field with a body of known size, "
             "or measure the same places from another station."
@@ -363,12 +426,6 @@ def _causes(effects: Sequence[Any]) -> str:
     told = [str(effect.words) for effect in effects[:_MOST_TOLD]]
     rest = len(effects) - len(told)
     return _list(told + ([f"{rest} more"] if rest else []), "; ") if told else "no cause"
-
-
-def _any_of(causes: Sequence[Any]) -> str:
-    told = [str(cause.words) for cause in causes[:_MOST_TOLD]]
-    rest = len(causes) - len(told)
-    return _list(told + ([f"one of {rest} more"] if rest else []), last=" or ")
 
 
 def _list(texts: Sequence[str], between: str = ", ", last: str = " and ") -> str:
