@@ -11,6 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
+from bathyal.diagnosis_curves import JointCurve, joint_curve
 from bathyal.diagnosis_panels import (
     MOST_PARTS,
     draw_against,
@@ -23,11 +24,9 @@ from bathyal.diagnosis_panels import (
     plain,
 )
 from bathyal.diagnosis_tables import (
-    JointCurve,
     Quantity,
     Residuals,
     concerns,
-    joint_curve,
     pair_of,
     quantities,
     residuals_of,

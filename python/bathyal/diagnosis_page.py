@@ -7,13 +7,15 @@ import base64
 import html
 import io
 import math
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any
 
 import matplotlib
 import numpy as np
 from matplotlib.figure import Figure
 
+from bathyal.diagnosis_advice import next_steps
+from bathyal.diagnosis_cards import causes_of, table
 from bathyal.diagnosis_figure import (
     MOST_CURVES,
     VERDICT_SIGNS,
@@ -27,12 +29,7 @@ from bathyal.diagnosis_figure import (
 )
 from bathyal.diagnosis_numbers import (
     chance_text,
-    estimate_text,
-    is_setting,
     length_text,
-    odds_text,
-    parameter_name,
-    setting_text,
     share_text,
 )
 from bathyal.diagnosis_panels import MOST_MARKS, MOST_PARTS
@@ -41,13 +38,8 @@ from bathyal.diagnosis_tables import against_text, supports
 from bathyal.diagnosis_words import (
     SIGNIFICANT,
     VERDICTS,
-    amplitude_text,
-    groups_of,
     headline,
-    is_of_noise,
     leftover_text,
-    next_steps,
-    noise_evidence,
     summary,
 )
 from bathyal.files import PathLike, replacing
@@ -55,8 +47,6 @@ from bathyal.palette import AFTER, GAP, INK, VERDICT_COLOURS
 
 if TYPE_CHECKING:
     from bathyal._core import Diagnosis
-
-_MOST_OUTLIERS = 200
 
 
 def write_page(
@@ -104,7 +94,7 @@ def write_page(
         facts=_facts(facts or {}),
         marks=_marks_text(report),
         structures=_structures(report),
-        causes=_causes(report),
+        causes=causes_of(report),
         curves_note=_curves_note(report),
         model=_model(report),
         beyond=_beyond(report),
@@ -212,91 +202,10 @@ def _structures(report: Diagnosis) -> str:
         for s in shown
     ]  # fmt: skip
     head = ("against", "size per axis", "of variance above noise", "chance", "what it looks like")
-    return _table(head, (row[:5] for row in rows), (row[5] for row in rows), kind="prose")
+    return table(head, (row[:5] for row in rows), (row[5] for row in rows), kind="prose")
 
 
-# Name ---------------------------------------------------------------------------------------------
-
-
-def _causes(report: Diagnosis) -> str:
-    parts = []
-    if report.verdict == "clean":
-        parts.append("<p>Nothing is beyond noise, so there is nothing to name.</p>")
-    if report.verdict == "none":
-        parts.append("<p>No data could be held out, so nothing is named.</p>")
-    if report.verdict == "unknown":
-        partial = "What follows explains a part, and a part is not the cause." if report.effects \
-            else "Nothing in the library explains it."  # fmt: skip
-        parts.append(f"<p>{partial}</p>")
-    if report.ambiguous:
-        parts.append("<p>The data cannot tell apart:</p>")
-        parts += [f"<div class='card'>{_rivals(group)}</div>" for group in groups_of(report)]
-    parts += [_card(effect) for effect in report.effects]
-    return "".join(parts)
-
-
-def _card(effect: Any) -> str:
-    """A cause: its numbers to the left, the evidence to the right."""
-    numbers_of = effect.parameters.items()
-    told = [setting_text(name, float(one.value)) for name, one in numbers_of if is_setting(one)]
-    settings = [text for text in told if text]
-    amplitude = amplitude_text(effect)
-    rows = [("amplitude", amplitude)] if amplitude else []
-    rows += [
-        (parameter_name(name), estimate_text(name, one))
-        for name, one in numbers_of
-        if not is_setting(one)
-    ]
-    numbers = _table(("", "value (95 % interval)"), rows) if rows else ""
-    if len(effect.rows):
-        listed = ", ".join(str(row) for row in effect.rows[:_MOST_OUTLIERS])
-        rest = len(effect.rows) - _MOST_OUTLIERS
-        listed += f" and {rest:,} more" if rest > 0 else ""
-        numbers += f"<p>Rows, counted from 0: {listed}</p>"
-    evidence = _evidence(effect)
-    name = f"<code>{html.escape(effect.name)}</code>"
-    form = f" · {html.escape(', '.join(settings))}" if settings else ""
-    bar = "" if is_of_noise(effect) else _bar(effect.gain)
-    words = html.escape(effect.words[:1].upper() + effect.words[1:])
-    rivals = "Rivals for what it explains:" if effect.rivals else "No rival comes near."
-    rivals = "" if is_of_noise(effect) else rivals
-    return (
-        f"<div class='card'><h3>{words}</h3><p class='small'>{name}{form}</p>"
-        f"{bar}<div class='sides'><div>{numbers}</div><div>{evidence}</div></div>"
-        f"<p class='small'>{rivals}</p>{_rivals(effect.rivals)}</div>"
-    )
-
-
-def _bar(share: float) -> str:
-    wide = 100 * min(max(share, 0.0), 1.0) if math.isfinite(share) else 0.0
-    return f"<div class='gain'><i style='width:{wide:.1f}%'></i></div>"
-
-
-def _evidence(effect: Any) -> str:
-    if is_of_noise(effect):
-        return f"<p>{html.escape(noise_evidence(effect))}</p>"
-    return _table(
-        ("evidence", ""),
-        [
-            ("of the variance above noise, held out", share_text(effect.gain)),
-            ("error held out without it", length_text(effect.held_out_before)),
-            ("error held out with it", length_text(effect.held_out_after)),
-            ("moves the tip, per axis", length_text(effect.size)),
-            ("chance", chance_text(effect.p_value)),
-        ],
-    )
-
-
-def _rivals(causes: Sequence[Any]) -> str:
-    if not causes:
-        return ""
-    rows = "".join(
-        f"<tr><td>{html.escape(cause.words)}</td><td class='odds'>"
-        f"<i style='width:{100 * min(max(cause.odds, 0.0), 1.0):.1f}%'></i></td>"
-        f"<td>{'the best' if cause.odds >= 1 else odds_text(cause.odds)}</td></tr>"
-        for cause in causes
-    )
-    return f"<table>{rows}</table>"
+# Name -------------------------------------------------------------------------------------------
 
 
 def _curves_note(report: Diagnosis) -> str:
@@ -334,7 +243,7 @@ def _beyond(report: Diagnosis) -> str:
         for one in supports(report)
         if one.share is None
     ]
-    return _table(("range", "from … to"), rows) if rows else ""
+    return table(("range", "from … to"), rows) if rows else ""
 
 
 # Measure the gain ---------------------------------------------------------------------------------
@@ -366,11 +275,11 @@ def _parts(report: Diagnosis) -> str:
         (part.name, f"{part.rows:,}", length_text(part.rms_before), length_text(part.rms_after))
         for part in held.parts
     ]
-    table = _table(("", "rows", "before", "after"), rows)
+    whole = table(("", "rows", "before", "after"), rows)
     if len(rows) <= MOST_PARTS:
-        return table
+        return whole
     note = f"All {len(held.parts):,} parts; the picture shows the first {MOST_PARTS}."
-    return f"<details><summary>{note}</summary>{table}</details>"
+    return f"<details><summary>{note}</summary>{whole}</details>"
 
 
 # Next ---------------------------------------------------------------------------------------------
@@ -390,21 +299,5 @@ def _poses(report: Diagnosis) -> str:
     rows = [[cell.replace("-", "−") for cell in row] for row in rows]
     return (
         "<h2>Poses to measure next</h2><p>Here the causes that are left differ most. Measure them "
-        f"as the others were, and diagnose again with all data together.</p>{_table(head, rows)}"
+        f"as the others were, and diagnose again with all data together.</p>{table(head, rows)}"
     )
-
-
-def _table(
-    head: Sequence[str],
-    rows: Iterable[Sequence[str]],
-    classes: Iterable[str] | None = None,
-    kind: str = "",
-) -> str:
-    titles = "".join(f"<th>{html.escape(title)}</th>" for title in head)
-    rows = list(rows)
-    of_rows = [""] * len(rows) if classes is None else list(classes)
-    body = "".join(
-        f"<tr class='{own}'>{''.join(f'<td>{html.escape(cell)}</td>' for cell in row)}</tr>"
-        for row, own in zip(rows, of_rows, strict=True)
-    )
-    return f"<table class='{kind}'><tr>{titles}</tr>{body}</table>"

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a diagnosis found, how surely, and what to do next, in sentences."""
+"""What a diagnosis found and how surely, in sentences; what to do: `diagnosis_advice`."""
 
 from __future__ import annotations
 
@@ -7,9 +7,8 @@ import math
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
-from bathyal._core import Touches
+from bathyal.diagnosis_advice import next_steps
+from bathyal.diagnosis_grammar import bare, counted, listed, lower, sentence, upper
 from bathyal.diagnosis_numbers import (
     chance_text,
     estimate_text,
@@ -40,15 +39,6 @@ SIGNIFICANT = 0.01
 _MOST_TOLD = 3  # causes, with their numbers, in the paragraph
 _MOST_PARAMETERS = 4  # of one cause, in the paragraph
 _MOST_ROWS = 10  # by number
-_NEAR = 0.1  # odds of a rival that is worth a word
-# What data without a covariate cannot show.
-_BLIND = {
-    "temperature": "growth with temperature",
-    "time": "drift, slips and clocks out of step",
-    "payload": "a load's share of what gives way",
-    "direction": "backlash",
-    "session": "a base or tool that moved between sessions",
-}
 
 
 def summary(report: Diagnosis, *, warnings: bool = True) -> str:
@@ -68,7 +58,7 @@ def summary(report: Diagnosis, *, warnings: bool = True) -> str:
     parts = [*_FOUND[report.verdict](report), *next_steps(report)[:2]]
     if warnings:
         parts += [f"Warning: {warning}" for warning in report.warnings]
-    return " ".join(_sentence(part) for part in parts if part)
+    return " ".join(sentence(part) for part in parts if part)
 
 
 def headline(report: Diagnosis) -> str:
@@ -77,13 +67,15 @@ def headline(report: Diagnosis) -> str:
     if report.verdict == "named":
         return f"{title}: {_causes(report.effects)}."
     if report.verdict == "ambiguous" and report.ambiguous:
-        told = [_list([cause.words for cause in group], last=" or ") for group in groups_of(report)]
-        return f"{title}: {_list(told, '; ')}."
+        told = [
+            listed([cause.words for cause in group], last=" or ") for group in groups_of(report)
+        ]
+        return f"{title}: {listed(told, '; ')}."
     if report.verdict == "unknown":
         return f"{title}: something is there that no cause of the library explains."
     if report.verdict == "clean":
         return f"{title}: nothing beyond noise."
-    return f"{title}: {_lower(VERDICTS[report.verdict][1])}"
+    return f"{title}: {lower(VERDICTS[report.verdict][1])}"
 
 
 def groups_of(report: Diagnosis) -> list[list[Any]]:
@@ -118,7 +110,7 @@ def effect_text(effect: Any) -> str:
         if not is_setting(estimate)
     ]
     rest = len(told) - _MOST_PARAMETERS
-    told = told[:_MOST_PARAMETERS] + ([_count(rest, "more number")] if rest > 0 else [])
+    told = told[:_MOST_PARAMETERS] + ([counted(rest, "more number")] if rest > 0 else [])
     amplitude = amplitude_text(effect)
     told = [f"amplitude {amplitude}", *told] if amplitude else told
     return f"{effect.words} with {', '.join(told)}" if told else str(effect.words)
@@ -137,7 +129,7 @@ def gain_text(report: Diagnosis) -> str:
     """What the causes bring on data that were not used."""
     held = report.held_out
     text = (
-        f"On data held out ({_bare(held.how)}; {_count(held.blocks, 'block')}) the error falls "
+        f"On data held out ({bare(held.how)}; {counted(held.blocks, 'block')}) the error falls "
         f"from {length_text(held.rms_before)} to {length_text(held.rms_after)} (3-D rms), with a "
         f"floor of {length_text(held.noise)} by noise"
     )
@@ -148,7 +140,7 @@ def gain_text(report: Diagnosis) -> str:
 
 def evidence_texts(report: Diagnosis) -> list[str]:
     """Of each cause a sentence: what it takes from data held out, and what else might do it."""
-    return [_sentence(_evidence(effect)) for effect in report.effects]
+    return [sentence(_evidence(effect)) for effect in report.effects]
 
 
 def is_of_noise(effect: Any) -> bool:
@@ -159,9 +151,9 @@ def is_of_noise(effect: Any) -> bool:
 
 def _evidence(effect: Any) -> str:
     if is_of_noise(effect):
-        return f"{_upper(effect.words)}: {noise_evidence(effect)}"
+        return f"{upper(effect.words)}: {noise_evidence(effect)}"
     text = (
-        f"{_upper(effect.words)}: {share_text(effect.gain)} of the variance above noise on data "
+        f"{upper(effect.words)}: {share_text(effect.gain)} of the variance above noise on data "
         f"held out ({length_text(effect.held_out_before)} without it, "
         f"{length_text(effect.held_out_after)} with it; {chance_text(effect.p_value)})"
     )
@@ -183,19 +175,14 @@ def leftover_text(report: Diagnosis) -> str:
     left = report.leftover
     if left is None or left.size <= 0 or left.p_value >= SIGNIFICANT:
         return "Nothing beyond noise is left over."
-    text = f"Left over: {_bare(left.words)}"
+    text = f"Left over: {bare(left.words)}"
     return f"{text} ({length_text(left.size)} per axis, {chance_text(left.p_value)})."
-
-
-def next_steps(report: Diagnosis) -> list[str]:
-    """What to do or to measure, the most important first."""
-    return [step for step in _NEXT[report.verdict](report) if step]
 
 
 def structure_text(shown: Any) -> str:
     """A dependence of the residuals, with its size and chance."""
     return (
-        f"{_bare(shown.words)} ({length_text(shown.size)} per axis, {share_text(shown.share)} of "
+        f"{bare(shown.words)} ({length_text(shown.size)} per axis, {share_text(shown.share)} of "
         f"the variance above noise, {chance_text(shown.p_value)})"
     )
 
@@ -232,15 +219,15 @@ def _clean(report: Diagnosis) -> list[str]:
 
 def noise_text(report: Diagnosis) -> str:
     """How large the noise is, and by what."""
-    return f"noise is {length_text(report.noise)} per axis, by {_bare(report.noise_source)}"
+    return f"noise is {length_text(report.noise)} per axis, by {bare(report.noise_source)}"
 
 
 def _ambiguous(report: Diagnosis) -> list[str]:
     told = []
     for first, *others in groups_of(report):
         odds = [first.words, *(f"{cause.words} ({odds_text(cause.odds)})" for cause in others)]
-        told.append(_list(odds, ", ", " or "))
-    either = f"Ambiguous, these data cannot tell apart: {_list(told, '; ')}."
+        told.append(listed(odds, ", ", " or "))
+    either = f"Ambiguous, these data cannot tell apart: {listed(told, '; ')}."
     sure = settled(report)
     return [either, _told(sure, "Beside them stands" if len(sure) == 1 else "Beside them stand"),
             gain_text(report), leftover_text(report)]  # fmt: skip
@@ -249,7 +236,7 @@ def _ambiguous(report: Diagnosis) -> list[str]:
 def _unknown(report: Diagnosis) -> list[str]:
     found = significant(report.shown)
     left = report.leftover
-    looks = f"It looks like this: {_bare(left.words)}" if left is not None and left.words else ""
+    looks = f"It looks like this: {bare(left.words)}" if left is not None and left.words else ""
     if looks and left.size > 0:
         looks += (
             f" ({length_text(left.size)} per axis, {share_text(left.share)} of the variance above "
@@ -276,7 +263,7 @@ def _unknown(report: Diagnosis) -> list[str]:
 
 def _none(report: Diagnosis) -> list[str]:
     held = report.held_out
-    why = _bare(held.how) if held is not None and held.how else "the data are too few"
+    why = bare(held.how) if held is not None and held.how else "the data are too few"
     found = significant(report.shown)
     shown = f"What the residuals show: {structure_text(found[0])}." if found else (
         "Within the data themselves nothing stands out.")  # fmt: skip
@@ -305,118 +292,7 @@ def _told(effects: Sequence[Any], how: str) -> str:
     ]
     if len(effects) > _MOST_TOLD:
         told.append(f"{len(effects) - _MOST_TOLD} more with smaller numbers")
-    return f"{how}: {_list(told, '; ')}." if told else ""
-
-
-# What to do ---------------------------------------------------------------------------------------
-
-
-def _after_named(report: Diagnosis) -> list[str]:
-    near = [(effect, rival) for effect in report.effects for rival in effect.rivals
-            if rival.odds >= _NEAR]  # fmt: skip
-    steps = [
-        "Use the corrected arm (report.model) within the range of joints that taught it, and check "
-        "it on a dozen poses that were no part of this."
-    ]
-    for effect, rival in near[:1]:
-        steps.append(
-            f"{_upper(rival.words)} is not far behind {effect.words} ({odds_text(rival.odds)}): "
-            f"poses in which the two differ would settle it."
-        )
-    return [*steps, _next_poses(report), _not_recorded(report)]
-
-
-def _after_clean(report: Diagnosis) -> list[str]:
-    return [
-        "Use the arm that was identified (report.fit.arm). To see smaller effects measure more: "
-        "four times the poses halve what can be seen.",
-        _not_recorded(report),
-    ]
-
-
-def _after_ambiguous(report: Diagnosis) -> list[str]:
-    what = _next_poses(report) or (
-        "No pose would tell them apart: record more beside the joints, or in another order."
-    )
-    return [what, "Until then any of them corrects the arm alike where the data lie, and nowhere "
-            "else.", _not_recorded(report)]  # fmt: skip
-
-
-def _after_unknown(report: Diagnosis) -> list[str]:
-    left = report.leftover
-    against = against_text(left) if left is not None else ""
-    where = _where_to_look(against)
-    return [
-        _not_recorded(report) or where,
-        where if _not_recorded(report) else "",
-        "Do not put a correction on this arm until the cause is known; its geometry "
-        "(report.fit.arm) may be used with the error shown here.",
-        _next_poses(report),
-    ]
-
-
-def _after_none(report: Diagnosis) -> list[str]:
-    what = (
-        "touch each point in twice as many poses, or touch more points"
-        if isinstance(report.data, Touches)
-        else "measure two or three times as many poses, spread over the joints' ranges"
-    )
-    return [f"{_upper(what)}, better on two days, and diagnose again.", _not_recorded(report)]
-
-
-_NEXT = {
-    "clean": _after_clean,
-    "named": _after_named,
-    "ambiguous": _after_ambiguous,
-    "unknown": _after_unknown,
-    "none": _after_none,
-}
-
-
-def _where_to_look(against: str) -> str:
-    if against.startswith("time"):
-        return (
-            "It goes with time: look for what runs in that rhythm (a pump, a machine, the sun), "
-            "and measure the same poses again at another hour."
-        )
-    if against.startswith("the order of the rows"):
-        return "It goes with the order of the rows: record the time, and measure in another order."
-    if against.startswith("the last move"):
-        return (
-            "It goes with the side from which a joint came: record `direction`, and approach each "
-            "pose from both sides."
-        )
-    if against.startswith("position"):
-        return (
-            "It goes with the place: check the instrument's own field with a body of known size, "
-            "or measure the same places from another station."
-        )
-    if against.startswith("session"):
-        return "It goes with the session: find what was changed between them, and repeat one pose."
-    if against.startswith("joint"):
-        return (
-            f"It goes with {against}: sweep {'these' if 'and' in against else 'that joint'} in "
-            "small steps, up and down, with the others still, and look at the curve."
-        )
-    return "Repeat a few poses, each approached from both sides, and see what changes."
-
-
-def _next_poses(report: Diagnosis) -> str:
-    count = 0 if report.next_poses is None else len(np.atleast_2d(report.next_poses))
-    if count == 0 or np.size(report.next_poses) == 0:
-        return ""
-    return (
-        f"Measure the {_count(count, 'pose')} of report.next_poses, where the causes differ most, "
-        "and diagnose again with all data together."
-    )
-
-
-def _not_recorded(report: Diagnosis) -> str:
-    missing = [name for name in _BLIND if name not in report.data.covariates]
-    if not missing:
-        return ""
-    blind = [_BLIND[name] for name in missing]
-    return f"Not recorded: {_list(missing)}; so these data cannot show {_list(blind, last=' or ')}."
+    return f"{how}: {listed(told, '; ')}." if told else ""
 
 
 # Grammar ------------------------------------------------------------------------------------------
@@ -425,38 +301,10 @@ def _not_recorded(report: Diagnosis) -> str:
 def _causes(effects: Sequence[Any]) -> str:
     told = [str(effect.words) for effect in effects[:_MOST_TOLD]]
     rest = len(effects) - len(told)
-    return _list(told + ([f"{rest} more"] if rest else []), "; ") if told else "no cause"
-
-
-def _list(texts: Sequence[str], between: str = ", ", last: str = " and ") -> str:
-    if len(texts) < 2:
-        return "".join(texts)
-    last = f"{between.rstrip()}{last}" if between != ", " else last
-    return f"{between.join(texts[:-1])}{last}{texts[-1]}"
+    return listed(told + ([f"{rest} more"] if rest else []), "; ") if told else "no cause"
 
 
 def _rows(rows: Sequence[int]) -> str:
     told = ", ".join(str(row) for row in rows[:_MOST_ROWS])
     rest = len(rows) - _MOST_ROWS
     return f"rows {told}" + (f" and {rest} more" if rest > 0 else "")
-
-
-def _count(count: int, what: str) -> str:
-    return f"{count:,} {what}{'' if count == 1 else 's'}"
-
-
-def _bare(text: str) -> str:
-    return text.strip().rstrip(".")
-
-
-def _upper(text: str) -> str:
-    return text[:1].upper() + text[1:]
-
-
-def _lower(text: str) -> str:
-    return text[:1].lower() + text[1:]
-
-
-def _sentence(text: str) -> str:
-    text = _upper(text.strip())
-    return text if text.endswith((".", "!", "?")) else f"{text}."

@@ -16,12 +16,14 @@ from hypothesis import strategies as st
 
 import bathyal
 import diagnosis_cases as cases
+from bathyal import diagnosis_curves as curves
 from bathyal import diagnosis_numbers as numbers
 from bathyal import diagnosis_tables as tables
+from bathyal.diagnosis_advice import next_steps
 from bathyal.diagnosis_figure import curve_figure, diagnosis_figure, show_figure
 from bathyal.diagnosis_files import told, write_diagnosis, write_residuals
 from bathyal.diagnosis_page import _poses, write_page
-from bathyal.diagnosis_words import headline, next_steps, summary
+from bathyal.diagnosis_words import headline, summary
 
 ALL = pytest.mark.parametrize("name", cases.CASES)
 
@@ -178,14 +180,14 @@ def test_none_says_why():
 
 def test_what_was_not_recorded_is_told():
     report = cases.clean()
-    assert "Not recorded: payload and direction" in next_steps(report)[-1]
+    assert "Record payload and direction as well" in next_steps(report)[-1]
     data = report.data
     report.data = bathyal.Tracked(
         data.q, data.position, session=data.covariates["session"].ravel(),
         covariates={"time": np.arange(240.0), "temperature": np.ones(240), "payload": np.ones(240),
                     "direction": np.ones((240, 6))},
     )  # fmt: skip
-    assert not any("Not recorded" in step for step in next_steps(report))
+    assert not any("Record" in step for step in next_steps(report))
 
 
 @ALL
@@ -234,7 +236,7 @@ def test_bins_hold_every_row_once():
 
 def test_a_curve_is_the_effects_own():
     report = cases.named()
-    curve = tables.joint_curve(report, report.effects[0])
+    curve = curves.joint_curve(report, report.effects[0])
     q = np.radians(curve.place)
     expected = 3e-4 * np.cos(2 * q) - 4e-4 * np.sin(2 * q)
     np.testing.assert_allclose(np.radians(curve.middle), expected, rtol=0, atol=1e-15)
@@ -247,18 +249,18 @@ def test_a_curve_is_the_effects_own():
 def test_curves_of_maps_scales_and_couplings():
     effects = {effect.name: effect for effect in cases.many(9).effects}
     report = cases.named()
-    curve = tables.joint_curve(report, effects["joint_map"])
+    curve = curves.joint_curve(report, effects["joint_map"])
     q = np.radians(curve.place)
     expected = 1e-4 * np.cos(q) + 2e-4 * np.sin(q) + 5e-5 * np.cos(2 * q) - 3e-5 * np.sin(2 * q)
     np.testing.assert_allclose(np.radians(curve.middle), expected, rtol=0, atol=1e-15)
-    curve = tables.joint_curve(report, effects["joint_scale"])
+    curve = curves.joint_curve(report, effects["joint_scale"])
     np.testing.assert_allclose(curve.middle, 1.2e-3 * curve.place)
-    curve = tables.joint_curve(report, effects["joint_coupling"])
+    curve = curves.joint_curve(report, effects["joint_coupling"])
     np.testing.assert_allclose(curve.middle, -0.002 * curve.place)
     assert curve.across.startswith("joint 3")
     assert curve.up == "joint 4 off by [°]"
-    assert tables.joint_curve(report, effects["base_shift"]) is None
-    assert tables.joint_curve(report, effects["backlash"]) is None
+    assert curves.joint_curve(report, effects["base_shift"]) is None
+    assert curves.joint_curve(report, effects["backlash"]) is None
 
 
 def test_what_is_beyond_noise_is_marked_where_it_belongs():
