@@ -18,7 +18,7 @@ from bathyal.effects import FoundEffect
 from bathyal.fit_curves import AXIS_COLOURS
 from bathyal.palette import INK
 
-Floats = NDArray[np.float64]
+Floats = NDArray[np.floating]
 ROWS = 360
 NOISE = 2e-5  # [m], so that nothing looks perfect
 TURN = np.pi / 2
@@ -130,14 +130,15 @@ class Recording:
 
     def axis(self, against: str) -> Floats:
         speed = np.gradient(self.q[:, 0], self.time)
-        return {
+        axes: dict[str, Floats] = {
             "time": self.time,
             "temperature": self.covariates["temperature"],
             "speed of joint 1": speed,
             "row": np.arange(ROWS, dtype=float),
-            "distance": np.linalg.norm(self.tips(self.q), axis=1),
+            "distance": np.asarray(np.linalg.norm(self.tips(self.q), axis=1)),
             **{f"joint {j + 1}": self.q[:, j] for j in range(6)},
-        }[against]
+        }
+        return axes[against]
 
     def tips(self, q: Floats) -> Floats:
         return np.asarray(self.arm.forward(q))[:, :3, 3]
