@@ -192,7 +192,7 @@ inline constexpr const char* kCorrectedJacobianDoc =
     R"(Geometric Jacobians at the tool centre point.
 
 The derivative of `forward`, the effects that count held: of the chain as it stands, of the effects
-by central differences of what they move (1e-5 rad or m apart). Arguments, errors and warnings are
+by central differences of what they move (1e-6 rad or m apart). Arguments, errors and warnings are
 those of `forward`, and the axes of `Arm.jacobian`.
 
 Returns
