@@ -151,7 +151,7 @@ def test_beyond_the_support_it_says_so_and_falls_back() -> None:
         "temperature",
         "session 7",
     ]
-    assert "temperature, asked 25 to 45, taught 10.0" in str(warning)
+    assert "temperature, asked 25 to 45, taught 10." in str(warning)
     assert caught[0].filename == __file__
     expected = [[1, 1, 1, 1], [0, 1, 1, 1], [1, 0, 1, 1], [1, 0, 0, 1]]
     assert warning.in_support.astype(int).tolist() == expected
