@@ -270,7 +270,8 @@ def draw(result: dict[str, Any], folder: Path) -> None:
     figure, (left, right) = plt.subplots(1, 2, figsize=(9, 4.2), layout="constrained")
     cover = result["coverage"]
     left.plot([0, 1], [0, 1], color="0.7", lw=1)
-    left.plot(cover["levels"], cover["observed"], "o-", color="tab:blue")
+    if cover["parameters"]:
+        left.plot(cover["levels"], cover["observed"], "o-", color="tab:blue")
     left.set(xlabel="interval's level", ylabel="share that holds the truth", title="Intervals")
     inside = [r for r in result["inside"] if r["size"] != "1 and more" and r["cases"]]
     beyond = [r for r in result["outside"] if r["size"] != "1 and more" and r["cases"]]
@@ -278,6 +279,7 @@ def draw(result: dict[str, Any], folder: Path) -> None:
     right.semilogx([float(r["size"]) for r in beyond], [r["unknown"] for r in beyond], "s--")
     right.legend(["all causes named", "outside the library, called unknown"])
     right.set_xticks(CLASSES, [f"{c:g}" for c in CLASSES])
+    right.minorticks_off()
     right.set(xlabel="size / noise", ylabel="share of cases", ylim=(0, 1.03), title="Verdicts")
     figure.savefig(folder / "reliability.png", dpi=130)
     plt.close(figure)
