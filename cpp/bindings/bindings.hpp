@@ -16,9 +16,8 @@ void bind_scene(pybind11::module_& module);
 void bind_toolpath(pybind11::module_& module);
 void bind_arm(pybind11::module_& module);
 void bind_identify(pybind11::module_& module);
-void bind_effects(pybind11::module_& module);  // of the room identify, as the next ones
-void bind_corrected_arm(pybind11::module_& module);
-void bind_plan_touches(pybind11::module_& module);
+void bind_plan_touches(pybind11::module_& module);  // of the room identify, as the next one
 void bind_verify(pybind11::module_& module);
+void bind_diagnosis(pybind11::module_& module);
 
 }  // namespace bathyal::python

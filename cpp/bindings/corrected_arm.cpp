@@ -11,7 +11,6 @@
 
 #include "arm_inverse.hpp"
 #include "bathyal/base/error.hpp"
-#include "bindings.hpp"
 #include "effects_docs.hpp"
 #include "identify_parts.hpp"
 
@@ -258,7 +257,8 @@ void add_rigid_part(py::class_<CorrectedArm>& cls) {
                            "velocity", "effort", "within_limits", "to_urdf", "show", "plot"}) {
     const std::string doc = "As of `Arm`: `arm`'s own.";
     cls.def_property_readonly(
-        name, [name](const CorrectedArm& m) { return py::cast(m.arm()).attr(name); }, doc.c_str());
+        name, [name](const CorrectedArm& m) -> py::object { return py::cast(m.arm()).attr(name); },
+        doc.c_str());
   }
 }
 

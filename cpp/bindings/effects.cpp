@@ -3,12 +3,13 @@
 
 #include <pybind11/stl.h>
 
+#include <limits>
 #include <utility>
 
 #include "bathyal/base/error.hpp"
-#include "bindings.hpp"
 #include "effects_docs.hpp"
 #include "effects_parts.hpp"
+#include "identify_parts.hpp"
 #include "words.hpp"
 
 namespace bathyal::python {
@@ -41,7 +42,7 @@ std::vector<std::pair<std::string, Value>> items_argument(std::string_view name,
   std::vector<std::pair<std::string, Value>> items;
   for (const auto& [key, value] : dict) {
     try {
-      items.emplace_back(key.cast<std::string>(), value.cast<Value>());
+      items.emplace_back(py::cast<std::string>(key), py::cast<Value>(value));
     } catch (const py::cast_error&) {
       throw_argument(name, expected, py::repr(dict).cast<std::string>());
     }
@@ -66,6 +67,7 @@ std::shared_ptr<Effect> make_effect(std::string name, py::function function,
   for (auto& [parameter, unit] :
        items_argument<std::string>("parameters", parameters, "a dict of name to unit")) {
     const double scale = told_or(scales, parameter, kOrdinarySize);
+    told.info.ranges.push_back({parameter, unit, 0.0, std::numeric_limits<double>::infinity()});
     told.parameters.push_back({std::move(parameter), std::move(unit), scale});
   }
   if (py::isinstance<py::str>(joints)) {

@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "bathyal/base/error.hpp"
@@ -48,12 +49,14 @@ const Words<BaseChoice>& base_words() {
   return words;
 }
 
+using AnyArm = std::variant<const Arm*, const CorrectedArm*>;
+
 void bind_function(py::module_& module) {
   using Options = IdentifyOptions;
   const Options defaults;
   module.def(
       "identify_arm",
-      [](const Arm& arm, const py::object& data, const std::string& parametrization,
+      [](const AnyArm& arm, const py::object& data, const std::string& parametrization,
          double nearly_parallel, const std::string& criterion, bool pair_weights,
          const std::string& solver, int max_iterations, const std::string& tool_start,
          const std::string& base, std::vector<std::string> fixed,
@@ -81,9 +84,13 @@ void bind_function(py::module_& module) {
                               .loss_width = loss_width,
                               .prune_sigma = prune_sigma,
                               .num_threads = num_threads};
+        if (std::visit([](const auto* one) { return one == nullptr; }, arm)) {
+          throw_argument("arm", "an Arm or a CorrectedArm", "None");
+        }
         const auto run = [&](const auto& known) {
           const py::gil_scoped_release release;
-          return identify_arm(arm, known, options);
+          return std::visit([&](const auto* one) { return identify_arm(*one, known, options); },
+                            arm);
         };
         if (py::isinstance<Touches>(data)) return run(data.cast<const Touches&>());
         if (py::isinstance<Tracked>(data)) return run(data.cast<const Tracked&>());
@@ -112,6 +119,8 @@ void bind_function(py::module_& module) {
 
 void bind_identify(py::module_& module) {
   bind_identify_data(module);
+  bind_effects(module);
+  bind_corrected_arm(module);
   bind_identify_fit(module);
   bind_function(module);
 }

@@ -138,8 +138,10 @@ poses, the base; what the data cannot tell stays at nominal, and is named.
 
 Parameters
 ----------
-arm : Arm
-    Nominal. Its tool, where it has one, is where the search for the tool starts.
+arm : Arm or CorrectedArm
+    Nominal. Its tool, where it has one, is where the search for the tool starts. The effects of a
+    corrected arm act as they were found, each in the rows that lie in its support, and stand among
+    the parameters, "fixed"; the fit's arm is the rigid part.
 data : Touches or Tracked
 parametrization : {"hayati", "dh"}
     "hayati": beta (Hayati, Mirmirani 1985) in place of d where the next axis is nearly parallel.

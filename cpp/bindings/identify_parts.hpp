@@ -25,6 +25,12 @@ inline py::array to_numpy(const RowMatrix& table) {
 /// Touches and Tracked.
 void bind_identify_data(py::module_& module);
 
+/// Effect, FoundEffect and the library.
+void bind_effects(py::module_& module);
+
+/// Support and CorrectedArm.
+void bind_corrected_arm(py::module_& module);
+
 /// ArmFit and what it is made of.
 void bind_identify_fit(py::module_& module);
 

@@ -13,8 +13,7 @@ PYBIND11_MODULE(_core, module) {
   bind_toolpath(module);
   bind_arm(module);
   bind_identify(module);
-  bind_effects(module);
-  bind_corrected_arm(module);
   bind_plan_touches(module);
   bind_verify(module);
+  bind_diagnosis(module);
 }

@@ -54,6 +54,17 @@ class Function {
   py::function function_;
 };
 
+/// "KeyError: 'depth' (line 12 of mine.py)": what was raised, and where, without the way there.
+std::string words_of(const py::error_already_set& error) {
+  const auto text = [](const py::handle& object) { return py::str(object).cast<std::string>(); };
+  std::string words = text(error.type().attr("__name__")) + ": " + text(error.value());
+  py::object place = error.trace();
+  if (!place || place.is_none()) return words;
+  while (!place.attr("tb_next").is_none()) place = place.attr("tb_next");
+  const std::string file = text(place.attr("tb_frame").attr("f_code").attr("co_filename"));
+  return words + " (line " + text(place.attr("tb_lineno")) + " of " + file + ")";
+}
+
 /// Whether a covariate was told in every row and differs from row to row.
 bool changes(const EffectData& data, const std::string& name) {
   const auto found = data.covariates.find(name);
@@ -141,7 +152,7 @@ class PythonEffect final : public Effect {
                                               : function_.get()(rows);
     } catch (const py::error_already_set& error) {
       if (!error.matches(PyExc_Exception)) throw;  // an interrupt is the caller's own
-      throw Error(name() + ": its function raised " + error.what());
+      throw Error(name() + ": its function raised " + words_of(error));
     }
     return numbers_of(result, data.rows(), parameters, width);
   }

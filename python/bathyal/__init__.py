@@ -3,12 +3,14 @@
 
 from importlib.metadata import version as _version
 
-from bathyal import arms
+from bathyal import arms, effects
 from bathyal._core import (
     Arm,
     ArmFit,
     CleanReport,
     CleanResult,
+    CorrectedArm,
+    Diagnosis,
     Error,
     Hits,
     InverseResult,
@@ -31,6 +33,7 @@ from bathyal._core import (
     TriangleMesh,
     clean_cloud,
     cover_polygon,
+    diagnose,
     find_sheets,
     find_targets,
     fit_plane,
@@ -49,6 +52,7 @@ from bathyal.aims import read_aims
 from bathyal.arm_files import read_arm
 from bathyal.clouds import read_cloud, write_cloud
 from bathyal.meshes import read_mesh, write_mesh
+from bathyal.support_warning import SupportWarning
 from bathyal.terrain import SheetWarning, triangulate
 from bathyal.touch_files import read_touches, read_tracked
 from bathyal.verification import verify_arm
@@ -60,6 +64,8 @@ __all__ = [
     "ArmFit",
     "CleanReport",
     "CleanResult",
+    "CorrectedArm",
+    "Diagnosis",
     "Error",
     "Hits",
     "InverseResult",
@@ -74,6 +80,7 @@ __all__ = [
     "SheetPatch",
     "SheetReport",
     "SheetWarning",
+    "SupportWarning",
     "Targets",
     "ToolPath",
     "TouchForecast",
@@ -84,6 +91,8 @@ __all__ = [
     "arms",
     "clean_cloud",
     "cover_polygon",
+    "effects",
+    "diagnose",
     "find_sheets",
     "find_targets",
     "fit_plane",

@@ -12,26 +12,27 @@ from typing import Any
 from bathyal import corrected_arm_files
 from bathyal._core import Arm, CorrectedArm, Error
 from bathyal.arm_exports import write_ros_kinematics, write_ur_calibration
-from bathyal.arm_json import MOST_BYTES, VERSION, arm_told, read_json, rigid_arm, write_json
+from bathyal.arm_json import MOST_BYTES, arm_told, read_json, rigid_arm, write_json
 from bathyal.errors import argument_error
 from bathyal.files import PathLike, known_suffix, opened, reading
 from bathyal.urdf import arm_from_urdf
 from bathyal.urdf_writer import urdf_of_arm
 
 
-def read_arm(path: PathLike, **options: Any) -> Arm:
+def read_arm(path: PathLike, **options: Any) -> Arm | CorrectedArm:
     """Read an arm.
 
     Parameters
     ----------
     path : path
-        ``.json`` as `Arm.save` writes it, or ``.urdf``.
+        ``.json`` as `Arm.save` and `CorrectedArm.save` write it, or ``.urdf``.
     **options
         Of `Arm.from_urdf`, for a URDF: `tip`, `root`, `name`.
 
     Returns
     -------
-    Arm
+    Arm, or CorrectedArm
+        The second where the file has effects inside.
 
     Raises
     ------
@@ -40,7 +41,8 @@ def read_arm(path: PathLike, **options: Any) -> Arm:
     OSError
         Where there is no such file, or it may not be read.
     Error
-        For a file that is broken, of another format or of a version that is not known.
+        For a file that is broken, of another format or of a version that is not known, and for an
+        effect of your own that was not registered (`bathyal.effects.register`).
 
     Examples
     --------
@@ -59,13 +61,8 @@ def read_arm(path: PathLike, **options: Any) -> Arm:
         if size > MOST_BYTES:
             raise Error(f"expected at most {MOST_BYTES >> 20} MB, got {size / 2**20:.0f} MB")
         told = read_json(stream.read())
-        if told.get("version") == VERSION:
-            return rigid_arm(told)
-        if told.get("version") == corrected_arm_files.VERSION:
-            return corrected_arm_files.corrected_arm(told)
-        raise Error(
-            f"expected version {VERSION}, or {corrected_arm_files.VERSION} of an arm with effects, got {told.get('version')!r}"
-        )
+        corrected = any(key in told for key in corrected_arm_files.KEYS)
+        return corrected_arm_files.corrected_arm(told) if corrected else rigid_arm(told)
 
 
 def find_arm(name: PathLike, **options: Any) -> Arm:
@@ -101,7 +98,10 @@ def find_arm(name: PathLike, **options: Any) -> Arm:
         arm: Arm = getattr(arms, known)()
         return arm
     if Path(text).suffix.lower() in (".json", ".urdf"):
-        return read_arm(text, **options)
+        found = read_arm(text, **options)
+        if isinstance(found, CorrectedArm):
+            raise argument_error("arm", "an arm without effects", f"{found!r} in {text}")
+        return found
     raise argument_error("arm", f"{', '.join(arms.__all__)}, or a .urdf or .json file", repr(text))
 
 

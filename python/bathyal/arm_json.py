@@ -108,16 +108,18 @@ def _joint_keys(kind: str) -> dict[str, str]:
 
 
 def read_json(text: bytes) -> dict[str, Any]:
-    """What an arm's file tells, without its format; its version is whoever reads it to judge."""
+    """What an arm's file tells, without its format and version."""
     told = json.loads(text, parse_constant=_refuse_constant)
     if not isinstance(told, dict) or told.get("format") != FORMAT:
         raise Error(f'it does not say "format": "{FORMAT}"')
-    return {key: value for key, value in told.items() if key != "format"}
+    if told.get("version") != VERSION:
+        raise Error(f"expected version {VERSION}, got {told.get('version')!r}")
+    return {key: value for key, value in told.items() if key not in ("format", "version")}
 
 
 def rigid_arm(told: dict[str, Any]) -> Arm:
     """The arm of a file's contents."""
-    parts = read_keys({k: v for k, v in told.items() if k != "version"}, _ARM_KEYS, "the arm")
+    parts = read_keys(told, _ARM_KEYS, "the arm")
     parts["joints"] = [_joint(joint) for joint in listed(parts, "joints")]
     parts["links"] = [read_keys(link, _LINK_KEYS, "a link") for link in listed(parts, "links")]
     for link in parts["links"]:

@@ -12,7 +12,6 @@ from bathyal._core import CorrectedArm, Error, FoundEffect, Support
 from bathyal.arm_json import arm_told, listed, read_keys, rigid_arm, write_json
 from bathyal.files import PathLike, known_suffix
 
-VERSION = 2
 KEYS = ("effects", "support")
 
 _EFFECT_KEYS = {key: key for key in ("name", "joint", "cause", "settings", "parameters")}
@@ -45,7 +44,7 @@ def save_corrected_arm(model: CorrectedArm, path: PathLike) -> None:
         Where the file cannot be written.
     """
     known_suffix(path, (".json",), "JSON")
-    told = arm_told(model.arm) | {"version": VERSION}
+    told = arm_told(model.arm)
     told["effects"] = [_effect_told(found) for found in model.effects]
     told["support"] = _support_told(model.support)
     write_json(told, path)

@@ -16,9 +16,10 @@ import bathyal
 from bathyal._core import Arm, Touches, Tracked
 from bathyal.arm_files import find_arm
 from bathyal.bottom import Step, file_facts
+from bathyal.diagnosis_advice import next_steps
 from bathyal.diagnosis_files import told, write_diagnosis, write_residuals
 from bathyal.diagnosis_numbers import length_text
-from bathyal.diagnosis_words import VERDICTS, next_steps, summary
+from bathyal.diagnosis_words import VERDICTS, summary
 from bathyal.files import PathLike, filling
 from bathyal.identify_report import plain_settings, read_data
 
@@ -70,7 +71,7 @@ class Diagnosed:
             what: f"{len(self.data):,}",
             "recorded beside": covariates,
             "geometry alone": f"{length_text(self.report.fit.rms_after)} (rms, 3-D, fitted)",
-            "noise": f"{length_text(self.report.noise)} per axis, {self.report.noise_source}",
+            "noise": f"{length_text(self.report.noise)} per axis, by {self.report.noise_source}",
             "made by": f"bathyal {version('bathyal')}",
         }
 

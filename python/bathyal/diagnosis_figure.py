@@ -11,6 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
+from bathyal.diagnosis_curves import JointCurve, joint_curve
 from bathyal.diagnosis_panels import (
     MOST_PARTS,
     draw_against,
@@ -23,11 +24,9 @@ from bathyal.diagnosis_panels import (
     plain,
 )
 from bathyal.diagnosis_tables import (
-    JointCurve,
     Quantity,
     Residuals,
     concerns,
-    joint_curve,
     pair_of,
     quantities,
     residuals_of,
@@ -58,6 +57,7 @@ _BANNER = 0.052
 _LINE = 0.0128
 _LETTERS = 122
 _ON_SHEET = 8  # panels of step one
+_TALLEST = 0.19  # of a row
 _CURVES_ON_SHEET = 2
 _EVIDENCE_LETTERS = 44  # in a line, of a third of the sheet
 _WARNINGS_SHOWN = 4
@@ -168,7 +168,7 @@ def _write_banner(figure: Figure, report: Diagnosis, title: str) -> float:
         figure.text(_LEFT, top, plain(title), fontsize=9, color=INK, va="top")
         top -= 0.022
     colour = VERDICT_COLOURS[report.verdict]
-    lines = textwrap.wrap(headline(report), 58, max_lines=3, placeholder=" …")
+    lines = textwrap.wrap(headline(report), 52, max_lines=3, placeholder=" …")
     height = _BANNER * (0.4 + 0.6 * len(lines))
     figure.add_artist(
         _box((_LEFT - 0.01, top - height), _RIGHT - _LEFT + 0.02, height, colour, figure)
@@ -213,10 +213,11 @@ def _draw_sheet(figure: Figure, report: Diagnosis, top: float) -> None:
     residuals = residuals_of(report, report.residuals_before)
     known = quantities(report)
     order = sorted(known, key=lambda one: _chance(one, list(report.shown)))
-    chosen = [one for one in known if one in order[:_ON_SHEET]]
+    held_out = report.verdict != "none"
+    chosen = [one for one in known if one in order[: _ON_SHEET if held_out else 2 * _ON_SHEET]]
     down = -(-len(chosen) // _ABREAST)
-    shares = [1.0] * down + ([1.25] if curves else []) + [1.35]
-    height = top / sum(shares)
+    shares = [1.0] * down + ([1.25] if curves else []) + ([1.35] if held_out else [])
+    height = min(top / sum(shares), _TALLEST)
     bands = []
     for share in shares:
         bands.append((top - share * height, share * height))
@@ -237,6 +238,8 @@ def _draw_sheet(figure: Figure, report: Diagnosis, top: float) -> None:
         draw_curve(axes, curve, font=6.5)
     if curves:
         _write_evidence(figure, report, len(curves), *bands[down])
+    if not held_out:
+        return
     bottom, high = bands[-1]
     places = [(left, bottom + 0.03, wide, high - 0.055) for left, wide in _LAST_ROW]
     draw_parts(figure.add_axes(places[0]), report, font=6.5)

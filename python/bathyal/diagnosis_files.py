@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from bathyal.diagnosis_words import next_steps, summary
+from bathyal.diagnosis_advice import next_steps
+from bathyal.diagnosis_words import summary
 from bathyal.files import PathLike, known_suffix, replacing
 from bathyal.paths import json_text
 

@@ -24,8 +24,6 @@ _SHOWN = {
     "kg rad/(N m)": ("kg °/(kN m)", 1e3 * math.degrees(1.0)),
 }
 _SHARES = ("scale", "ratio")  # plain numbers that are told in per cent
-SETTINGS = ("order", "by", "moment", "terms", "session")
-"""What tells a form of an effect from others: told as they are, without an interval."""
 _FEWEST_P = 1e-3  # smaller ones are told as smaller
 _MOST_DIGITS = 12
 _NAMES = {"cos": "cosine", "sin": "sine"}
@@ -70,9 +68,10 @@ def odds_text(odds: float) -> str:
     return f"{1 / odds:.{0 if odds < 0.2 else 1}f} to 1 against it"
 
 
-def is_setting(name: str) -> bool:
-    """Whether a parameter of this name is a setting, not a number that was estimated."""
-    return name in SETTINGS
+def is_setting(estimate: Any) -> bool:
+    """Whether a parameter is a setting, which tells a form of an effect from others: it has no unit
+    and no interval."""
+    return not estimate.unit
 
 
 def parameter_name(name: str) -> str:
@@ -82,21 +81,23 @@ def parameter_name(name: str) -> str:
 
 
 def setting_text(name: str, value: float) -> str:
-    """ "order 2", "by joint 4", "after 120 rows"."""
+    """ "order 2", "by joint 4", "after 120 rows"; empty for those that are of no use to people."""
     if name == "by":
         return f"by joint {value + 1:.0f}"
     if name == "moment":
         return f"after {value:.0f} rows"
-    if name == "order" and value > 0:
-        return f"order {value:.4g}"
-    return f"{parameter_name(name)} {value:.4g}"
+    if name == "time":
+        return f"at {value:.6g} s"
+    if name == "from":
+        return f"from session {value:.0f} on"
+    return f"{name} {value:.4g}" if name in ("order", "terms") else ""
 
 
 def shown_unit(name: str, unit: str) -> tuple[str, float]:
     """The unit that a parameter is shown in, and how many of it make one of its own."""
     if unit in _SHOWN:
         return _SHOWN[unit]
-    if unit in ("", "1") and name.split("_")[0] in _SHARES:
+    if unit == "1" and name.split("_")[0] in _SHARES:
         return "%", 100.0
     return ("" if unit == "1" else unit), 1.0
 

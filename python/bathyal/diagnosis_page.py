@@ -7,13 +7,15 @@ import base64
 import html
 import io
 import math
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any
 
 import matplotlib
 import numpy as np
 from matplotlib.figure import Figure
 
+from bathyal.diagnosis_advice import next_steps
+from bathyal.diagnosis_cards import causes_of, table
 from bathyal.diagnosis_figure import (
     MOST_CURVES,
     VERDICT_SIGNS,
@@ -27,24 +29,17 @@ from bathyal.diagnosis_figure import (
 )
 from bathyal.diagnosis_numbers import (
     chance_text,
-    estimate_text,
-    is_setting,
     length_text,
-    odds_text,
-    parameter_name,
-    setting_text,
     share_text,
 )
 from bathyal.diagnosis_panels import MOST_MARKS, MOST_PARTS
 from bathyal.diagnosis_style import PAGE
-from bathyal.diagnosis_tables import supports
+from bathyal.diagnosis_tables import against_text, supports
 from bathyal.diagnosis_words import (
     SIGNIFICANT,
     VERDICTS,
-    amplitude_text,
     headline,
     leftover_text,
-    next_steps,
     summary,
 )
 from bathyal.files import PathLike, replacing
@@ -52,8 +47,6 @@ from bathyal.palette import AFTER, GAP, INK, VERDICT_COLOURS
 
 if TYPE_CHECKING:
     from bathyal._core import Diagnosis
-
-_MOST_OUTLIERS = 200
 
 
 def write_page(
@@ -101,7 +94,7 @@ def write_page(
         facts=_facts(facts or {}),
         marks=_marks_text(report),
         structures=_structures(report),
-        causes=_causes(report),
+        causes=causes_of(report),
         curves_note=_curves_note(report),
         model=_model(report),
         beyond=_beyond(report),
@@ -153,9 +146,10 @@ def _tiles(report: Diagnosis) -> str:
     tiles = []
     if report.verdict == "clean":
         least = min((s.p_value for s in report.shown), default=math.nan)
+        chance = chance_text(least) if math.isfinite(least) else f"p > {SIGNIFICANT}"
         tiles += [
             (length_text(report.detectable), "per axis would have been seen"),
-            (chance_text(least), "for the most suspect structure"),
+            (chance, "for the most suspect structure"),
             (length_text(held.rms_before), "error on data held out (3-D rms)"),
         ]
     elif report.verdict == "none":
@@ -169,7 +163,7 @@ def _tiles(report: Diagnosis) -> str:
         ]
     if report.verdict == "unknown" and report.leftover is not None:
         tiles.append((length_text(report.leftover.size), "per axis has no name"))
-    tiles.append((length_text(report.noise), f"noise per axis: {report.noise_source}"))
+    tiles.append((length_text(report.noise), f"noise per axis, by {report.noise_source}"))
     return "".join(
         f"<div><b>{html.escape(value)}</b><span>{html.escape(words)}</span></div>"
         for value, words in tiles
@@ -199,84 +193,19 @@ def _marks_text(report: Diagnosis) -> str:
 def _structures(report: Diagnosis) -> str:
     shown = sorted(report.shown, key=lambda s: (s.p_value, -s.size))
     if not shown:
-        return "<p>No structure was looked for.</p>"
+        return f"<p>No structure that was looked for has a chance below {SIGNIFICANT}.</p>"
     rows = [
         (
-            s.against, length_text(s.size), share_text(s.share), chance_text(s.p_value),
+            against_text(s), length_text(s.size), share_text(s.share), chance_text(s.p_value),
             s.words, "strong" if s.p_value < SIGNIFICANT else "weak",
         )
         for s in shown
     ]  # fmt: skip
     head = ("against", "size per axis", "of variance above noise", "chance", "what it looks like")
-    return _table(head, (row[:5] for row in rows), (row[5] for row in rows), kind="prose")
+    return table(head, (row[:5] for row in rows), (row[5] for row in rows), kind="prose")
 
 
-# Name ---------------------------------------------------------------------------------------------
-
-
-def _causes(report: Diagnosis) -> str:
-    parts = []
-    if report.verdict == "clean":
-        parts.append("<p>Nothing is beyond noise, so there is nothing to name.</p>")
-    if report.verdict == "none":
-        parts.append("<p>No data could be held out, so nothing is named.</p>")
-    if report.verdict == "unknown":
-        partial = "What follows explains a part, and a part is not the cause." if report.effects \
-            else "Nothing in the library explains it."  # fmt: skip
-        parts.append(f"<p>{partial}</p>")
-    if report.ambiguous:
-        parts.append("<p>Each of these explains the data as well as they can tell:</p>")
-        parts.append(_rivals(report.ambiguous))
-    parts += [_card(effect) for effect in report.effects]
-    return "".join(parts)
-
-
-def _card(effect: Any) -> str:
-    """A cause: its numbers to the left, the evidence to the right."""
-    settings = [setting_text(name, float(estimate.value))
-                for name, estimate in effect.parameters.items() if is_setting(name)]  # fmt: skip
-    amplitude = amplitude_text(effect)
-    rows = [("amplitude", amplitude)] if amplitude else []
-    rows += [(parameter_name(name), estimate_text(name, estimate))
-             for name, estimate in effect.parameters.items() if not is_setting(name)]  # fmt: skip
-    numbers = _table(("", "value (95 % interval)"), rows) if rows else ""
-    if len(effect.rows):
-        listed = ", ".join(str(row) for row in effect.rows[:_MOST_OUTLIERS])
-        rest = len(effect.rows) - _MOST_OUTLIERS
-        listed += f" and {rest:,} more" if rest > 0 else ""
-        numbers += f"<p>Rows, counted from 0: {listed}</p>"
-    evidence = _table(
-        ("evidence", ""),
-        [
-            ("of the variance above noise, held out", share_text(effect.gain)),
-            ("error held out without it", length_text(effect.held_out_before)),
-            ("error held out with it", length_text(effect.held_out_after)),
-            ("moves the tip, per axis", length_text(effect.size)),
-            ("chance", chance_text(effect.p_value)),
-        ],
-    )
-    name = f"<code>{html.escape(effect.name)}</code>"
-    told = f" · {html.escape(', '.join(settings))}" if settings else ""
-    bar = 100 * min(max(effect.gain, 0.0), 1.0) if math.isfinite(effect.gain) else 0.0
-    words = html.escape(effect.words[:1].upper() + effect.words[1:])
-    return (
-        f"<div class='card'><h3>{words}</h3><p class='small'>{name}{told}</p>"
-        f"<div class='gain'><i style='width:{bar:.1f}%'></i></div>"
-        f"<div class='sides'><div>{numbers}</div><div>{evidence}</div></div>"
-        f"<p class='small'>Rivals for what it explains:</p>{_rivals(effect.rivals)}</div>"
-    )
-
-
-def _rivals(causes: Sequence[Any]) -> str:
-    if not causes:
-        return "<p class='small'>None comes near.</p>"
-    rows = "".join(
-        f"<tr><td>{html.escape(cause.words)}</td><td class='odds'>"
-        f"<i style='width:{100 * min(max(cause.odds, 0.0), 1.0):.1f}%'></i></td>"
-        f"<td>{'the best' if cause.odds >= 1 else odds_text(cause.odds)}</td></tr>"
-        for cause in causes
-    )
-    return f"<table>{rows}</table>"
+# Name -------------------------------------------------------------------------------------------
 
 
 def _curves_note(report: Diagnosis) -> str:
@@ -314,7 +243,7 @@ def _beyond(report: Diagnosis) -> str:
         for one in supports(report)
         if one.share is None
     ]
-    return _table(("range", "from … to"), rows) if rows else ""
+    return table(("range", "from … to"), rows) if rows else ""
 
 
 # Measure the gain ---------------------------------------------------------------------------------
@@ -346,11 +275,11 @@ def _parts(report: Diagnosis) -> str:
         (part.name, f"{part.rows:,}", length_text(part.rms_before), length_text(part.rms_after))
         for part in held.parts
     ]
-    table = _table(("", "rows", "before", "after"), rows)
+    whole = table(("", "rows", "before", "after"), rows)
     if len(rows) <= MOST_PARTS:
-        return table
+        return whole
     note = f"All {len(held.parts):,} parts; the picture shows the first {MOST_PARTS}."
-    return f"<details><summary>{note}</summary>{table}</details>"
+    return f"<details><summary>{note}</summary>{whole}</details>"
 
 
 # Next ---------------------------------------------------------------------------------------------
@@ -370,21 +299,5 @@ def _poses(report: Diagnosis) -> str:
     rows = [[cell.replace("-", "−") for cell in row] for row in rows]
     return (
         "<h2>Poses to measure next</h2><p>Here the causes that are left differ most. Measure them "
-        f"as the others were, and diagnose again with all data together.</p>{_table(head, rows)}"
+        f"as the others were, and diagnose again with all data together.</p>{table(head, rows)}"
     )
-
-
-def _table(
-    head: Sequence[str],
-    rows: Iterable[Sequence[str]],
-    classes: Iterable[str] | None = None,
-    kind: str = "",
-) -> str:
-    titles = "".join(f"<th>{html.escape(title)}</th>" for title in head)
-    rows = list(rows)
-    of_rows = [""] * len(rows) if classes is None else list(classes)
-    body = "".join(
-        f"<tr class='{own}'>{''.join(f'<td>{html.escape(cell)}</td>' for cell in row)}</tr>"
-        for row, own in zip(rows, of_rows, strict=True)
-    )
-    return f"<table class='{kind}'><tr>{titles}</tr>{body}</table>"

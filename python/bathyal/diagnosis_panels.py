@@ -12,10 +12,10 @@ from matplotlib.axes import Axes
 from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.ticker import MaxNLocator
 
+from bathyal.diagnosis_curves import JointCurve
 from bathyal.diagnosis_numbers import chance_text, length_text
 from bathyal.diagnosis_tables import (
     Binned,
-    JointCurve,
     Quantity,
     Residuals,
     Support,

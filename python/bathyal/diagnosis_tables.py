@@ -5,6 +5,7 @@ binned; the curve of each joint effect; where the data lie."""
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
@@ -21,12 +22,10 @@ if TYPE_CHECKING:
 Floats = NDArray[np.float64]
 
 _BINS = 20  # along one quantity, of equal counts
-_FEWEST_IN_BIN = 12
+_FEWEST_IN_BIN = 8
 _CELLS = 14  # of a map, to a side
 _MOST_VALUES = 8  # a quantity with no more of them is drawn value by value
-_CURVE = 241
 _STILL = 1e-6  # [m/rad]; a joint whose axis the tip lies on moves it nowhere
-_INTERVAL = 1.96
 _UNITS = {
     "temperature": "°C", "time": "s", "payload": "kg", "gravity": "m/s²", "session": "",
     "direction": "",
@@ -58,24 +57,6 @@ class Binned:
     mean: Floats
     error: Floats
     by_value: bool
-
-
-@dataclass(frozen=True)
-class JointCurve:
-    """What an effect adds to a joint, over the range that was measured; in shown units.
-
-    `middle`, `low`, `high` (K,): the curve and its 95 % band, from the parameters' own standard
-    deviations taken as independent of one another.
-    """
-
-    title: str
-    across: str
-    up: str
-    place: Floats
-    middle: Floats
-    low: Floats
-    high: Floats
-    seen: Floats
 
 
 @dataclass(frozen=True)
@@ -113,6 +94,9 @@ def quantities(report: Diagnosis) -> list[Quantity]:
     place = positions(report)
     found += [Quantity(axis, axis, "m", place[:, k]) for k, axis in enumerate("xyz")]
     found += _covariates(report.data.covariates)
+    if "time" not in report.data.covariates:
+        rows = np.arange(len(report.data), dtype=float)
+        found.append(Quantity("the order of the rows", "row", "", rows))
     return [one for one in found if np.ptp(one.values) > 0]
 
 
@@ -138,19 +122,36 @@ def _covariates(covariates: dict[str, Any]) -> Iterator[Quantity]:
             yield Quantity(told, told, _UNITS.get(name, ""), columns[:, k])
 
 
+def against_text(structure: Any) -> str:
+    """What a structure goes with. One that has the shape of an effect goes with what that effect
+    needs: "joint 3" of a wave along it."""
+    told = str(structure.against)
+    if told not in _EFFECTS_GO_WITH and not told.startswith("joint_"):
+        return told
+    joint = re.search(r"\bjoint \d+", structure.words)
+    return _EFFECTS_GO_WITH.get(told) or (joint[0] if joint else told)
+
+
+_EFFECTS_GO_WITH = {
+    "base_shift": "session", "tool_change": "session", "tool_slip": "time", "drift": "time",
+    "clock_shift": "time", "thermal": "temperature", "payload": "the load of gravity",
+    "base_compliance": "the load of gravity", "link_compliance": "", "backlash": "",
+}  # fmt: skip
+
+
 def concerns(structure: Any, quantity: Quantity) -> bool:
     """Whether a structure is one against this quantity alone: "joint 3", "time, period 12.1 s",
-    "position z"."""
-    against = structure.against.split(",")[0].strip().lower()
+    "position"."""
+    against = against_text(structure).split(",")[0].strip().lower()
     key = quantity.key.lower()
     if key in ("x", "y", "z"):
-        return against in (key, f"position {key}", "position", "measured position")
+        return against in (key, f"position {key}", "position")
     return bool(against == key)
 
 
 def pair_of(structure: Any, known: list[Quantity]) -> tuple[Quantity, Quantity] | None:
     """The two quantities of a structure against a pair, "joints 2 and 3"; None for others."""
-    against = structure.against.split(",")[0].strip().lower()
+    against = against_text(structure).split(",")[0].strip().lower()
     sides = against.split(" and ")
     if len(sides) != 2:
         return None
@@ -201,80 +202,6 @@ def mapped(pair: tuple[Quantity, Quantity], residuals: Floats) -> tuple[Floats, 
     cells = np.full(_CELLS**2, np.nan)
     cells[some] = means @ direction
     return edges[0], edges[1], cells.reshape(_CELLS, _CELLS)
-
-
-# Curves -------------------------------------------------------------------------------------------
-
-
-def joint_curve(report: Diagnosis, effect: Any) -> JointCurve | None:
-    """The curve of an effect along one joint; None for effects that have none."""
-    if effect.joint is None or effect.name not in _TERMS:
-        return None
-    arm, data = report.fit.arm, report.data
-    slides = arm.joint_types[effect.joint] == "prismatic"
-    along = effect.joint
-    if effect.name == "joint_coupling":
-        along = round(float(effect.parameters["by"].value))
-    q = np.asarray(data.q)[:, along]
-    place = np.linspace(q.min(), q.max(), _CURVE)
-    terms = _TERMS[effect.name](effect, place, slides)
-    if terms is None:
-        return None
-    middle = sum((float(p.value) * basis for p, basis in terms), np.zeros(_CURVE))
-    variance = sum(((float(p.std) * basis) ** 2 for p, basis in terms), np.zeros(_CURVE))
-    half = _INTERVAL * np.sqrt(variance)
-    across = joint_values(arm, data)[along]
-    shown = 1e3 if slides else math.degrees(1.0)
-    scale = 1e3 if across.unit == "mm" else math.degrees(1.0)
-    return JointCurve(
-        title=str(effect.words),
-        across=f"{joint_label(along + 1, across.name)} [{across.unit}]",
-        up=f"joint {effect.joint + 1} off by [{'mm' if slides else '°'}]",
-        place=scale * place,
-        middle=shown * middle,
-        low=shown * (middle - half),
-        high=shown * (middle + half),
-        seen=across.values,
-    )
-
-
-Terms = list[tuple[Any, Floats]]
-
-
-def _harmonic(effect: Any, q: Floats, slides: bool) -> Terms | None:
-    numbers = effect.parameters
-    if not {"order", "cos", "sin"} <= numbers.keys():
-        return None
-    phase = float(numbers["order"].value) * q
-    return [(numbers["cos"], np.cos(phase)), (numbers["sin"], np.sin(phase))]
-
-
-def _map(effect: Any, q: Floats, slides: bool) -> Terms | None:
-    """A sliding joint's map is told over 1.5 times the way that was measured."""
-    base = 2 * math.pi / (1.5 * float(np.ptp(q))) if slides else 1.0
-    terms = []
-    for name, number in effect.parameters.items():
-        kind, _, order = name.partition("_")
-        if kind in ("cos", "sin") and order.isdigit():
-            phase = int(order) * base * q
-            terms.append((number, np.cos(phase) if kind == "cos" else np.sin(phase)))
-    return terms or None
-
-
-def _scale(effect: Any, q: Floats, slides: bool) -> Terms | None:
-    return [(effect.parameters["scale"], q)] if "scale" in effect.parameters else None
-
-
-def _coupling(effect: Any, q: Floats, slides: bool) -> Terms | None:
-    return [(effect.parameters["ratio"], q)] if "ratio" in effect.parameters else None
-
-
-_TERMS = {
-    "joint_harmonic": _harmonic,
-    "joint_map": _map,
-    "joint_scale": _scale,
-    "joint_coupling": _coupling,
-}
 
 
 # Support ------------------------------------------------------------------------------------------

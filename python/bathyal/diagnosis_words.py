@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a diagnosis found, how surely, and what to do next, in sentences."""
+"""What a diagnosis found and how surely, in sentences; what to do: `diagnosis_advice`."""
 
 from __future__ import annotations
 
@@ -7,9 +7,8 @@ import math
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
-from bathyal._core import Touches
+from bathyal.diagnosis_advice import next_steps
+from bathyal.diagnosis_grammar import bare, counted, listed, lower, sentence, upper
 from bathyal.diagnosis_numbers import (
     chance_text,
     estimate_text,
@@ -22,6 +21,7 @@ from bathyal.diagnosis_numbers import (
     shown_unit,
     spaced,
 )
+from bathyal.diagnosis_tables import against_text
 
 if TYPE_CHECKING:
     from bathyal._core import Diagnosis
@@ -39,15 +39,6 @@ SIGNIFICANT = 0.01
 _MOST_TOLD = 3  # causes, with their numbers, in the paragraph
 _MOST_PARAMETERS = 4  # of one cause, in the paragraph
 _MOST_ROWS = 10  # by number
-_NEAR = 0.1  # odds of a rival that is worth a word
-# What data without a covariate cannot show.
-_BLIND = {
-    "temperature": "growth with temperature",
-    "time": "drift, slips and clocks out of step",
-    "payload": "a load's share of what gives way",
-    "direction": "backlash",
-    "session": "a base or tool that moved between sessions",
-}
 
 
 def summary(report: Diagnosis, *, warnings: bool = True) -> str:
@@ -67,7 +58,7 @@ def summary(report: Diagnosis, *, warnings: bool = True) -> str:
     parts = [*_FOUND[report.verdict](report), *next_steps(report)[:2]]
     if warnings:
         parts += [f"Warning: {warning}" for warning in report.warnings]
-    return " ".join(_sentence(part) for part in parts if part)
+    return " ".join(sentence(part) for part in parts if part)
 
 
 def headline(report: Diagnosis) -> str:
@@ -76,25 +67,53 @@ def headline(report: Diagnosis) -> str:
     if report.verdict == "named":
         return f"{title}: {_causes(report.effects)}."
     if report.verdict == "ambiguous" and report.ambiguous:
-        return f"{title}: {_any_of(report.ambiguous)}."
+        told = [
+            listed([cause.words for cause in group], last=" or ") for group in groups_of(report)
+        ]
+        return f"{title}: {listed(told, '; ')}."
     if report.verdict == "unknown":
         return f"{title}: something is there that no cause of the library explains."
     if report.verdict == "clean":
         return f"{title}: nothing beyond noise."
-    return f"{title}: {_lower(VERDICTS[report.verdict][1])}"
+    return f"{title}: {lower(VERDICTS[report.verdict][1])}"
+
+
+def groups_of(report: Diagnosis) -> list[list[Any]]:
+    """Causes that the data cannot tell apart, group by group: each begins with the one that was
+    chosen."""
+    chosen = {_key(effect) for effect in report.effects}
+    groups: list[list[Any]] = []
+    for cause in report.ambiguous:
+        if not groups or _key(cause) in chosen:
+            groups.append([])
+        groups[-1].append(cause)
+    return groups
+
+
+def settled(report: Diagnosis) -> list[Any]:
+    """Causes that have no rival among those that cannot be told apart."""
+    doubtful = {_key(cause) for cause in report.ambiguous}
+    return [effect for effect in report.effects if _key(effect) not in doubtful]
+
+
+def _key(cause: Any) -> tuple[str, int | None, str]:
+    return cause.name, cause.joint, cause.words
 
 
 def effect_text(effect: Any) -> str:
-    """A cause with its numbers: "a harmonic of order 2 along joint 3 (amplitude 0.03°, …)"."""
-    if effect.rows:
+    """A cause with its numbers: "a wave of order 2 along joint 3 with amplitude 0.03°, …"."""
+    if len(effect.rows):
         return f"{effect.words} ({_rows(effect.rows)})"
-    told = [f"{parameter_name(name)} {estimate_text(name, estimate)}"
-            for name, estimate in effect.parameters.items() if not is_setting(name)]  # fmt: skip
+    told = [
+        f"{parameter_name(name)} {estimate_text(name, estimate)}"
+        for name, estimate in effect.parameters.items()
+        if not is_setting(estimate)
+    ]
     rest = len(told) - _MOST_PARAMETERS
-    told = told[:_MOST_PARAMETERS] + ([_count(rest, "more number")] if rest > 0 else [])
+    told = told[:_MOST_PARAMETERS] + ([counted(rest, "more number")] if rest > 0 else [])
     amplitude = amplitude_text(effect)
     told = [f"amplitude {amplitude}", *told] if amplitude else told
-    return f"{effect.words} ({', '.join(told)})" if told else str(effect.words)
+    return f"{effect.words} with {', '.join(told)}" if told else str(effect.words)
 
 
 def amplitude_text(effect: Any) -> str:
@@ -110,7 +129,7 @@ def gain_text(report: Diagnosis) -> str:
     """What the causes bring on data that were not used."""
     held = report.held_out
     text = (
-        f"On data held out ({_bare(held.how)}; {_count(held.blocks, 'block')}) the error falls "
+        f"On data held out ({bare(held.how)}; {counted(held.blocks, 'block')}) the error falls "
         f"from {length_text(held.rms_before)} to {length_text(held.rms_after)} (3-D rms), with a "
         f"floor of {length_text(held.noise)} by noise"
     )
@@ -121,12 +140,20 @@ def gain_text(report: Diagnosis) -> str:
 
 def evidence_texts(report: Diagnosis) -> list[str]:
     """Of each cause a sentence: what it takes from data held out, and what else might do it."""
-    return [_sentence(_evidence(effect)) for effect in report.effects]
+    return [sentence(_evidence(effect)) for effect in report.effects]
+
+
+def is_of_noise(effect: Any) -> bool:
+    """Whether a cause works on the noise, or on single rows, and takes nothing from the error
+    held out: likelihood judges it."""
+    return effect.name in ("outliers", "range_noise", "quantisation")
 
 
 def _evidence(effect: Any) -> str:
+    if is_of_noise(effect):
+        return f"{upper(effect.words)}: {noise_evidence(effect)}"
     text = (
-        f"{_upper(effect.words)}: {share_text(effect.gain)} of the variance above noise on data "
+        f"{upper(effect.words)}: {share_text(effect.gain)} of the variance above noise on data "
         f"held out ({length_text(effect.held_out_before)} without it, "
         f"{length_text(effect.held_out_after)} with it; {chance_text(effect.p_value)})"
     )
@@ -136,24 +163,26 @@ def _evidence(effect: Any) -> str:
     return f"{text}; next best: {best.words}, {odds_text(best.odds)}"
 
 
+def noise_evidence(effect: Any) -> str:
+    """Why a cause that works on the noise was named."""
+    if len(effect.rows):
+        return "so far off that noise does not make them"
+    return f"the log likelihood of data held out gains {figures(effect.gain)}"
+
+
 def leftover_text(report: Diagnosis) -> str:
     """What the named causes leave."""
     left = report.leftover
     if left is None or left.size <= 0 or left.p_value >= SIGNIFICANT:
         return "Nothing beyond noise is left over."
-    text = f"Left over: {_bare(left.words)}"
+    text = f"Left over: {bare(left.words)}"
     return f"{text} ({length_text(left.size)} per axis, {chance_text(left.p_value)})."
-
-
-def next_steps(report: Diagnosis) -> list[str]:
-    """What to do or to measure, the most important first."""
-    return [step for step in _NEXT[report.verdict](report) if step]
 
 
 def structure_text(shown: Any) -> str:
     """A dependence of the residuals, with its size and chance."""
     return (
-        f"{_bare(shown.words)} ({length_text(shown.size)} per axis, {share_text(shown.share)} of "
+        f"{bare(shown.words)} ({length_text(shown.size)} per axis, {share_text(shown.share)} of "
         f"the variance above noise, {chance_text(shown.p_value)})"
     )
 
@@ -167,37 +196,47 @@ def significant(shown: Iterable[Any]) -> list[Any]:
 
 
 def _named(report: Diagnosis) -> list[str]:
-    return [_told(report, VERDICTS["named"][0]), gain_text(report), leftover_text(report)]
+    return [_told(report.effects, VERDICTS["named"][0]), gain_text(report), leftover_text(report)]
 
 
 def _clean(report: Diagnosis) -> list[str]:
-    parts = [f"Clean: {len(report.data):,} poses show nothing beyond noise that geometry does not "
-             "explain"]  # fmt: skip
     least = min(report.shown, key=lambda s: s.p_value, default=None)
-    if least is not None:
-        parts.append(f"the most suspect, against {least.against}, has {chance_text(least.p_value)}")
+    suspect = (
+        f"no structure that was looked for has a chance below {SIGNIFICANT}, all tests counted"
+        if least is None
+        else f"the most suspect, against {against_text(least)}, has {chance_text(least.p_value)}"
+    )
     held = report.held_out
     return [
-        f"{'; '.join(parts)}.",
+        f"Clean: {len(report.data):,} poses show nothing beyond noise that geometry does not "
+        f"explain; {suspect}.",
         f"What moves the tip by {length_text(report.detectable)} or more per axis would have been "
-        f"seen; noise is {length_text(report.noise)} per axis ({_bare(report.noise_source)}).",
+        f"seen; {noise_text(report)}.",
         f"Geometry alone foretells data that were held out to {length_text(held.rms_before)} "
         f"(3-D rms), with a floor of {length_text(held.noise)} by noise.",
     ]
 
 
+def noise_text(report: Diagnosis) -> str:
+    """How large the noise is, and by what."""
+    return f"noise is {length_text(report.noise)} per axis, by {bare(report.noise_source)}"
+
+
 def _ambiguous(report: Diagnosis) -> list[str]:
-    first, *others = report.ambiguous
-    odds = [first.words, *(f"{cause.words} ({odds_text(cause.odds)})" for cause in others)]
-    either = f"Ambiguous, these data cannot tell apart: {_list(odds, '; ', ' or ')}."
-    told = _told(report, "Named beside them") if report.effects else ""
-    return [either, told, gain_text(report), leftover_text(report)]
+    told = []
+    for first, *others in groups_of(report):
+        odds = [first.words, *(f"{cause.words} ({odds_text(cause.odds)})" for cause in others)]
+        told.append(listed(odds, ", ", " or "))
+    either = f"Ambiguous, these data cannot tell apart: {listed(told, '; ')}."
+    sure = settled(report)
+    return [either, _told(sure, "Beside them stands" if len(sure) == 1 else "Beside them stand"),
+            gain_text(report), leftover_text(report)]  # fmt: skip
 
 
 def _unknown(report: Diagnosis) -> list[str]:
     found = significant(report.shown)
     left = report.leftover
-    looks = f"It looks like this: {_bare(left.words)}" if left is not None and left.words else ""
+    looks = f"It looks like this: {bare(left.words)}" if left is not None and left.words else ""
     if looks and left.size > 0:
         looks += (
             f" ({length_text(left.size)} per axis, {share_text(left.share)} of the variance above "
@@ -216,7 +255,7 @@ def _unknown(report: Diagnosis) -> list[str]:
     return [
         headline(report),
         f"{looks}." if looks else "",
-        _told(report, "A part of it may be"),
+        _told(report.effects, "A part of it may be"),
         "A cause that explains a part is not the cause.",
         gain_text(report),
     ]
@@ -224,7 +263,7 @@ def _unknown(report: Diagnosis) -> list[str]:
 
 def _none(report: Diagnosis) -> list[str]:
     held = report.held_out
-    why = _bare(held.how) if held is not None and held.how else "the data are too few"
+    why = bare(held.how) if held is not None and held.how else "the data are too few"
     found = significant(report.shown)
     shown = f"What the residuals show: {structure_text(found[0])}." if found else (
         "Within the data themselves nothing stands out.")  # fmt: skip
@@ -243,117 +282,17 @@ _FOUND = {
 }
 
 
-def _told(report: Diagnosis, how: str) -> str:
-    """The causes with their numbers."""
-    effects = list(report.effects)
-    told = [f"{effect_text(e)}, {length_text(e.size)} per axis" for e in effects[:_MOST_TOLD]]
+def _told(effects: Sequence[Any], how: str) -> str:
+    """Causes with their numbers."""
+    told = [
+        f"{effect_text(e)} (moves the tip by {length_text(e.size)} per axis)"
+        if not is_of_noise(e)
+        else effect_text(e)
+        for e in effects[:_MOST_TOLD]
+    ]
     if len(effects) > _MOST_TOLD:
         told.append(f"{len(effects) - _MOST_TOLD} more with smaller numbers")
-    return f"{how}: {_list(told, '; ')}." if told else ""
-
-
-# What to do ---------------------------------------------------------------------------------------
-
-
-def _after_named(report: Diagnosis) -> list[str]:
-    near = [(effect, rival) for effect in report.effects for rival in effect.rivals
-            if rival.odds >= _NEAR]  # fmt: skip
-    steps = [
-        "Use the corrected arm (report.model) within the range of joints that taught it, and check "
-        "it on a dozen poses that were no part of this."
-    ]
-    for effect, rival in near[:1]:
-        steps.append(
-            f"{_upper(rival.words)} is not far behind {effect.words} ({odds_text(rival.odds)}): "
-            f"poses in which the two differ would settle it."
-        )
-    return [*steps, _next_poses(report), _not_recorded(report)]
-
-
-def _after_clean(report: Diagnosis) -> list[str]:
-    return [
-        "Use the arm that was identified (report.fit.arm). To see smaller effects measure more: "
-        "four times the poses halve what can be seen.",
-        _not_recorded(report),
-    ]
-
-
-def _after_ambiguous(report: Diagnosis) -> list[str]:
-    what = _next_poses(report) or (
-        "No pose would tell them apart: record more beside the joints, or in another order."
-    )
-    return [what, "Until then any of them corrects the arm alike where the data lie, and nowhere "
-            "else.", _not_recorded(report)]  # fmt: skip
-
-
-def _after_unknown(report: Diagnosis) -> list[str]:
-    left = report.leftover
-    against = left.against if left is not None else ""
-    where = _where_to_look(against)
-    return [
-        _not_recorded(report) or where,
-        where if _not_recorded(report) else "",
-        "Do not put a correction on this arm until the cause is known; its geometry "
-        "(report.fit.arm) may be used with the error shown here.",
-        _next_poses(report),
-    ]
-
-
-def _after_none(report: Diagnosis) -> list[str]:
-    what = (
-        "touch each point in twice as many poses, or touch more points"
-        if isinstance(report.data, Touches)
-        else "measure two or three times as many poses, spread over the joints' ranges"
-    )
-    return [f"{_upper(what)}, better on two days, and diagnose again.", _not_recorded(report)]
-
-
-_NEXT = {
-    "clean": _after_clean,
-    "named": _after_named,
-    "ambiguous": _after_ambiguous,
-    "unknown": _after_unknown,
-    "none": _after_none,
-}
-
-
-def _where_to_look(against: str) -> str:
-    if against.startswith("time"):
-        return (
-            "It goes with time: look for what runs in that rhythm (a pump, a machine, the sun), "
-            "and measure the same poses again at another hour."
-        )
-    if against.startswith(("position", "x", "y", "z")):
-        return (
-            "It goes with the place: check the instrument's own field with a body of known size, "
-            "or measure the same places from another station."
-        )
-    if against.startswith("session"):
-        return "It goes with the session: find what was changed between them, and repeat one pose."
-    if against.startswith("joint"):
-        return (
-            f"It goes with {against}: sweep {'these' if 'and' in against else 'that joint'} in "
-            "small steps, up and down, with the others still, and look at the curve."
-        )
-    return "Repeat a few poses, each approached from both sides, and see what changes."
-
-
-def _next_poses(report: Diagnosis) -> str:
-    count = 0 if report.next_poses is None else len(np.atleast_2d(report.next_poses))
-    if count == 0 or np.size(report.next_poses) == 0:
-        return ""
-    return (
-        f"Measure the {_count(count, 'pose')} of report.next_poses, where the causes differ most, "
-        "and diagnose again with all data together."
-    )
-
-
-def _not_recorded(report: Diagnosis) -> str:
-    missing = [name for name in _BLIND if name not in report.data.covariates]
-    if not missing:
-        return ""
-    blind = [_BLIND[name] for name in missing]
-    return f"Not recorded: {_list(missing)}; so these data cannot show {_list(blind, last=' or ')}."
+    return f"{how}: {listed(told, '; ')}." if told else ""
 
 
 # Grammar ------------------------------------------------------------------------------------------
@@ -362,44 +301,10 @@ def _not_recorded(report: Diagnosis) -> str:
 def _causes(effects: Sequence[Any]) -> str:
     told = [str(effect.words) for effect in effects[:_MOST_TOLD]]
     rest = len(effects) - len(told)
-    return _list(told + ([f"{rest} more"] if rest else []), "; ") if told else "no cause"
-
-
-def _any_of(causes: Sequence[Any]) -> str:
-    told = [str(cause.words) for cause in causes[:_MOST_TOLD]]
-    rest = len(causes) - len(told)
-    return _list(told + ([f"one of {rest} more"] if rest else []), last=" or ")
-
-
-def _list(texts: Sequence[str], between: str = ", ", last: str = " and ") -> str:
-    if len(texts) < 2:
-        return "".join(texts)
-    last = f"{between.rstrip()}{last}" if between != ", " else last
-    return f"{between.join(texts[:-1])}{last}{texts[-1]}"
+    return listed(told + ([f"{rest} more"] if rest else []), "; ") if told else "no cause"
 
 
 def _rows(rows: Sequence[int]) -> str:
     told = ", ".join(str(row) for row in rows[:_MOST_ROWS])
     rest = len(rows) - _MOST_ROWS
     return f"rows {told}" + (f" and {rest} more" if rest > 0 else "")
-
-
-def _count(count: int, what: str) -> str:
-    return f"{count:,} {what}{'' if count == 1 else 's'}"
-
-
-def _bare(text: str) -> str:
-    return text.strip().rstrip(".")
-
-
-def _upper(text: str) -> str:
-    return text[:1].upper() + text[1:]
-
-
-def _lower(text: str) -> str:
-    return text[:1].lower() + text[1:]
-
-
-def _sentence(text: str) -> str:
-    text = _upper(text.strip())
-    return text if text.endswith((".", "!", "?")) else f"{text}."

@@ -179,7 +179,15 @@ def ambiguous() -> Report:
     report = base()
     report.__dict__.update(
         verdict="ambiguous",
-        effects=[],
+        effects=[
+            harmonic(),
+            effect(
+                "tool_slip",
+                None,
+                "the tool slipped after 120 rows",
+                parameters={"moment": estimate(120, "", 0.0), "shift_x": estimate(3e-4, "m", 1e-5)},
+            ),
+        ],
         ambiguous=[
             cause("tool_slip", None, "the tool slipped after 120 rows"),
             cause("base_shift", None, "the base moved between sessions 1 and 2", 0.8),
@@ -226,10 +234,10 @@ def many(count: int = 20) -> Report:
     kinds = [
         ("joint_map", 1, "a smooth curve along joint 2",
          {"cos_1": (1e-4, "rad", 2e-6), "sin_1": (2e-4, "rad", 2e-6), "cos_2": (5e-5, "rad", 2e-6),
-          "sin_2": (-3e-5, "rad", 2e-6), "terms": (2.0, "", 0.0)}),
-        ("joint_scale", 0, "joint 1 counts too much", {"scale": (1.2e-3, "", 2e-5)}),
+          "sin_2": (-3e-5, "rad", 2e-6), "terms": (2.0, "", 0.0), "wave": (1.0, "", 0.0)}),
+        ("joint_scale", 0, "joint 1 counts too much", {"scale": (1.2e-3, "1", 2e-5)}),
         ("joint_coupling", 3, "joint 4 is moved along by joint 3",
-         {"by": (2.0, "", 0.0), "ratio": (-0.002, "", 1e-4)}),
+         {"by": (2.0, "", 0.0), "ratio": (-0.002, "1", 1e-4)}),
         ("backlash", 4, "play in joint 5", {"gap": (8e-4, "rad", 3e-5)}),
         ("joint_compliance", 1, "joint 2 gives way under load",
          {"compliance": (2.1e-6, "rad/(N m)", 1e-7)}),

@@ -40,6 +40,7 @@ class Reporter {
     out_.fit = subject_.fit();
     out_.arm = subject_.arm();
     out_.found = subject_.found();
+    out_.support = support_of(m_.q, subject_.data().covariates);
     out_.residuals_before = subject_.fit().residuals;
     out_.residuals_after = subject_.deviations();
     tell_noise();

@@ -10,6 +10,7 @@
 #include "bathyal/identify/arm_fit.hpp"
 #include "bathyal/identify/effect.hpp"
 #include "bathyal/identify/identify_arm.hpp"
+#include "bathyal/identify/support.hpp"
 
 namespace bathyal {
 
@@ -45,7 +46,8 @@ struct Diagnosis {
   double gain = 0.0;  ///< (r₀² - r₁²) / (r₀² - σ²) of held-out rms
   ArmFit fit;         ///< geometry alone
   Arm arm;            ///< geometry found together with the effects
-  std::vector<FoundEffect> found;  ///< the effects that move the arm, for its corrected model
+  std::vector<FoundEffect> found;  ///< the effects that move the arm
+  Support support;                 ///< of the data: with `arm` and `found` it makes a CorrectedArm
   double noise = 0.0;              ///< standard deviation of a measurement, per axis [m]
   std::string noise_source;        ///< "repeats of 12 poses" …
   double detectable = 0.0;         ///< size of an effect that would have been found, per axis [m]

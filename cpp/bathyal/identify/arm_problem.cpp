@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "bathyal/base/check.hpp"
+#include "bathyal/identify/effect_columns.hpp"
 #include "bathyal/identify/start.hpp"
 
 namespace bathyal {
@@ -33,7 +34,8 @@ double root_mean_square(const Eigen::Matrix3Xd& errors) {
 
 }  // namespace
 
-ArmProblem::ArmProblem(const Arm& known_arm, const Measurement& data, const IdentifyOptions& asked)
+ArmProblem::ArmProblem(const Arm& known_arm, const Measurement& data, const IdentifyOptions& asked,
+                       const std::vector<HeldEffect>& effects)
     : arm(known_arm),
       measurement(data),
       options(asked),
@@ -46,6 +48,7 @@ ArmProblem::ArmProblem(const Arm& known_arm, const Measurement& data, const Iden
                    "\"free\"");
   }
   find_columns();
+  hold(effects);
   gauge = find_gauge(columns, measurement, choice(), measurement.in_world() && !base_free, fixed);
   set_priors();
   system.emplace(columns, measurement, options.criterion, options.pair_weights,
@@ -70,6 +73,17 @@ void ArmProblem::find_columns() {
   for (const std::string& name : options.fixed) {
     fixed.push_back(column_named(columns, name, "fixed"));
   }
+}
+
+void ArmProblem::hold(const std::vector<HeldEffect>& effects) {
+  for (const HeldEffect& held : effects) {
+    const int first = add_effect(columns, held.variant, held.actions);
+    for (Index p = 0; p < held.values.size(); ++p) {
+      columns.columns[first + p].nominal = held.values[p];
+      fixed.push_back(first + static_cast<int>(p));
+    }
+  }
+  start = columns.nominal();
 }
 
 void ArmProblem::set_length_prior(double std) {
@@ -128,7 +142,7 @@ void ArmProblem::settle_frames() {
   const ArmColumns settled =
       make_columns(arm, measurement, std::move(state.bases), std::move(state.tools),
                    std::move(state.planes), choice());
-  for (std::size_t i = 0; i < columns.columns.size(); ++i) {
+  for (std::size_t i = 0; i < settled.columns.size(); ++i) {
     columns.columns[i].nominal = settled.columns[i].nominal;
   }
   columns.bases = settled.bases;

@@ -6,6 +6,7 @@
 
 #include "bathyal/identify/arm_system.hpp"
 #include "bathyal/identify/gauge.hpp"
+#include "bathyal/identify/held_effect.hpp"
 #include "bathyal/identify/identify_arm.hpp"
 
 // What an identification knows before it searches. For use inside the room.
@@ -17,7 +18,8 @@ namespace bathyal {
 /// it.
 struct ArmProblem {
   /// \throw std::invalid_argument for names that no column has, and a free base that nothing holds
-  ArmProblem(const Arm& arm, const Measurement& measurement, const IdentifyOptions& options);
+  ArmProblem(const Arm& arm, const Measurement& measurement, const IdentifyOptions& options,
+             const std::vector<HeldEffect>& effects = {});
   ArmProblem(const ArmProblem&) = delete;
   ArmProblem& operator=(const ArmProblem&) = delete;
 
@@ -26,8 +28,8 @@ struct ArmProblem {
   const IdentifyOptions& options;
   bool base_free = false;  ///< that of the first station
   ArmColumns columns;
-  std::vector<int> fixed;              ///< columns that the caller holds at nominal
-  std::vector<GaugeColumn> gauge;      ///< columns that base and tool make superfluous
+  std::vector<int> fixed;          ///< columns that the caller holds at nominal, effects among them
+  std::vector<GaugeColumn> gauge;  ///< columns that base and tool make superfluous
   std::optional<double> length_prior;  ///< asked for, or standing in for a scale [m]
   bool size_told = false;              ///< by the data, whatever the priors say
   std::optional<ArmSystem> system;     ///< over the columns that are left free
@@ -43,6 +45,7 @@ struct ArmProblem {
 
  private:
   void find_columns();
+  void hold(const std::vector<HeldEffect>& effects);
   void set_priors();
   void settle_frames();
   void free_the_rest();

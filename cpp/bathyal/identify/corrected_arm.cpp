@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "bathyal/base/error.hpp"
+#include "bathyal/base/check.hpp"
 #include "bathyal/base/parallel.hpp"
 
 namespace bathyal {
@@ -83,6 +83,17 @@ CorrectedArm::CorrectedArm(Arm arm, std::vector<FoundEffect> effects, Support su
     if (found.variant.joint < -1 || found.variant.joint >= arm_.size()) {
       throw_argument(name, "a joint from 0 to " + std::to_string(arm_.size() - 1) + ", or none",
                      std::to_string(found.variant.joint));
+    }
+    for (const auto& [setting, value] : found.variant.settings) {
+      check_finite(name + " setting " + setting, value);
+    }
+    const auto alike = [&found](const FoundEffect& other) {
+      return other.variant.effect == found.variant.effect &&
+             other.variant.joint == found.variant.joint &&
+             other.variant.settings == found.variant.settings;
+    };
+    if (std::count_if(effects_.begin(), effects_.end(), alike) > 1) {
+      throw_argument("effects", "each once", words_of(found) + " twice, with the same settings");
     }
   }
   support_.check(arm_.size());
@@ -177,6 +188,28 @@ CorrectedJacobians CorrectedArm::jacobian(JointView q, const Covariates& covaria
 SupportMask CorrectedArm::in_support(JointView q, const Covariates& covariates) const {
   check_joint_values(arm_, q);
   return mask_of(ask(arm_, support_, q, covariates), told(covariates));
+}
+
+std::vector<HeldEffect> CorrectedArm::held(JointView q, const Covariates& covariates) const {
+  check_joint_values(arm_, q);
+  const AskedRows rows = ask(arm_, support_, q, covariates);
+  const SupportMask mask = mask_of(rows, told(covariates));
+  std::vector<HeldEffect> held;
+  for (std::size_t e = 0; e < effects_.size(); ++e) {
+    const auto column = mask.col(static_cast<Index>(e));
+    if (!column.any()) continue;
+    const FoundEffect& found = effects_[e];
+    held.push_back(
+        {found.variant, found.values, actions_of(*found.effect, found.variant, rows.asked)});
+    for (std::vector<Action>& actions : held.back().actions) {
+      for (Action& action : actions) {
+        for (Index i = 0; i < column.size(); ++i) {
+          if (!column[i]) action.values.row(i).setZero();
+        }
+      }
+    }
+  }
+  return held;
 }
 
 CorrectedArm::Rows CorrectedArm::prepare(JointView q, const Covariates& covariates) const {

@@ -7,6 +7,7 @@
 
 #include "bathyal/arm/inverse.hpp"
 #include "bathyal/identify/correction.hpp"
+#include "bathyal/identify/held_effect.hpp"
 #include "bathyal/identify/support.hpp"
 
 namespace bathyal {
@@ -84,6 +85,9 @@ class CorrectedArm {
 
   /// Which effects count in which row, (N, effects).
   SupportMask in_support(JointView q, const Covariates& covariates = {}) const;
+
+  /// What each effect does in recorded rows; nothing where it does not count.
+  std::vector<HeldEffect> held(JointView q, const Covariates& covariates) const;
 
  private:
   struct Rows;  ///< poses with what the effects move there

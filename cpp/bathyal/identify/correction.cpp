@@ -89,11 +89,11 @@ void Correction::add(const std::vector<Action>& moves, const Eigen::Ref<const Su
           break;
         case Site::kFrame:
           frames[move.index].row(i) += move.values.row(i);
-          chained[i] = 1;
+          if (!move.values.row(i).isZero(0.0)) chained[i] = 1;
           break;
         case Site::kLength:
           lengths[i] += move.values(i, 0);
-          chained[i] = 1;
+          if (move.values(i, 0) != 0.0) chained[i] = 1;
           break;
       }
     }

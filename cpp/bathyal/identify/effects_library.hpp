@@ -61,7 +61,7 @@ Action move_joint(int coordinate, const Eigen::VectorXd& values);
 /// The `axis`-th of shift x y z, turn x y z of a frame.
 Action move_frame(int frame, int axis, const Eigen::VectorXd& values);
 
-/// "shift_x" … "turn_z", and whether only the three shifts are wanted.
+/// "shift_x" … "shift_z" and, where turns are wanted, "turn_x" … "turn_z".
 std::vector<std::string> frame_axes(const std::string& shift, const std::string& turn, bool turns);
 
 }  // namespace bathyal

@@ -118,12 +118,12 @@ class BaseCompliance final : public Effect {
   }
 
  private:
-  /// (N, 3) about the origin of the base.
+  /// (N, 3) about the origin of the base, of all but the foot, which stands on it.
   static RowMatrix moments_of(const EffectData& data) {
     const GravityLoads loads = loads_of(data);
     RowMatrix out(data.rows(), 3);
     for (Index i = 0; i < data.rows(); ++i) {
-      out.row(i) = loads.beyond(i, 0, Vec3::Zero()).moment.transpose();
+      out.row(i) = loads.beyond(i, 1, Vec3::Zero()).moment.transpose();
     }
     return out;
   }

@@ -97,18 +97,16 @@ class JointCompliance final : public Effect {
   }
 
   Actions actions(const EffectVariant& variant, const EffectData& data) const override {
-    Actions out;
     const int j = joint_of(variant, data);
-    const auto links = static_cast<Index>(data.arm->joints().size());
+    const auto moments_told = LumpedMoments::kKinds * static_cast<Index>(data.arm->joints().size());
+    const LumpedMoments moments(data, j);
+    const GravityLoads loads(data, GravityLoads::Bodies::kArm, payload_of(data));
+    Actions out;
     for (const EffectParameter& parameter : variant.parameters) {
-      if (variant.settings.contains(parameter.name)) {
-        const LumpedMoments moments(data, j);
-        const int moment = index_of(variant, parameter.name, LumpedMoments::kKinds * links);
-        out.push_back({move_joint(j, moments.torque(moment))});
-      } else {
-        const GravityLoads loads(data, GravityLoads::Bodies::kArm, payload_of(data));
-        out.push_back({move_joint(j, loads.torque(j))});
-      }
+      const bool lumped = variant.settings.contains(parameter.name);
+      out.push_back(
+          {move_joint(j, lumped ? moments.torque(index_of(variant, parameter.name, moments_told))
+                                : loads.torque(j))});
     }
     return out;
   }

@@ -88,10 +88,10 @@ class JointHarmonic final : public Effect {
     const double fine = std::max(least, 0.25 * wave), coarse = std::max(least, 0.5 * wave);
     std::set<double> found;
     for (int k = 1; turning && k <= kWholeOrders; ++k) found.insert(k);
-    // Below half a wave over the span a wave is no more than an offset, a scale and a bend.
+    // Below a quarter of a wave over the span a wave is no more than an offset and a scale.
     int step = 0;
-    double order = 0.5 * wave;
-    for (; order <= fine_end; order = 0.5 * wave + ++step * fine) found.insert(order);
+    double order = 0.25 * wave;
+    for (; order <= fine_end; order = 0.25 * wave + ++step * fine) found.insert(order);
     const double from = order;
     for (step = 0; order <= end; order = from + ++step * coarse) found.insert(order);
     return {found.begin(), found.end()};

@@ -8,8 +8,9 @@
 namespace bathyal {
 namespace {
 
-ArmFit identify(const Arm& arm, const Measurement& measurement, const IdentifyOptions& options) {
-  ArmProblem problem(arm, measurement, options);
+ArmFit identify(const Arm& arm, const Measurement& measurement, const IdentifyOptions& options,
+                const std::vector<HeldEffect>& effects = {}) {
+  ArmProblem problem(arm, measurement, options, effects);
   // What the data see is asked where the search starts: a direction that is dark there is held, for
   // the little light that it gets elsewhere is not to be trusted (plain DH beside parallel axes
   // runs off along such directions).
@@ -19,6 +20,15 @@ ArmFit identify(const Arm& arm, const Measurement& measurement, const IdentifyOp
   ArmFit fit = report(problem, seen, found);
   examine(measurement, *problem.system, arm, fit);
   return fit;
+}
+
+template <class Data>
+ArmFit identify_with_effects(const CorrectedArm& model, const Data& data,
+                             const IdentifyOptions& options) {
+  options.check();
+  const Measurement measurement = to_measurement(model.arm(), data);
+  const JointView q(data.q.data(), data.q.rows(), data.q.cols());
+  return identify(model.arm(), measurement, options, model.held(q, data.covariates));
 }
 
 }  // namespace
@@ -44,6 +54,16 @@ ArmFit identify_arm(const Arm& arm, const Touches& touches, const IdentifyOption
 ArmFit identify_arm(const Arm& arm, const Tracked& tracked, const IdentifyOptions& options) {
   options.check();
   return identify(arm, to_measurement(arm, tracked), options);
+}
+
+ArmFit identify_arm(const CorrectedArm& model, const Touches& touches,
+                    const IdentifyOptions& options) {
+  return identify_with_effects(model, touches, options);
+}
+
+ArmFit identify_arm(const CorrectedArm& model, const Tracked& tracked,
+                    const IdentifyOptions& options) {
+  return identify_with_effects(model, tracked, options);
 }
 
 }  // namespace bathyal

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "bathyal/identify/arm_fit.hpp"
+#include "bathyal/identify/corrected_arm.hpp"
 #include "bathyal/identify/data.hpp"
 
 namespace bathyal {
@@ -71,5 +72,14 @@ struct IdentifyOptions {
 /// \throw std::invalid_argument for bad data or options, or another number of joints.
 ArmFit identify_arm(const Arm& arm, const Touches& touches, const IdentifyOptions& options = {});
 ArmFit identify_arm(const Arm& arm, const Tracked& tracked, const IdentifyOptions& options = {});
+
+/// The same of an arm with effects inside: they act as they were found, each in the rows where it
+/// counts (CorrectedArm::in_support, by the data's covariates), while the geometry is sought anew.
+/// Their values stand among the parameters, held. The fit's arm is the rigid part alone.
+/// \throw std::invalid_argument also for covariates as CorrectedArm::forward
+ArmFit identify_arm(const CorrectedArm& model, const Touches& touches,
+                    const IdentifyOptions& options = {});
+ArmFit identify_arm(const CorrectedArm& model, const Tracked& tracked,
+                    const IdentifyOptions& options = {});
 
 }  // namespace bathyal

@@ -180,13 +180,14 @@ TEST(EffectColumns, SearchFindsTheSizes) {
   }
   ArmSystem system(columns, m, Criterion::kCentroid, false, 1);
   system.set_free(free);
-  system.set_noise({1e-7, 1e-7}, columns.nominal());  // the search stops far below it
   const Eigen::VectorXd start = Eigen::VectorXd::Zero(system.columns());
   const Eigen::VectorXd x = system.values(solve_least_squares(system, start).y);
   Eigen::VectorXd truth(11);
   truth << 3e-3, -1e-3, 2e-3, 4e-3, 2.3e-5, shift.shift, shift.turn;
-  EXPECT_LT(system.deviations(x).norm(), 1e-9);
-  EXPECT_LT((x.tail(11) - truth).cwiseAbs().maxCoeff(), 1e-8);
+  // Lengths that are gauge stand at the drawing's, a millimetre off, and grow by that much less.
+  EXPECT_LT(system.deviations(x).norm(), 1e-5);
+  EXPECT_LT((x.tail(11) - truth).cwiseAbs().maxCoeff(), 1e-5);
+  EXPECT_NEAR(x[x.size() - 7], 2.3e-5, 1e-8);
 
   // The same values held act as the free ones did, and without them the arm alone does worse.
   for (std::size_t i = 0; i < columns.columns.size(); ++i) columns.columns[i].nominal = x[i];
@@ -194,7 +195,7 @@ TEST(EffectColumns, SearchFindsTheSizes) {
   system.set_free(free);
   const Eigen::VectorXd nothing = Eigen::VectorXd::Zero(system.columns());
   EXPECT_EQ(system.values(nothing), columns.nominal());
-  EXPECT_LT(system.deviations(system.values(nothing)).norm(), 1e-9);
+  EXPECT_LT(system.deviations(system.values(nothing)).norm(), 1e-5);
   truncate_columns(columns, geometry);
   EXPECT_EQ(columns.actions.size(), 0U);
   const Eigen::VectorXd alone = system.values(solve_least_squares(system, nothing).y);

@@ -56,7 +56,9 @@ TEST(Variants, NeedTheirCovariates) {
   bare.covariates.clear();
   for (const auto& effect : library_effects()) {
     const EffectInfo info = effect->info();
-    if (!info.needs.empty()) EXPECT_TRUE(effect->variants(bare.data()).empty()) << info.name;
+    if (!info.needs.empty()) {
+      EXPECT_TRUE(effect->variants(bare.data()).empty()) << info.name;
+    }
     for (const std::string& need : info.needs) {
       Scene missing(odd_arm(3));
       missing.covariates[need](3, 0) = std::numeric_limits<double>::quiet_NaN();
