@@ -27,6 +27,7 @@ from bathyal.diagnosis_figure import (
     show_figure,
     support_figure,
 )
+from bathyal.diagnosis_grammar import sentence
 from bathyal.diagnosis_numbers import (
     chance_text,
     length_text,
@@ -250,11 +251,7 @@ def _beyond(report: Diagnosis) -> str:
 
 
 def _held(report: Diagnosis) -> str:
-    held = report.held_out
-    how = held.how.strip().rstrip(".")
-    if report.verdict == "none":
-        return f"No data could be held out: {how}."
-    return f"Held out: {how} ({held.blocks} block{'' if held.blocks == 1 else 's'})."
+    return sentence(report.held_out.how or "No data could be held out")
 
 
 def _left(report: Diagnosis) -> str:

@@ -129,8 +129,8 @@ def gain_text(report: Diagnosis) -> str:
     """What the causes bring on data that were not used."""
     held = report.held_out
     text = (
-        f"On data held out ({bare(held.how)}; {counted(held.blocks, 'block')}) the error falls "
-        f"from {length_text(held.rms_before)} to {length_text(held.rms_after)} (3-D rms), with a "
+        f"On data held out ({lower(bare(held.how))}) the error falls from "
+        f"{length_text(held.rms_before)} to {length_text(held.rms_after)} (3-D rms), with a "
         f"floor of {length_text(held.noise)} by noise"
     )
     if math.isfinite(report.gain):
