@@ -46,7 +46,7 @@ _WIDE = 11.0  # in, of a picture on the page
 _PANEL = 1.95  # in, height of a row of panels
 _ABREAST = 4
 _MARGINS = (0.56, 0.10, 0.42, 0.22)  # in, of a panel: left, right, foot, head
-_MOST_PAIRS = 4
+_MOST_PAIRS = 3
 _DPI = 110
 # The sheet: A4 upright; places are shares of the page.
 _SIZE_IN = (8.27, 11.69)

@@ -39,6 +39,7 @@ from bathyal.diagnosis_tables import against_text, supports
 from bathyal.diagnosis_words import (
     SIGNIFICANT,
     VERDICTS,
+    facts_of,
     headline,
     leftover_text,
     summary,
@@ -69,7 +70,7 @@ def write_page(
     title : str
         What was diagnosed.
     facts : mapping of str to str, optional
-        Lines for the box beside the words.
+        Lines for the box beside the words; `facts_of` unless given.
     step : callable, optional
         Called with the share that is done, 0 to 1, and what is being drawn.
     """
@@ -80,7 +81,7 @@ def write_page(
         figure = draw(report)
         drawings[name] = "" if figure is None else _image(figure, words)
     page = PAGE.format(
-        title=html.escape(title or "Diagnosis"),
+        title=html.escape(title or f"{report.fit.arm.name or 'An arm'}, {len(report.data):,} rows"),
         ink=INK,
         red=GAP,
         blue=AFTER,
@@ -92,7 +93,7 @@ def write_page(
         words=html.escape(summary(report, warnings=False)),
         warnings="".join(f"<p>{html.escape(warning)}</p>" for warning in report.warnings),
         wanting="".join(f"<li>{html.escape(text)}</li>" for text in next_steps(report)),
-        facts=_facts(facts or {}),
+        facts=_facts(facts_of(report) if facts is None else facts),
         marks=_marks_text(report),
         structures=_structures(report),
         causes=causes_of(report),
@@ -268,9 +269,10 @@ def _parts(report: Diagnosis) -> str:
     if report.verdict == "none":
         return ""
     rows = [("all held out", "", length_text(held.rms_before), length_text(held.rms_after))]
+    parts = held.parts if len(held.parts) > 1 else []
     rows += [
         (part.name, f"{part.rows:,}", length_text(part.rms_before), length_text(part.rms_after))
-        for part in held.parts
+        for part in parts
     ]
     whole = table(("", "rows", "before", "after"), rows)
     if len(rows) <= MOST_PARTS:

@@ -7,6 +7,7 @@ import math
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any
 
+from bathyal._core import Touches
 from bathyal.diagnosis_advice import next_steps
 from bathyal.diagnosis_grammar import bare, counted, listed, lower, sentence, upper
 from bathyal.diagnosis_numbers import (
@@ -59,6 +60,20 @@ def summary(report: Diagnosis, *, warnings: bool = True) -> str:
     if warnings:
         parts += [f"Warning: {warning}" for warning in report.warnings]
     return " ".join(sentence(part) for part in parts if part)
+
+
+def facts_of(report: Diagnosis) -> dict[str, str]:
+    """What was diagnosed, in short: lines for a box or a screen."""
+    data, arm = report.data, report.fit.arm
+    what = "touches" if isinstance(data, Touches) else "poses"
+    return {
+        "verdict": VERDICTS[report.verdict][0],
+        "arm": f"{arm.name or 'arm'}, {arm.size} joints",
+        what: f"{len(data):,}",
+        "recorded beside": ", ".join(sorted(data.covariates)) or "nothing",
+        "geometry alone": f"{length_text(report.fit.rms_after)} (rms, 3-D, fitted)",
+        "noise": f"{length_text(report.noise)} per axis, by {bare(report.noise_source)}",
+    }
 
 
 def headline(report: Diagnosis) -> str:

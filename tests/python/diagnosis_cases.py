@@ -134,7 +134,8 @@ def base(count: int = 240, sessions: int = 2) -> Report:
         ],
         leftover=structure("nothing", "nothing", 0.0, 0.0, 0.7),
         held_out=SimpleNamespace(
-            how="20 blocks of poses that lie near each other were held out in turn", blocks=20, rms_before=rms(before),
+            how="20 blocks of poses that lie near each other were held out in turn", blocks=20,
+            rms_before=rms(before),
             rms_after=rms(after), noise=noise, p_value=2e-6, parts=parts, before=before,
             after=after,
         ),
