@@ -124,8 +124,8 @@ def effect_text(effect: Any) -> str:
         for name, estimate in effect.parameters.items()
         if not is_setting(estimate)
     ]
-    rest = len(told) - _MOST_PARAMETERS
-    told = told[:_MOST_PARAMETERS] + ([counted(rest, "more number")] if rest > 0 else [])
+    if len(told) > _MOST_PARAMETERS:
+        return f"{effect.words}, told by {len(told)} numbers"
     amplitude = amplitude_text(effect)
     told = [f"amplitude {amplitude}", *told] if amplitude else told
     return f"{effect.words} with {', '.join(told)}" if told else str(effect.words)
@@ -239,9 +239,11 @@ def noise_text(report: Diagnosis) -> str:
 
 def _ambiguous(report: Diagnosis) -> list[str]:
     told = []
-    for first, *others in groups_of(report):
+    groups = groups_of(report)
+    for first, *others in groups[:_MOST_TOLD]:
         odds = [first.words, *(f"{cause.words} ({odds_text(cause.odds)})" for cause in others)]
-        told.append(listed(odds, ", ", " or "))
+        told.append(_any_of(odds))
+    told += _more(groups, "choice")
     either = f"Ambiguous, these data cannot tell apart: {listed(told, '; ')}."
     sure = settled(report)
     return [either, _told(sure, "Beside them stands" if len(sure) == 1 else "Beside them stand"),
@@ -323,3 +325,16 @@ def _rows(rows: Sequence[int]) -> str:
     told = ", ".join(str(row) for row in rows[:_MOST_ROWS])
     rest = len(rows) - _MOST_ROWS
     return f"rows {told}" + (f" and {rest} more" if rest > 0 else "")
+
+
+def _any_of(causes: Sequence[str]) -> str:
+    rest = len(causes) - _MOST_TOLD
+    if rest > 0:
+        causes = [*causes[:_MOST_TOLD], f"any of {counted(rest, 'other')}"]
+    return listed(causes, last=" or ")
+
+
+def _more(told: Sequence[Any], what: str) -> list[str]:
+    """What stands for those that are not told one by one."""
+    rest = len(told) - _MOST_TOLD
+    return [counted(rest, f"more {what}")] if rest > 0 else []
