@@ -121,7 +121,8 @@ py::object words_about(const char* function, const py::object& self) {
 }
 
 void bind_result(py::module_& module) {
-  py::class_<Diagnosis>(module, "Diagnosis", kDiagnosisDoc)
+  // `data` is the caller's own object: what it was found from, for the report to draw.
+  py::class_<Diagnosis>(module, "Diagnosis", py::dynamic_attr(), kDiagnosisDoc)
       .def_property_readonly(
           "verdict", [](const Diagnosis& d) { return word_of(d.verdict, verdict_words()); },
           "\"clean\", \"named\", \"ambiguous\", \"unknown\", or \"none\" where nothing can be held "
@@ -131,7 +132,11 @@ void bind_result(py::module_& module) {
       .def_readonly("ambiguous", &Diagnosis::ambiguous,
                     "Cause: all among which these data cannot choose.")
       .def_property_readonly(
-          "next_poses", [](const Diagnosis& d) { return to_numpy(RowMatrix(d.next_poses)); },
+          "next_poses",
+          [](const Diagnosis& d) {
+            const bool none = d.next_poses.rows() == 0;  // of whatever width
+            return to_numpy(none ? RowMatrix(0, d.arm.size()) : RowMatrix(d.next_poses));
+          },
           "(m, n) poses that would tell them apart [rad or m].")
       .def_readonly("shown", &Diagnosis::shown,
                     "Structure in the residuals of geometry alone, likeliest first.")
@@ -208,8 +213,13 @@ void bind_function(py::module_& module) {
           if (!progress.is_none()) progress(done, stage);
         };
         const auto run = [&](const auto& known) {
-          const py::gil_scoped_release release;
-          return diagnose(arm, known, options, asked, tell);
+          const auto find = [&] {
+            const py::gil_scoped_release release;
+            return diagnose(arm, known, options, asked, tell);
+          };
+          py::object found = py::cast(find());
+          found.attr("data") = data;
+          return found;
         };
         if (py::isinstance<Touches>(data)) return run(data.cast<const Touches&>());
         if (py::isinstance<Tracked>(data)) return run(data.cast<const Tracked&>());

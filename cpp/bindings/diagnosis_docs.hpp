@@ -26,7 +26,9 @@ ValueError
 )";
 
 inline constexpr const char* kDiagnosisDoc =
-    R"(What the model of an arm gets wrong, by its measurements; see `diagnose`.)";
+    R"(What the model of an arm gets wrong, by its measurements; see `diagnose`.
+
+`.data` is the Touches or Tracked that it was found from.)";
 
 inline constexpr const char* kDiagnoseDoc =
     R"(Show what the best rigid model of an arm gets wrong, name the cause, measure the gain.

@@ -18,8 +18,7 @@ from bathyal.arm_files import find_arm
 from bathyal.bottom import Step, file_facts
 from bathyal.diagnosis_advice import next_steps
 from bathyal.diagnosis_files import told, write_diagnosis, write_residuals
-from bathyal.diagnosis_numbers import length_text
-from bathyal.diagnosis_words import VERDICTS, summary
+from bathyal.diagnosis_words import facts_of, summary
 from bathyal.files import PathLike, filling
 from bathyal.identify_report import plain_settings, read_data
 
@@ -63,17 +62,7 @@ class Diagnosed:
     @property
     def facts(self) -> dict[str, str]:
         """What was diagnosed, in short."""
-        covariates = ", ".join(sorted(self.data.covariates)) or "nothing"
-        what = "poses" if isinstance(self.data, Tracked) else "touches"
-        return {
-            "verdict": VERDICTS[self.report.verdict][0],
-            "arm": f"{self.nominal.name or 'arm'}, {self.nominal.size} joints",
-            what: f"{len(self.data):,}",
-            "recorded beside": covariates,
-            "geometry alone": f"{length_text(self.report.fit.rms_after)} (rms, 3-D, fitted)",
-            "noise": f"{length_text(self.report.noise)} per axis, by {self.report.noise_source}",
-            "made by": f"bathyal {version('bathyal')}",
-        }
+        return facts_of(self.report) | {"made by": f"bathyal {version('bathyal')}"}
 
     def write(self, folder: PathLike, *, title: str = "", step: Step | None = None) -> list[Path]:
         """Write report.html, report.json, report.png, model.json and residuals.csv. All are made

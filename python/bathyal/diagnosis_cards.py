@@ -23,6 +23,7 @@ from bathyal.diagnosis_words import amplitude_text, groups_of, is_of_noise, nois
 if TYPE_CHECKING:
     from bathyal._core import Diagnosis
 
+_FAR = 1e-3  # odds of rivals that are not listed
 _MOST_OUTLIERS = 200
 
 
@@ -67,13 +68,20 @@ def _card(effect: Any) -> str:
     form = f" · {html.escape(', '.join(settings))}" if settings else ""
     bar = "" if is_of_noise(effect) else _bar(effect.gain)
     words = html.escape(effect.words[:1].upper() + effect.words[1:])
-    rivals = "Rivals for what it explains:" if effect.rivals else "No rival comes near."
-    rivals = "" if is_of_noise(effect) else rivals
+    near = [rival for rival in effect.rivals if rival.odds >= _FAR]
+    rivals = "" if is_of_noise(effect) else "Rivals for what it explains:" if near else _far(effect)
     return (
         f"<div class='card'><h3>{words}</h3><p class='small'>{name}{form}</p>"
         f"{bar}<div class='sides'><div>{numbers}</div><div>{evidence}</div></div>"
-        f"<p class='small'>{rivals}</p>{_rivals(effect.rivals)}</div>"
+        f"<p class='small'>{html.escape(rivals)}</p>{_rivals(near)}</div>"
     )
+
+
+def _far(effect: Any) -> str:
+    if not effect.rivals:
+        return "It has no rival."
+    best = max(effect.rivals, key=lambda rival: rival.odds)
+    return f"No rival comes near: the next best, {best.words}, has {odds_text(best.odds)}."
 
 
 def _bar(share: float) -> str:

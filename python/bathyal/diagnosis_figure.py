@@ -46,7 +46,7 @@ _WIDE = 11.0  # in, of a picture on the page
 _PANEL = 1.95  # in, height of a row of panels
 _ABREAST = 4
 _MARGINS = (0.56, 0.10, 0.42, 0.22)  # in, of a panel: left, right, foot, head
-_MOST_PAIRS = 4
+_MOST_PAIRS = 3
 _DPI = 110
 # The sheet: A4 upright; places are shares of the page.
 _SIZE_IN = (8.27, 11.69)
@@ -61,6 +61,7 @@ _TALLEST = 0.19  # of a row
 _CURVES_ON_SHEET = 2
 _EVIDENCE_LETTERS = 44  # in a line, of a third of the sheet
 _WARNINGS_SHOWN = 4
+_MOST_LINES = 16  # of the paragraph
 
 
 def show_figure(report: Diagnosis) -> Figure:
@@ -151,12 +152,12 @@ def diagnosis_figure(report: Diagnosis, *, title: str = "") -> Figure:
     figure = Figure(figsize=_SIZE_IN, dpi=_SHEET_DPI, facecolor="white")
     FigureCanvasAgg(figure)
     top = _write_banner(figure, report, title)
-    top = _write(figure, top, [(summary(report, warnings=False), INK)])
+    top = _write(figure, top, [(summary(report, warnings=False), INK)], _MOST_LINES)
     warnings = list(report.warnings)
     shown = warnings[:_WARNINGS_SHOWN]
     if len(warnings) > len(shown):
         shown.append(f"… and {len(warnings) - len(shown)} more in report.html")
-    top = _write(figure, top, [(f"! {warning}", GAP) for warning in shown])
+    top = _write(figure, top, [(f"! {warning}", GAP) for warning in shown], 3)
     _draw_sheet(figure, report, top - 0.012)
     return figure
 
@@ -190,9 +191,12 @@ def _box(corner: tuple[float, float], wide: float, high: float, colour: str, fig
     return Rectangle(corner, wide, high, color=colour, transform=figure.transFigure, zorder=-1)
 
 
-def _write(figure: Figure, top: float, paragraphs: Sequence[tuple[str, str]]) -> float:
+def _write(figure: Figure, top: float, paragraphs: Sequence[tuple[str, str]], most: int) -> float:
+    """Paragraphs of `most` lines each; returns where the next may begin."""
     for text, colour in paragraphs:
         lines = _wrapped(text, _LETTERS)
+        if len(lines) > most:
+            lines = [*lines[: most - 1], "… the rest stands in report.html"]
         figure.text(
             _LEFT, top, "\n".join(map(plain, lines)), va="top", fontsize=8, color=colour,
             linespacing=1.25,

@@ -10,6 +10,7 @@ from importlib.metadata import version
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from bathyal.diagnosis_advice import next_steps
 from bathyal.diagnosis_words import summary
@@ -112,8 +113,8 @@ def told(report: Diagnosis) -> dict[str, Any]:
                 }
                 for part in held.parts
             ],
-            "before_m": np.asarray(held.before),
-            "after_m": np.asarray(held.after),
+            "before_m": _by_row(held.before, len(report.data)),
+            "after_m": _by_row(held.after, len(report.data)),
         },
         "residuals_before_m": np.asarray(report.residuals_before).T,
         "residuals_after_m": np.asarray(report.residuals_after).T,
@@ -129,8 +130,8 @@ def write_residuals(report: Diagnosis, path: PathLike) -> None:
         for residuals in (report.residuals_before, report.residuals_after)
     )
     columns = [
-        np.linalg.norm(before, axis=1), np.linalg.norm(after, axis=1), np.asarray(held.before),
-        np.asarray(held.after), *after.T,
+        np.linalg.norm(before, axis=1), np.linalg.norm(after, axis=1),
+        _by_row(held.before, len(after)), _by_row(held.after, len(after)), *after.T,
     ]  # fmt: skip
     titles = ("row", "before_m", "after_m", "held_out_before_m", "held_out_after_m", "x_m", "y_m",
               "z_m")  # fmt: skip
@@ -139,6 +140,12 @@ def write_residuals(report: Diagnosis, path: PathLike) -> None:
         table.writerow(titles)
         for row, numbers in enumerate(zip(*(c.tolist() for c in columns), strict=True)):
             table.writerow([row, *(x if math.isfinite(x) else "" for x in numbers)])
+
+
+def _by_row(values: Any, rows: int) -> NDArray[np.float64]:
+    """(N,), also where nothing was held out."""
+    told = np.asarray(values, float)
+    return told if told.size else np.full(rows, np.nan)
 
 
 def _effect(effect: Any) -> dict[str, Any]:

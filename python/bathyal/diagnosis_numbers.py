@@ -64,7 +64,7 @@ def odds_text(odds: float) -> str:
     if odds >= 0.67:
         return "as likely"
     if odds < 1e-3:
-        return "over 1,000 to 1 against it"
+        return "more than 1,000 to 1 against it"
     return f"{1 / odds:.{0 if odds < 0.2 else 1}f} to 1 against it"
 
 

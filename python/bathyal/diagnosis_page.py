@@ -27,6 +27,7 @@ from bathyal.diagnosis_figure import (
     show_figure,
     support_figure,
 )
+from bathyal.diagnosis_grammar import sentence
 from bathyal.diagnosis_numbers import (
     chance_text,
     length_text,
@@ -38,6 +39,7 @@ from bathyal.diagnosis_tables import against_text, supports
 from bathyal.diagnosis_words import (
     SIGNIFICANT,
     VERDICTS,
+    facts_of,
     headline,
     leftover_text,
     summary,
@@ -68,7 +70,7 @@ def write_page(
     title : str
         What was diagnosed.
     facts : mapping of str to str, optional
-        Lines for the box beside the words.
+        Lines for the box beside the words; `facts_of` unless given.
     step : callable, optional
         Called with the share that is done, 0 to 1, and what is being drawn.
     """
@@ -79,7 +81,7 @@ def write_page(
         figure = draw(report)
         drawings[name] = "" if figure is None else _image(figure, words)
     page = PAGE.format(
-        title=html.escape(title or "Diagnosis"),
+        title=html.escape(title or f"{report.fit.arm.name or 'An arm'}, {len(report.data):,} rows"),
         ink=INK,
         red=GAP,
         blue=AFTER,
@@ -91,7 +93,7 @@ def write_page(
         words=html.escape(summary(report, warnings=False)),
         warnings="".join(f"<p>{html.escape(warning)}</p>" for warning in report.warnings),
         wanting="".join(f"<li>{html.escape(text)}</li>" for text in next_steps(report)),
-        facts=_facts(facts or {}),
+        facts=_facts(facts_of(report) if facts is None else facts),
         marks=_marks_text(report),
         structures=_structures(report),
         causes=causes_of(report),
@@ -250,11 +252,7 @@ def _beyond(report: Diagnosis) -> str:
 
 
 def _held(report: Diagnosis) -> str:
-    held = report.held_out
-    how = held.how.strip().rstrip(".")
-    if report.verdict == "none":
-        return f"No data could be held out: {how}."
-    return f"Held out: {how} ({held.blocks} block{'' if held.blocks == 1 else 's'})."
+    return sentence(report.held_out.how or "No data could be held out")
 
 
 def _left(report: Diagnosis) -> str:
@@ -271,9 +269,10 @@ def _parts(report: Diagnosis) -> str:
     if report.verdict == "none":
         return ""
     rows = [("all held out", "", length_text(held.rms_before), length_text(held.rms_after))]
+    parts = held.parts if len(held.parts) > 1 else []
     rows += [
         (part.name, f"{part.rows:,}", length_text(part.rms_before), length_text(part.rms_after))
-        for part in held.parts
+        for part in parts
     ]
     whole = table(("", "rows", "before", "after"), rows)
     if len(rows) <= MOST_PARTS:

@@ -7,6 +7,7 @@ import math
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any
 
+from bathyal._core import Touches
 from bathyal.diagnosis_advice import next_steps
 from bathyal.diagnosis_grammar import bare, counted, listed, lower, sentence, upper
 from bathyal.diagnosis_numbers import (
@@ -61,6 +62,20 @@ def summary(report: Diagnosis, *, warnings: bool = True) -> str:
     return " ".join(sentence(part) for part in parts if part)
 
 
+def facts_of(report: Diagnosis) -> dict[str, str]:
+    """What was diagnosed, in short: lines for a box or a screen."""
+    data, arm = report.data, report.fit.arm
+    what = "touches" if isinstance(data, Touches) else "poses"
+    return {
+        "verdict": VERDICTS[report.verdict][0],
+        "arm": f"{arm.name or 'arm'}, {arm.size} joints",
+        what: f"{len(data):,}",
+        "recorded beside": ", ".join(sorted(data.covariates)) or "nothing",
+        "geometry alone": f"{length_text(report.fit.rms_after)} (rms, 3-D, fitted)",
+        "noise": f"{length_text(report.noise)} per axis, by {bare(report.noise_source)}",
+    }
+
+
 def headline(report: Diagnosis) -> str:
     """The verdict in one line."""
     title = VERDICTS[report.verdict][0]
@@ -109,8 +124,8 @@ def effect_text(effect: Any) -> str:
         for name, estimate in effect.parameters.items()
         if not is_setting(estimate)
     ]
-    rest = len(told) - _MOST_PARAMETERS
-    told = told[:_MOST_PARAMETERS] + ([counted(rest, "more number")] if rest > 0 else [])
+    if len(told) > _MOST_PARAMETERS:
+        return f"{effect.words}, told by {len(told)} numbers"
     amplitude = amplitude_text(effect)
     told = [f"amplitude {amplitude}", *told] if amplitude else told
     return f"{effect.words} with {', '.join(told)}" if told else str(effect.words)
@@ -129,8 +144,8 @@ def gain_text(report: Diagnosis) -> str:
     """What the causes bring on data that were not used."""
     held = report.held_out
     text = (
-        f"On data held out ({bare(held.how)}; {counted(held.blocks, 'block')}) the error falls "
-        f"from {length_text(held.rms_before)} to {length_text(held.rms_after)} (3-D rms), with a "
+        f"On data held out ({lower(bare(held.how))}) the error falls from "
+        f"{length_text(held.rms_before)} to {length_text(held.rms_after)} (3-D rms), with a "
         f"floor of {length_text(held.noise)} by noise"
     )
     if math.isfinite(report.gain):
@@ -224,9 +239,11 @@ def noise_text(report: Diagnosis) -> str:
 
 def _ambiguous(report: Diagnosis) -> list[str]:
     told = []
-    for first, *others in groups_of(report):
+    groups = groups_of(report)
+    for first, *others in groups[:_MOST_TOLD]:
         odds = [first.words, *(f"{cause.words} ({odds_text(cause.odds)})" for cause in others)]
-        told.append(listed(odds, ", ", " or "))
+        told.append(_any_of(odds))
+    told += _more(groups, "choice")
     either = f"Ambiguous, these data cannot tell apart: {listed(told, '; ')}."
     sure = settled(report)
     return [either, _told(sure, "Beside them stands" if len(sure) == 1 else "Beside them stand"),
@@ -308,3 +325,16 @@ def _rows(rows: Sequence[int]) -> str:
     told = ", ".join(str(row) for row in rows[:_MOST_ROWS])
     rest = len(rows) - _MOST_ROWS
     return f"rows {told}" + (f" and {rest} more" if rest > 0 else "")
+
+
+def _any_of(causes: Sequence[str]) -> str:
+    rest = len(causes) - _MOST_TOLD
+    if rest > 0:
+        causes = [*causes[:_MOST_TOLD], f"any of {counted(rest, 'other')}"]
+    return listed(causes, last=" or ")
+
+
+def _more(told: Sequence[Any], what: str) -> list[str]:
+    """What stands for those that are not told one by one."""
+    rest = len(told) - _MOST_TOLD
+    return [counted(rest, f"more {what}")] if rest > 0 else []

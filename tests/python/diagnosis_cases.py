@@ -134,7 +134,8 @@ def base(count: int = 240, sessions: int = 2) -> Report:
         ],
         leftover=structure("nothing", "nothing", 0.0, 0.0, 0.7),
         held_out=SimpleNamespace(
-            how="blocks of poses that lie near each other", blocks=20, rms_before=rms(before),
+            how="20 blocks of poses that lie near each other were held out in turn", blocks=20,
+            rms_before=rms(before),
             rms_after=rms(after), noise=noise, p_value=2e-6, parts=parts, before=before,
             after=after,
         ),
@@ -218,7 +219,7 @@ def unknown() -> Report:
 def none() -> Report:
     report = base(count=40, sessions=1)
     held = report.held_out
-    nothing = np.full(len(report.data), np.nan)
+    nothing = np.empty(0)
     held.__dict__.update(
         how="40 poses make fewer than four blocks", blocks=0, rms_before=np.nan, rms_after=np.nan,
         p_value=1.0, parts=[], before=nothing, after=nothing,

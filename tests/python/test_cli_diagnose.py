@@ -94,6 +94,29 @@ def test_everything_is_written_and_told(table, tmp_path, capsys, asked):
     assert "session, temperature, time" in page
 
 
+def test_the_engine_finds_what_was_hidden_and_says_so(table, tmp_path, capsys):
+    """From table to folder with nothing in anyone's place: the encoder's harmonic is named."""
+    code, text, err = run(
+        capsys, "diagnose", table, "--tracked", "--arm", "ur10", "-o", tmp_path / "out", "--json"
+    )
+    assert code == 0, err
+    told = json.loads(text)
+    assert told["verdict"] == "named"
+    assert [(effect["name"], effect["joint"]) for effect in told["effects"]] == [
+        ("joint_harmonic", 2)
+    ]
+    found = told["effects"][0]["parameters"]
+    assert found["order"]["value"] == pytest.approx(cases.ORDER, rel=0.05)
+    assert told["gain"] > 0.9
+    assert sorted(os.listdir(tmp_path / "out")) == FILES
+    model = bathyal.read_arm(tmp_path / "out" / "model.json")
+    data = cases.measured()
+    off = model.forward(data.q)[:, :3, 3] - data.position
+    assert np.sqrt(np.mean(off**2)) < 1.2 * cases.NOISE
+    with open(tmp_path / "out" / "residuals.csv", encoding="utf-8") as stream:
+        assert len(stream.readlines()) == 241
+
+
 def test_people_are_told_the_verdict_first(table, tmp_path, capsys, asked, undrawn, monkeypatch):
     monkeypatch.setenv("COLUMNS", "160")
     code, out, err = run(capsys, "diagnose", table, "--tracked", "--arm", "ur10", "-o", tmp_path)

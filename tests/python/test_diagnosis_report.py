@@ -23,7 +23,7 @@ from bathyal.diagnosis_advice import next_steps
 from bathyal.diagnosis_figure import curve_figure, diagnosis_figure, show_figure
 from bathyal.diagnosis_files import told, write_diagnosis, write_residuals
 from bathyal.diagnosis_page import _poses, write_page
-from bathyal.diagnosis_words import headline, summary
+from bathyal.diagnosis_words import effect_text, groups_of, headline, summary
 
 ALL = pytest.mark.parametrize("name", cases.CASES)
 
@@ -143,6 +143,14 @@ def test_groups_of_causes_that_cannot_be_told_apart_stay_apart():
         "joint 2."
     )
     assert "Beside them" not in summary(report)
+
+
+def test_a_crowd_of_rivals_does_not_flood_the_page():
+    report = cases.ambiguous()
+    report.ambiguous += [cases.cause("x", None, f"rival {k}", 0.2) for k in range(60)]
+    assert headline(report).endswith(", the base drifts or any of 60 others.")
+    assert len(summary(report)) < 2000
+    assert len(groups_of(report)[0]) == 63
 
 
 def test_causes_of_the_noise_are_told_by_their_likelihood(tmp_path):
@@ -278,6 +286,24 @@ def test_what_is_beyond_noise_is_marked_where_it_belongs():
     assert titles[2] == "● 0.200 mm, p < 0.001"
     assert titles[8] == "● 0.040 mm, p = 0.004"
     assert sum(title.startswith("●") for title in titles) == 2
+
+
+def test_a_sheet_has_room_for_its_pictures_whatever_there_is_to_say():
+    report = cases.many()
+    for effect in report.effects:
+        effect.words = f"{effect.words} {40 * 'and more of it '}"
+    report.warnings = [40 * "much to know "] * 9
+    figure = diagnosis_figure(report, title="long")
+    heights = [axes.get_position().height for axes in figure.axes]
+    assert min(heights) > 0.03
+    assert min(axes.get_position().y0 for axes in figure.axes) > 0
+    tops = [text.get_position()[1] for text in figure.texts]
+    assert min(tops) > 0
+
+
+def test_a_cause_of_many_numbers_is_told_without_them():
+    report = cases.many(6)
+    assert "told by 6 numbers" in effect_text(report.effects[5])
 
 
 def test_sheet_has_a_panel_for_each_step():
