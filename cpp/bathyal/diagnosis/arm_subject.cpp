@@ -8,10 +8,10 @@
 
 #include "bathyal/diagnosis/blocks.hpp"
 #include "bathyal/diagnosis/logged_step.hpp"
+#include "bathyal/diagnosis/orthonormal.hpp"
 #include "bathyal/diagnosis/words.hpp"
 #include "bathyal/identify/arm_report.hpp"
 #include "bathyal/identify/effect_columns.hpp"
-#include "bathyal/identify/least_squares.hpp"
 #include "bathyal/identify/tip_walk.hpp"
 
 namespace bathyal {
@@ -19,7 +19,10 @@ namespace {
 
 constexpr double kTwins = 1e-3;         ///< [rad] or [m]: poses nearer than this are one pose
 constexpr std::size_t kScanFrom = 16;   ///< forms of one cause of one effect that are a scan
-constexpr int kNoiseRounds = 3;
+constexpr int kNoiseRounds = 4;
+constexpr int kMostSteps = 20;
+constexpr double kSettledCost = 1e-7;   ///< of the sum of squares
+constexpr double kOrderStep = 1e-4;     ///< relative
 constexpr double kNoiseSettled = 1e-3;  ///< relative
 
 std::vector<int> numbered(const Eigen::VectorXd& values) {
@@ -30,6 +33,11 @@ std::vector<int> numbered(const Eigen::VectorXd& values) {
   std::vector<int> out;
   for (const double value : values) out.push_back(known[value]);
   return out;
+}
+
+bool has_whole_order(const EffectVariant& variant) {
+  const auto order = variant.settings.find("order");
+  return order != variant.settings.end() && order->second == std::round(order->second);
 }
 
 }  // namespace
@@ -46,6 +54,14 @@ ArmSubject::ArmSubject(const Arm& arm, const Measurement& measurement, const Cov
   fit_ = report(problem_, seen_, start_);
   geometry_ = problem_.columns.columns.size();
   base_free_ = problem_.system->free();
+  // What is blind stays where the search has left it: columns leave it out from here on.
+  problem_.system->set_linear_rows({});
+  const Eigen::MatrixXd blind = seen_.blind(base_free_, Eigen::all);
+  held_ = Eigen::MatrixXd::Identity(blind.rows(), blind.rows());
+  if (blind.cols() > 0) {
+    const Eigen::HouseholderQR<Eigen::MatrixXd> qr(blind);
+    held_ = Eigen::MatrixXd(qr.householderQ()).rightCols(blind.rows() - blind.cols());
+  }
   x_ = start_.x;
   gather_data(covariates);
   gather_units();
@@ -94,7 +110,7 @@ void ArmSubject::gather_forms(const Effects& effects) {
     for (EffectVariant& variant : variants) {
       by_cause[{variant.joint, variant.cause}].push_back(static_cast<int>(forms_.size()));
       forms_.push_back({variant.effect, variant.joint, variant.cause, words_of(variant, nominal_),
-                        static_cast<double>(variants.size()), false});
+                        static_cast<double>(variants.size()), has_whole_order(variant), false});
       sources_.push_back({effect, std::move(variant), -1});
     }
     for (auto& [cause, family] : by_cause) {
@@ -111,7 +127,8 @@ void ArmSubject::gather_forms(const Effects& effects) {
   for (int p = 0; p < static_cast<int>(probes_.size()); ++p) {
     const Probe& probe = probes_[p];
     if (probe.family >= 0) families[probe.family].push_back(static_cast<int>(forms_.size()));
-    forms_.push_back({probe.against, -1, "probe " + probe.words, probe.words, probe.trials, true});
+    forms_.push_back({probe.against, -1, "probe " + probe.words, probe.words, probe.trials,
+                      false, true});
     sources_.push_back({nullptr, {}, p});
   }
   for (auto& [number, family] : families) scans_.push_back(std::move(family));
@@ -129,6 +146,7 @@ std::vector<int> ArmSubject::finer(int form) {
          here.effect->between(sources_[from].variant, sources_[to].variant, data_)) {
       Form about = forms_[form];
       about.words = words_of(variant, nominal_);
+      about.plain = has_whole_order(variant);
       chain.push_back(static_cast<int>(forms_.size()));
       forms_.push_back(std::move(about));
       sources_.push_back({here.effect, std::move(variant), -1});
@@ -156,11 +174,8 @@ std::vector<std::vector<Action>> ArmSubject::actions_of(int form) const {
 }
 
 std::vector<Eigen::MatrixXd> ArmSubject::columns(std::span<const int> forms) const {
-  ArmColumns columns = problem_.columns;
-  std::vector<Index> first;
-  std::vector<int> wanted;
+  std::vector<ActingVariant> acting;
   for (const int form : forms) {
-    first.push_back(static_cast<Index>(wanted.size()));
     EffectVariant variant = sources_[form].variant;
     std::vector<std::vector<Action>> actions = actions_of(form);
     if (sources_[form].probe >= 0) {
@@ -169,21 +184,35 @@ std::vector<Eigen::MatrixXd> ArmSubject::columns(std::span<const int> forms) con
         variant.parameters.push_back({std::to_string(c), "", 1.0});
       }
     }
-    const int begin = add_effect(columns, variant, std::move(actions));
-    for (int c = begin; c < static_cast<int>(columns.columns.size()); ++c) wanted.push_back(c);
+    acting.push_back({std::move(variant), std::move(actions)});
   }
-  first.push_back(static_cast<Index>(wanted.size()));
+  return columns_of(std::move(acting));
+}
+
+/// Per unit of each parameter.
+std::vector<Eigen::MatrixXd> ArmSubject::columns_of(std::vector<ActingVariant> acting) const {
+  ArmColumns columns = problem_.columns;
+  const auto before = static_cast<Index>(columns.columns.size());
+  std::vector<Index> first{0};
+  for (ActingVariant& one : acting) {
+    add_effect(columns, one.variant, std::move(one.actions));
+    first.push_back(static_cast<Index>(columns.columns.size()) - before);
+  }
+  std::vector<int> wanted(static_cast<std::size_t>(first.back()));
+  std::iota(wanted.begin(), wanted.end(), static_cast<int>(before));
   Eigen::VectorXd x = columns.nominal();
   x.head(x_.size()) = x_;
   ArmSystem system(columns, m_, Criterion::kCentroid, false, problem_.system->num_threads());
   system.set_trust(problem_.system->trust());
   system.set_noise(problem_.system->noise(), x);
   system.set_free(wanted);
-  Eigen::MatrixXd all(linearization_.misfit.size(), static_cast<Index>(wanted.size()));
-  all.setZero();
+  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(linearization_.misfit.size(), first.back());
   all.topRows(system.data_rows()) = system.jacobian(x).topRows(system.data_rows());
+  for (Index c = 0; c < all.cols(); ++c) {
+    all.col(c) /= columns.columns[static_cast<std::size_t>(before + c)].scale;
+  }
   std::vector<Eigen::MatrixXd> out;
-  for (std::size_t i = 0; i < forms.size(); ++i) {
+  for (std::size_t i = 0; i + 1 < first.size(); ++i) {
     out.emplace_back(all.middleCols(first[i], first[i + 1] - first[i]));
   }
   return out;
@@ -210,21 +239,70 @@ void ArmSubject::settle(const std::vector<int>& forms) {
     if (known.contains(form)) x.tail(end - begin) = known[form];
   }
   standing_ = forms;
-  ArmSystem& system = *problem_.system;
-  std::vector<LinearRow> held = system.linear_rows();
-  for (LinearRow& row : held) {
-    row.coefficients.conservativeResize(static_cast<Index>(geometry_));
-    row.coefficients.conservativeResizeLike(Eigen::VectorXd::Zero(x.size()));
-  }
-  system.set_linear_rows(std::move(held));
-  system.set_free(std::move(free));
+  problem_.system->set_free(std::move(free));
   for (int round = 0; round < kNoiseRounds; ++round) {
-    const LeastSquaresResult found = solve_least_squares(system, system.scaled(x));
-    x = system.values(found.y);
+    x = nearest_minimum(std::move(x));
     stand_at(x);
     if (!update_noise()) break;
   }
   stand_at(x);
+}
+
+/// Gauss and Newton, by the singular values of columns of length 1: what hardly moves the residuals
+/// by itself (a curve over a quarter of a turn has such parts) stays where it is, and nothing runs
+/// off. A step that makes things worse is halved.
+Eigen::VectorXd ArmSubject::nearest_minimum(Eigen::VectorXd x) const {
+  const ArmSystem& system = *problem_.system;
+  Eigen::VectorXd y = system.scaled(x);
+  Eigen::VectorXd residuals(system.rows());
+  Eigen::MatrixXd jacobian(system.rows(), system.columns());
+  for (int step = 0; step < kMostSteps; ++step) {
+    system.evaluate(y.data(), residuals.data(), jacobian.data());
+    Eigen::MatrixXd both(residuals.size(), moves(jacobian).cols() + 1);
+    both.leftCols(both.cols() - 1) = moves(jacobian);
+    both.rightCols(1) = residuals;
+    Eigen::VectorXd scale(both.cols() - 1);
+    for (Index c = 0; c < scale.size(); ++c) {
+      const double length = both.col(c).norm();
+      scale[c] = length > 0.0 ? 1.0 / length : 0.0;
+      both.col(c) *= scale[c];
+    }
+    const Eigen::MatrixXd triangle = triangle_of(both, system.num_threads());
+    Eigen::BDCSVD<Eigen::MatrixXd> svd(triangle.topLeftCorner(scale.size(), scale.size()),
+                                       Eigen::ComputeFullU | Eigen::ComputeFullV);
+    svd.setThreshold(kSwallowed);
+    const Eigen::VectorXd along =
+        -svd.solve(Eigen::VectorXd(triangle.col(scale.size()).head(scale.size())));
+    const Eigen::VectorXd full = unmoved(scale.asDiagonal() * along);
+    const double before = residuals.squaredNorm();
+    double share = 1.0;
+    double after = system.cost(Eigen::VectorXd(y + full).data());
+    while (!(after <= before) && share > 1e-3) {
+      share *= 0.5;
+      after = system.cost(Eigen::VectorXd(y + share * full).data());
+    }
+    if (!(after <= before)) break;
+    y += share * full;
+    if (before - after < kSettledCost * before) break;
+  }
+  return system.values(y);
+}
+
+/// Columns of the free unknowns, those of the base model along the directions that data or priors
+/// hold.
+Eigen::MatrixXd ArmSubject::moves(const Eigen::MatrixXd& free) const {
+  const Index base = held_.rows();
+  Eigen::MatrixXd out(free.rows(), held_.cols() + free.cols() - base);
+  out << free.leftCols(base) * held_, free.rightCols(free.cols() - base);
+  return out;
+}
+
+/// What steps along `moves` are for the free unknowns.
+Eigen::VectorXd ArmSubject::unmoved(const Eigen::VectorXd& along) const {
+  const Index effects = along.size() - held_.cols();
+  Eigen::VectorXd out(held_.rows() + effects);
+  out << held_ * along.head(held_.cols()), along.tail(effects);
+  return out;
 }
 
 void ArmSubject::stand_at(const Eigen::VectorXd& x) {
@@ -239,8 +317,9 @@ void ArmSubject::stand_at(const Eigen::VectorXd& x) {
   linearization_.misfit = jacobian.rightCols(system.columns() - wide) * y.tail(y.size() - wide);
   linearization_.misfit -= residuals;
   const Index points = m_.tracked ? 0 : m_.points();
-  linearization_.base = Eigen::MatrixXd::Zero(rows, wide + 3 * points);
-  linearization_.base.leftCols(wide) = jacobian.leftCols(wide);
+  const Index seen = held_.cols();
+  linearization_.base = Eigen::MatrixXd::Zero(rows, seen + 3 * points);
+  linearization_.base.leftCols(seen) = jacobian.leftCols(wide) * held_;
   linearization_.unit.assign(static_cast<std::size_t>(rows), -1);
   linearization_.lost = 0.0;
   linearization_.noise_rows = system.position_rows();
@@ -258,7 +337,7 @@ void ArmSubject::stand_at(const Eigen::VectorXd& x) {
       }
       // Where a point is, is free: what the centroid takes of the rows, as columns.
       if (!m_.tracked && m_.point[i] >= 0) {
-        linearization_.base(3 * i + axis, wide + 3 * m_.point[i] + axis) =
+        linearization_.base(3 * i + axis, seen + 3 * m_.point[i] + axis) =
             std::sqrt(system.weight(i)) / system.noise().position;
       }
     }
@@ -336,26 +415,61 @@ std::vector<FoundEffect> ArmSubject::found() const {
 }
 
 double ArmSubject::freedom() const {
-  const Eigen::MatrixXd jacobian = problem_.system->jacobian(x_);
-  const auto points = static_cast<double>(m_.tracked ? 0 : 3 * m_.points());
-  return static_cast<double>(jacobian.rows() - jacobian.cols()) - linearization_.lost - points;
+  const Eigen::MatrixXd& base = linearization_.base;
+  const auto effects = static_cast<Index>(problem_.columns.columns.size() - geometry_);
+  return static_cast<double>(base.rows() - base.cols() - effects) - linearization_.lost;
 }
 
 Eigen::MatrixXd ArmSubject::covariance() const {
   const ArmSystem& system = *problem_.system;
-  const Eigen::MatrixXd triangle = triangle_of(system.jacobian(x_), system.num_threads());
-  const RankReport rank = reveal_rank(triangle);
-  const auto directions = rank.directions.leftCols(rank.rank);
-  const Eigen::MatrixXd root =
-      directions * rank.singular_values.head(rank.rank).cwiseInverse().asDiagonal();
-  const auto wide = static_cast<Index>(base_free_.size());
-  Eigen::MatrixXd own = root.bottomRows(root.rows() - wide);
-  for (Index i = 0; i < own.rows(); ++i) {
-    own.row(i) *= problem_.columns.columns[system.free()[wide + i]].scale;
+  const Eigen::MatrixXd jacobian = system.jacobian(x_);
+  const Index effects = jacobian.cols() - held_.rows();
+  const Eigen::MatrixXd scanned = by_scanned();
+  Eigen::MatrixXd all(jacobian.rows(), held_.cols() + effects + scanned.cols());
+  all << moves(jacobian), scanned;
+  Eigen::VectorXd scale(all.cols());
+  for (Index c = 0; c < scale.size(); ++c) {
+    const double length = all.col(c).norm();
+    scale[c] = length > 0.0 ? 1.0 / length : 0.0;
+    all.col(c) *= scale[c];
+  }
+  const RankReport rank =
+      reveal_rank(triangle_of(all, system.num_threads()), kSwallowed);
+  const Eigen::MatrixXd root = scale.asDiagonal() * rank.directions.leftCols(rank.rank) *
+                               rank.singular_values.head(rank.rank).cwiseInverse().asDiagonal();
+  Eigen::MatrixXd own = root.middleRows(held_.cols(), effects);
+  for (Index i = 0; i < effects; ++i) {
+    own.row(i) *= problem_.columns.columns[geometry_ + static_cast<std::size_t>(i)].scale;
   }
   Eigen::VectorXd residuals(system.rows());
   system.evaluate(system.scaled(x_).data(), residuals.data(), nullptr);
   return residuals.squaredNorm() / freedom() * (own * own.transpose());
+}
+
+/// What a change of each standing order does to the residuals: the values beside it are no surer
+/// than the order is.
+Eigen::MatrixXd ArmSubject::by_scanned() const {
+  std::vector<Eigen::VectorXd> out;
+  auto at = static_cast<Index>(geometry_);
+  for (const int form : standing_) {
+    const EffectVariant& here = sources_[form].variant;
+    const auto wide = static_cast<Index>(here.parameters.size());
+    const Eigen::VectorXd values = x_.segment(at, wide);
+    at += wide;
+    const auto order = here.settings.find("order");
+    if (order == here.settings.end() || has_whole_order(here)) continue;
+    const auto moved = [&](double change) {
+      EffectVariant other = here;
+      other.settings["order"] += change;
+      auto actions = bathyal::actions_of(*sources_[form].effect, other, data_);
+      return Eigen::VectorXd(columns_of({{std::move(other), std::move(actions)}})[0] * values);
+    };
+    const double change = kOrderStep * order->second;
+    out.push_back((moved(change) - moved(-change)) / (2.0 * change));
+  }
+  Eigen::MatrixXd columns(linearization_.misfit.size(), static_cast<Index>(out.size()));
+  for (std::size_t i = 0; i < out.size(); ++i) columns.col(static_cast<Index>(i)) = out[i];
+  return columns;
 }
 
 Arm ArmSubject::arm() const {

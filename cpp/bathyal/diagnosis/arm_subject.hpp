@@ -56,11 +56,20 @@ class ArmSubject final : public Subject {
     EffectVariant variant;
     int probe = -1;
   };
+  struct ActingVariant {
+    EffectVariant variant;
+    std::vector<std::vector<Action>> actions;
+  };
   void gather_data(const Covariates& covariates);
   void gather_units();
   void gather_forms(const Effects& effects);
   void gather_noise_forms();
   std::vector<std::vector<Action>> actions_of(int form) const;
+  std::vector<Eigen::MatrixXd> columns_of(std::vector<ActingVariant> acting) const;
+  Eigen::MatrixXd by_scanned() const;
+  Eigen::VectorXd nearest_minimum(Eigen::VectorXd x) const;
+  Eigen::MatrixXd moves(const Eigen::MatrixXd& free) const;
+  Eigen::VectorXd unmoved(const Eigen::VectorXd& along) const;
   void stand_at(const Eigen::VectorXd& x);
   bool update_noise();
   /// (3, N) where the tips are, free of what the residuals say: a field over a place that holds
@@ -83,6 +92,7 @@ class ArmSubject final : public Subject {
   std::vector<NoiseForm> noise_forms_;
   std::size_t geometry_ = 0;    ///< columns that are not effects'
   std::vector<int> base_free_;  ///< of them, those that are fitted
+  Eigen::MatrixXd held_;        ///< (free, k) orthonormal: changes of them that anything holds
   std::vector<int> standing_;   ///< forms of the last `settle`
   Eigen::VectorXd x_;           ///< of all columns, effects' last
   Linearization linearization_;

@@ -19,6 +19,7 @@ constexpr int kMostPasses = 4;       ///< of naming and standing at what was nam
 constexpr int kPeaks = 4;            ///< of each scan that are looked at closely
 constexpr int kMostProbes = 6;       ///< that are asked at once
 constexpr int kFinerRounds = 3;
+constexpr double kPlainBonus = 3.0;  ///< log evidence: two and a half standard deviations of an order
 constexpr double kShown = 0.01;      ///< corrected p-value below which structure is beyond noise
 constexpr double kLeastFreedom = 10.0;
 constexpr int kLeastBlocks = 3;
@@ -146,10 +147,14 @@ std::vector<int> Examiner::sharpened(std::vector<int> forms) {
       const std::vector<ScannedForm> scanned =
           scan(subject_, near, beside.basis, subject_.linearization().misfit, beside.freedom,
                options_.num_threads);
+      const auto worth = [&](const ScannedForm& s) {
+        return s.gain + (subject_.forms()[s.form].plain ? kPlainBonus : 0.0);
+      };
       const auto best = std::max_element(
           scanned.begin(), scanned.end(),
-          [](const ScannedForm& a, const ScannedForm& b) { return a.gain < b.gain; });
+          [&](const ScannedForm& a, const ScannedForm& b) { return worth(a) < worth(b); });
       form = best->form;
+      if (subject_.forms()[form].plain) break;
     }
     if (std::find(candidates_.begin(), candidates_.end(), form) == candidates_.end()) {
       candidates_.push_back(form);

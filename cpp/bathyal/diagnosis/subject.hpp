@@ -20,6 +20,7 @@ struct Form {
   std::string cause;    ///< forms of one cause are words for one thing: a model takes one of them
   std::string words;    ///< for people
   double trials = 1.0;  ///< how many forms of its effect are tried beside it, itself counted
+  bool plain = false;   ///< among its neighbours of a scan, the one to take when they fit alike
   bool probe = false;   ///< shows that structure is there, and is no cause
 };
 

@@ -15,7 +15,7 @@ double span_of(const EffectData& data, int j) {
   return data.q.col(j).maxCoeff() - data.q.col(j).minCoeff();
 }
 
-/// Curves along one joint are one cause, however they are written.
+/// Curves along one joint are one cause, however they are written; a scale is a curve too.
 std::string curve_of(int j) { return "curve of joint " + std::to_string(j); }
 
 template <class Body>
@@ -67,6 +67,16 @@ class JointHarmonic final : public Effect {
     for (int i = 1; i < kParts; ++i) {
       out.push_back(lower);
       out.back().settings["order"] = low + (high - low) * i / kParts;
+    }
+    // Teeth and encoders make whole orders: the one that lies between is asked by itself.
+    const double whole = std::round(0.5 * (low + high));
+    if (low < whole && whole < high) {
+      const auto at = std::find_if(out.begin(), out.end(), [&](const EffectVariant& v) {
+        return v.settings.at("order") >= whole;
+      });
+      EffectVariant variant = lower;
+      variant.settings["order"] = whole;
+      if (at == out.end() || at->settings.at("order") > whole) out.insert(at, std::move(variant));
     }
     return out;
   }
@@ -162,7 +172,7 @@ class JointScale final : public Effect {
                      j,
                      {},
                      {{"scale", "1", kOrdinaryError}},
-                     "scale of joint " + std::to_string(j)});
+                     curve_of(j)});
     });
     return out;
   }
