@@ -119,20 +119,14 @@ py::array to_numpy(const SupportMask& mask, bool single) {
 }
 
 /// One warning of a call that left effects out, told from where it was called.
-void warn_of_support(const CorrectedArm& model, const SupportMask& mask,
-                     const Covariates& covariates) {
+void warn_of_support(const CorrectedArm& model, const RowMatrix& q, const Covariates& covariates,
+                     const SupportMask& mask) {
   if (mask.all()) return;
-  py::list left_out;
-  for (std::size_t e = 0; e < model.effects().size(); ++e) {
-    const auto rows = mask.rows() - mask.col(static_cast<Index>(e)).count();
-    std::vector<std::string> untold;
-    for (const std::string& name : model.effects()[e].effect->info().needs) {
-      if (!covariates.contains(name)) untold.push_back(name);
-    }
-    if (rows > 0) left_out.append(py::make_tuple(words_of(model.effects()[e]), rows, untold));
-  }
+  py::dict told;
+  for (const auto& [name, values] : covariates) told[py::str(name)] = python::to_numpy(values);
   py::module_::import("bathyal.support_warning")
-      .attr("warn")(left_out, mask.rows(), to_numpy(mask, false));
+      .attr("warn")(py::cast(&model, py::return_value_policy::reference), python::to_numpy(q), told,
+                    to_numpy(mask, false));
 }
 
 // Methods ---------------------------------------------------------------------------------------
@@ -147,7 +141,7 @@ py::array forward_python(const CorrectedArm& model, const py::object& q,
     found = links ? model.forward_links(view_of(rows), asked, num_threads)
                   : model.forward(view_of(rows), asked, num_threads);
   }
-  warn_of_support(model, found.in_support, asked);
+  warn_of_support(model, rows.table, asked, found.in_support);
   std::vector<py::ssize_t> tail{4, 4};
   if (links) tail.insert(tail.begin(), static_cast<py::ssize_t>(model.arm().links().size()));
   return python::to_numpy(std::move(found.poses), rows.single, std::move(tail));
@@ -163,7 +157,7 @@ py::array jacobian_python(const CorrectedArm& model, const py::object& q,
     const py::gil_scoped_release release;
     found = model.jacobian(view_of(rows), asked, axes, num_threads);
   }
-  warn_of_support(model, found.in_support, asked);
+  warn_of_support(model, rows.table, asked, found.in_support);
   return python::to_numpy(std::move(found.jacobians), rows.single, {6, model.size()});
 }
 
@@ -180,7 +174,7 @@ InverseAnswer inverse_python(const CorrectedArm& model, const py::object& poses,
                          model.size());
     found = model.inverse(targets.poses, view, asked, options);
   }
-  warn_of_support(model, found.in_support, asked);
+  warn_of_support(model, found.result.q, asked, found.in_support);
   return {std::move(found.result), targets.single};
 }
 

@@ -153,7 +153,7 @@ Examples
 >>> model
 CorrectedArm("UR10e", 6 joints, cable of joint 4)
 >>> float(np.linalg.norm((model.forward(q) - arm.forward(q))[:, :3, 3], axis=1).max().round(4))
-0.0002
+0.0001
 >>> model.in_support([[0.5] * 6, [0.5, 2.0, 0.5, 0.5, 0.5, 0.5]])
 array([[ True],
        [False]])
@@ -192,7 +192,7 @@ inline constexpr const char* kCorrectedJacobianDoc =
     R"(Geometric Jacobians at the tool centre point.
 
 The derivative of `forward`, the effects that count held: of the chain as it stands, of the effects
-by central differences of what they move (1e-5 rad or m apart). Arguments, errors and warnings are
+by central differences of what they move (1e-6 rad or m apart). Arguments, errors and warnings are
 those of `forward`, and the axes of `Arm.jacobian`.
 
 Returns

@@ -68,8 +68,9 @@ std::string words_of(const py::error_already_set& error) {
 /// Whether a covariate was told in every row and differs from row to row.
 bool changes(const EffectData& data, const std::string& name) {
   const auto found = data.covariates.find(name);
-  if (found == data.covariates.end() || !found->second.allFinite()) return false;
+  if (found == data.covariates.end()) return false;
   const RowMatrix& values = found->second;
+  if (values.size() == 0 || !values.allFinite()) return false;
   return (values.rowwise() - values.row(0)).cwiseAbs().maxCoeff() > 0.0;
 }
 

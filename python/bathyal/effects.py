@@ -20,6 +20,7 @@ from __future__ import annotations
 
 import builtins
 
+from bathyal import errors
 from bathyal._core import (
     Effect,
     EffectRange,
@@ -28,7 +29,6 @@ from bathyal._core import (
     Support,
     library_effects,
 )
-from bathyal.errors import argument_error
 
 __all__ = [
     "Effect",
@@ -77,7 +77,7 @@ def get(name: str) -> Effect:
     """
     known = {effect.name: effect for effect in list()}
     if name not in known:
-        raise argument_error("effect", f"one of {', '.join(known)}", repr(name))
+        raise errors.argument_error("effect", f"one of {', '.join(known)}", repr(name))
     return known[name]
 
 
@@ -105,11 +105,11 @@ def register(effect: Effect) -> None:
     >>> bathyal.effects.unregister("creak")
     """
     if not isinstance(effect, Effect):
-        raise argument_error("effect", "an Effect", type(effect).__name__)
+        raise errors.argument_error("effect", "an Effect", type(effect).__name__)
     if _registered.get(effect.name) is effect:
         return
     if effect.name in {known.name for known in list()}:
-        raise argument_error("effect", "a name that is not taken", repr(effect.name))
+        raise errors.argument_error("effect", "a name that is not taken", repr(effect.name))
     _registered[effect.name] = effect
 
 
@@ -126,5 +126,5 @@ def unregister(name: str) -> None:
         For a name that was not registered.
     """
     if name not in _registered:
-        raise argument_error("name", "one that was registered", repr(name))
+        raise errors.argument_error("name", "one that was registered", repr(name))
     del _registered[name]

@@ -172,6 +172,11 @@ def _covered(fact: dict[str, Any], effect: Any) -> list[tuple[str, float, bool]]
         found = float(effect.parameters["order"]) if "order" in effect.parameters else None
         if found is not None and abs(found - fact["settings"]["order"]) > 0.03:
             return []  # the numbers of another order are other numbers
+    elif fact["name"] == "joint_map":
+        own, found = (sum(n.startswith("cos_") for n in p) for p in (truth, effect.parameters))
+        if found < own:
+            return []  # with fewer terms the numbers of those that are left are other numbers
+        truth |= {f"{w}_{i}": 0.0 for w in ("cos", "sin") for i in range(own + 1, found + 1)}
     elif fact["name"] == "quantisation":
         return []  # a step is found or not
     out = []

@@ -63,7 +63,7 @@ def hysteresis(random: np.random.Generator, poses: Poses) -> Moves:
     """A joint lags by how it was last moved, and nobody wrote down how."""
     joint = int(random.integers(poses.arm.size))
     q = poses.q[poses.order.astype(int), joint]
-    half = random.uniform(0.05, 0.3) * np.std(q)
+    half = random.uniform(0.02, 0.15) * np.std(q)
     held = np.empty_like(q)
     at = q[0]
     for i, value in enumerate(q):

@@ -13,11 +13,13 @@ import argparse
 import json
 import os
 from collections import Counter, defaultdict
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import asdict
 from functools import partial
 from multiprocessing import get_context
 from pathlib import Path
+from statistics import NormalDist
 from typing import Any
 
 import numpy as np
@@ -41,13 +43,27 @@ def run(
             out.append(work(seed))
             told(len(out))
         return out
-    # Cases run beside each other: each on one thread, NumPy too.
-    os.environ |= {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
-    with get_context("spawn").Pool(processes) as pool:
+    with _one_thread_each(), get_context("spawn").Pool(processes) as pool:
         for judged in pool.imap(work, seeds, chunksize=4):
             out.append(judged)
             told(len(out))
     return out
+
+
+@contextmanager
+def _one_thread_each() -> Iterator[None]:
+    """Cases run beside each other: NumPy is to use one thread in each process that starts."""
+    names = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS")
+    before = {n: os.environ.get(n) for n in names}
+    os.environ |= dict.fromkeys(names, "1")
+    try:
+        yield
+    finally:
+        for name, value in before.items():
+            if value is None:
+                del os.environ[name]
+            else:
+                os.environ[name] = value
 
 
 def card(cases: Sequence[Judged]) -> dict[str, Any]:
@@ -150,8 +166,6 @@ def _coverage(cases: Sequence[Judged]) -> dict[str, Any]:
 
 
 def _quantile(level: float) -> float:
-    from statistics import NormalDist
-
     return NormalDist().inv_cdf(0.5 + level / 2)
 
 
@@ -256,7 +270,8 @@ def draw(result: dict[str, Any], folder: Path) -> None:
     figure, (left, right) = plt.subplots(1, 2, figsize=(9, 4.2), layout="constrained")
     cover = result["coverage"]
     left.plot([0, 1], [0, 1], color="0.7", lw=1)
-    left.plot(cover["levels"], cover["observed"], "o-", color="tab:blue")
+    if cover["parameters"]:
+        left.plot(cover["levels"], cover["observed"], "o-", color="tab:blue")
     left.set(xlabel="interval's level", ylabel="share that holds the truth", title="Intervals")
     inside = [r for r in result["inside"] if r["size"] != "1 and more" and r["cases"]]
     beyond = [r for r in result["outside"] if r["size"] != "1 and more" and r["cases"]]
@@ -264,6 +279,7 @@ def draw(result: dict[str, Any], folder: Path) -> None:
     right.semilogx([float(r["size"]) for r in beyond], [r["unknown"] for r in beyond], "s--")
     right.legend(["all causes named", "outside the library, called unknown"])
     right.set_xticks(CLASSES, [f"{c:g}" for c in CLASSES])
+    right.minorticks_off()
     right.set(xlabel="size / noise", ylabel="share of cases", ylim=(0, 1.03), title="Verdicts")
     figure.savefig(folder / "reliability.png", dpi=130)
     plt.close(figure)

@@ -146,6 +146,12 @@ def test_beyond_the_support_it_says_so_and_falls_back() -> None:
     assert isinstance(warning, bathyal.SupportWarning)
     assert warning.counts == {"joint_harmonic of joint 3": 1, "thermal": 2, "base_shift": 1}
     assert "joint_harmonic of joint 3 in 1 of 4 rows, beyond the data" in str(warning)
+    assert [text.split(",")[0] for text in warning.beyond] == [
+        "joint 3",
+        "temperature",
+        "session 7",
+    ]
+    assert "temperature, asked 25 to 45, taught 10." in str(warning)
     assert caught[0].filename == __file__
     expected = [[1, 1, 1, 1], [0, 1, 1, 1], [1, 0, 1, 1], [1, 0, 0, 1]]
     assert warning.in_support.astype(int).tolist() == expected

@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The library of effects as Python sees it, and effects that a user brings."""
 
+import doctest
 import gc
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -225,3 +227,9 @@ def test_found_effects_say_what_they_are() -> None:
         FoundEffect("wobble", {})
     with pytest.raises(ValueError, match="a dict of name to number"):
         FoundEffect("thermal", {"expansion": "much"})
+
+
+def test_the_example_for_contributors_runs() -> None:
+    page = Path(__file__).parents[2] / "CONTRIBUTING.md"
+    failed, tried = doctest.testfile(str(page), module_relative=False)
+    assert (failed, tried) == (0, 6)

@@ -310,12 +310,15 @@ void ArmSubject::set_trust(const Eigen::VectorXd& trust) {
 
 Eigen::Matrix3Xd ArmSubject::tips_from_base() const {
   Eigen::Matrix3Xd tips(3, m_.rows());
+  const Eigen::Matrix3Xd misses = deviations();
   const TipWalk walk(problem_.columns, x_, {});
   WalkFrames frames;
   for (Index i = 0; i < m_.rows(); ++i) {
-    const Pose tip =
-        walk.tip(m_.q.row(i).data(), i, m_.tool[i], m_.station[i], frames, nullptr, nullptr, 0);
-    tips.col(i) = fit_.bases[m_.station[i]].inverse() * tip.translation();
+    Vec3 tip =
+        walk.tip(m_.q.row(i).data(), i, m_.tool[i], m_.station[i], frames, nullptr, nullptr, 0)
+            .translation();
+    if (!m_.tracked) tip -= misses.col(i);
+    tips.col(i) = fit_.bases[m_.station[i]].inverse() * tip;
   }
   return tips;
 }

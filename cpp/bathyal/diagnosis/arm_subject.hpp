@@ -63,8 +63,8 @@ class ArmSubject final : public Subject {
   std::vector<std::vector<Action>> actions_of(int form) const;
   void stand_at(const Eigen::VectorXd& x);
   bool update_noise();
-  /// (3, N) where the model has them. (A field over what was measured would explain its errors by
-  /// themselves.)
+  /// (3, N) where the tips are, free of what the residuals say: a field over a place that holds
+  /// the error would explain it by itself. Tracked: by the model; touched: the point.
   Eigen::Matrix3Xd tips_from_base() const;
 
   const Arm& nominal_;

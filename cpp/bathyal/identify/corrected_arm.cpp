@@ -13,7 +13,7 @@ namespace {
 using RowMajor4 = Eigen::Matrix<double, 4, 4, Eigen::RowMajor>;
 
 constexpr std::size_t kGrain = 256;  ///< poses of one task
-constexpr double kStep = 1e-5;       ///< of differences [rad] or [m]
+constexpr double kStep = 1e-6;       ///< of differences [rad] or [m]
 
 JointView view_of(const JointMatrix& q) { return {q.data(), q.rows(), q.cols()}; }
 

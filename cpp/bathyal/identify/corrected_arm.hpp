@@ -67,8 +67,9 @@ class CorrectedArm {
                                int num_threads = 0) const;
 
   /// As bathyal::jacobian. The chain is derived as it stands; how an effect changes with the joints
-  /// comes from central differences of what it moves (not of the pose), 1e-5 rad or m apart: of a
-  /// harmonic of size c and order k they are off by c k³ 2e-11. The effects that count are held.
+  /// comes from central differences of what it moves (not of the pose), 1e-6 rad or m apart: of a
+  /// harmonic of size c and order k they are off by c (k³ 2e-13 + k 1e-9). The effects that count
+  /// are held.
   CorrectedJacobians jacobian(JointView q, const Covariates& covariates = {},
                               TipFrame frame = TipFrame::kWorld, int num_threads = 0) const;
 

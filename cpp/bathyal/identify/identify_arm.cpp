@@ -3,6 +3,7 @@
 
 #include "bathyal/base/check.hpp"
 #include "bathyal/identify/arm_report.hpp"
+#include "bathyal/identify/corrected_arm.hpp"
 #include "bathyal/identify/examine.hpp"
 
 namespace bathyal {

@@ -7,10 +7,11 @@
 #include <vector>
 
 #include "bathyal/identify/arm_fit.hpp"
-#include "bathyal/identify/corrected_arm.hpp"
 #include "bathyal/identify/data.hpp"
 
 namespace bathyal {
+
+class CorrectedArm;
 
 enum class Loss { kSquare, kHuber, kCauchy };
 enum class ToolStart { kAuto, kArm, kEstimate };

@@ -130,7 +130,7 @@ TEST(CorrectedArm, JacobianIsTheDerivativeOfForward) {
   const Covariates covariates = some_covariates();
   const CorrectedJacobians found = model.jacobian(view_of(q), covariates);
   const CorrectedPoses poses = model.forward(view_of(q), covariates);
-  constexpr double kStep = 1e-6;
+  constexpr double kStep = 2e-6;
   for (Index j = 0; j < arm.size(); ++j) {
     JointMatrix up = q, down = q;
     up.col(j).array() += kStep;

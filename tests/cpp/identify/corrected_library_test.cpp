@@ -103,7 +103,7 @@ TEST(CorrectedLibrary, JacobianIsTheDerivativeOfForward) {
   const Eigen::RowVectorXd middle = q.colwise().mean();
   for (Index i = 0; i < q.rows(); ++i) q.row(i) = middle + 0.5 * (q.row(i) - middle);
   const CorrectedJacobians found = model.jacobian(view(q), scene.covariates);
-  constexpr double kStep = 1e-6;
+  constexpr double kStep = 2e-6;
   for (Index j = 0; j < q.cols(); ++j) {
     RowMatrix up = q, down = q;
     up.col(j).array() += kStep;
