@@ -82,10 +82,9 @@ def headline(report: Diagnosis) -> str:
     if report.verdict == "named":
         return f"{title}: {_causes(report.effects)}."
     if report.verdict == "ambiguous" and report.ambiguous:
-        told = [
-            listed([cause.words for cause in group], last=" or ") for group in groups_of(report)
-        ]
-        return f"{title}: {listed(told, '; ')}."
+        groups = groups_of(report)
+        told = [_any_of([str(cause.words) for cause in group]) for group in groups[:_MOST_TOLD]]
+        return f"{title}: {listed(told + _more(groups, 'choice'), '; ')}."
     if report.verdict == "unknown":
         return f"{title}: something is there that no cause of the library explains."
     if report.verdict == "clean":
