@@ -67,7 +67,7 @@ class ProbeMaker {
   }
 
   std::vector<Probe> make() {
-    of_position();
+    if (position_.cols() > 0) of_position();
     of_joints();
     of_pairs();
     of_time();

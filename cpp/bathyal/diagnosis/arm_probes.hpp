@@ -23,7 +23,8 @@ struct Probe {
 };
 
 /// All that can be asked of these data. `position` (3, N) is where the model has the tips, in
-/// the arm's base frame. `data` must outlive the probes.
+/// the arm's base frame; without columns where a field over space could not be seen, as at touched
+/// points that are free. `data` must outlive the probes.
 std::vector<Probe> make_probes(const EffectData& data, const Eigen::Matrix3Xd& position);
 
 }  // namespace bathyal

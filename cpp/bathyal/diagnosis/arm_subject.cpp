@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numeric>
 
@@ -18,10 +19,13 @@ namespace bathyal {
 namespace {
 
 constexpr double kTwins = 1e-3;         ///< [rad] or [m]: poses nearer than this are one pose
-constexpr std::size_t kScanFrom = 16;   ///< forms of one cause of one effect that are a scan
+constexpr std::size_t kScanFrom = 9;    ///< so many forms of one cause of one effect are a scan
 constexpr int kNoiseRounds = 4;
 constexpr int kMostSteps = 20;
+constexpr double kSettledStep = 1e-6;   ///< in units of the columns' scale: nm and nrad
 constexpr double kSettledCost = 1e-7;   ///< of the sum of squares
+constexpr double kOrdinaryMove = 1e-3;  ///< [m]
+constexpr double kRounding = 1e-7;
 constexpr double kOrderStep = 1e-4;     ///< relative
 constexpr double kNoiseSettled = 1e-3;  ///< relative
 
@@ -110,11 +114,12 @@ void ArmSubject::gather_forms(const Effects& effects) {
     for (EffectVariant& variant : variants) {
       by_cause[{variant.joint, variant.cause}].push_back(static_cast<int>(forms_.size()));
       forms_.push_back({variant.effect, variant.joint, variant.cause, words_of(variant, nominal_),
-                        static_cast<double>(variants.size()), has_whole_order(variant), false});
+                        static_cast<double>(variants.size()), has_whole_order(variant), false, false});
+      forms_.back().shares = variant.effect == "joint_harmonic" || variant.effect == "joint_map";
       sources_.push_back({effect, std::move(variant), -1});
     }
     for (auto& [cause, family] : by_cause) {
-      if (family.size() <= kScanFrom) continue;
+      if (family.size() < kScanFrom) continue;
       for (std::size_t i = 0; i < family.size(); ++i) {
         neighbours_[family[i]] = {i > 0 ? family[i - 1] : -1,
                                   i + 1 < family.size() ? family[i + 1] : -1};
@@ -122,13 +127,13 @@ void ArmSubject::gather_forms(const Effects& effects) {
       scans_.push_back(std::move(family));
     }
   }
-  probes_ = make_probes(data_, tips_from_base());
+  probes_ = make_probes(data_, m_.tracked ? tips_from_base() : Eigen::Matrix3Xd());
   std::map<int, std::vector<int>> families;
   for (int p = 0; p < static_cast<int>(probes_.size()); ++p) {
     const Probe& probe = probes_[p];
     if (probe.family >= 0) families[probe.family].push_back(static_cast<int>(forms_.size()));
     forms_.push_back({probe.against, -1, "probe " + probe.words, probe.words, probe.trials,
-                      false, true});
+                      false, false, true});
     sources_.push_back({nullptr, {}, p});
   }
   for (auto& [number, family] : families) scans_.push_back(std::move(family));
@@ -205,11 +210,21 @@ std::vector<Eigen::MatrixXd> ArmSubject::columns_of(std::vector<ActingVariant> a
   ArmSystem system(columns, m_, Criterion::kCentroid, false, problem_.system->num_threads());
   system.set_trust(problem_.system->trust());
   system.set_noise(problem_.system->noise(), x);
+  system.set_joints(exact_);
   system.set_free(wanted);
   Eigen::MatrixXd all = Eigen::MatrixXd::Zero(linearization_.misfit.size(), first.back());
   all.topRows(system.data_rows()) = system.jacobian(x).topRows(system.data_rows());
+  // A column in units of its scale moves tips by about a millimetre. One that moves residuals by
+  // next to nothing of that has been taken from them whole (a shift of a touched point), and what
+  // is left of it is rounding.
+  const double ordinary = kOrdinaryMove / system.noise().position * std::sqrt(double(m_.rows()));
   for (Index c = 0; c < all.cols(); ++c) {
-    all.col(c) /= columns.columns[static_cast<std::size_t>(before + c)].scale;
+    const double scale = columns.columns[static_cast<std::size_t>(before + c)].scale;
+    if (all.col(c).norm() < kRounding * ordinary) {
+      all.col(c).setZero();
+    } else {
+      all.col(c) /= scale;
+    }
   }
   std::vector<Eigen::MatrixXd> out;
   for (std::size_t i = 0; i + 1 < first.size(); ++i) {
@@ -242,15 +257,65 @@ void ArmSubject::settle(const std::vector<int>& forms) {
   problem_.system->set_free(std::move(free));
   for (int round = 0; round < kNoiseRounds; ++round) {
     x = nearest_minimum(std::move(x));
+    if (!m_.tracked) x = without_size_draw(std::move(x));
     stand_at(x);
     if (!update_noise()) break;
   }
   stand_at(x);
 }
 
-/// Gauss and Newton, by the singular values of columns of length 1: what hardly moves the residuals
-/// by itself (a curve over a quarter of a turn has such parts) stays where it is, and nothing runs
-/// off. A step that makes things worse is halved.
+/// Derivatives of exact touches: scatter would pass for information about the arm's size (see
+/// arm_search.cpp).
+Eigen::MatrixXd ArmSubject::derivatives(const Eigen::VectorXd& x) const {
+  ArmSystem exact = *problem_.system;
+  exact.set_joints(exact_);
+  return exact.jacobian(x);
+}
+
+/// Least squares of touches lie at an arm too small; steps along the derivatives of exact touches
+/// end where what is known of the size is met.
+Eigen::VectorXd ArmSubject::without_size_draw(Eigen::VectorXd x) {
+  const ArmSystem& system = *problem_.system;
+  const Eigen::VectorXd least = x;
+  Eigen::VectorXd residuals(system.rows());
+  double last = std::numeric_limits<double>::infinity();
+  for (int step = 0; step < kMostSteps; ++step) {
+    exact_ = exact_joints(system, x);
+    const Eigen::VectorXd y = system.scaled(x);
+    system.evaluate(y.data(), residuals.data(), nullptr);
+    const Eigen::VectorXd move = step_of(derivatives(x), residuals);
+    if (!(move.norm() < last)) return step < 2 ? least : x;
+    last = move.norm();
+    x = system.values(y + move);
+    if (last < kSettledStep) break;
+  }
+  return x;
+}
+
+/// The step that Gauss and Newton would take, by the singular values of columns of length 1: what
+/// hardly moves the residuals by itself (a curve over a quarter of a turn has such parts) stays
+/// where it is, and nothing runs off.
+Eigen::VectorXd ArmSubject::step_of(const Eigen::MatrixXd& jacobian,
+                                    const Eigen::VectorXd& residuals) const {
+  Eigen::MatrixXd both(residuals.size(), held_.cols() + jacobian.cols() - held_.rows() + 1);
+  both.leftCols(both.cols() - 1) = moves(jacobian);
+  both.rightCols(1) = residuals;
+  Eigen::VectorXd scale(both.cols() - 1);
+  for (Index c = 0; c < scale.size(); ++c) {
+    const double length = both.col(c).norm();
+    scale[c] = length > 0.0 ? 1.0 / length : 0.0;
+    both.col(c) *= scale[c];
+  }
+  const Eigen::MatrixXd triangle = triangle_of(both, problem_.system->num_threads());
+  Eigen::BDCSVD<Eigen::MatrixXd> svd(triangle.topLeftCorner(scale.size(), scale.size()),
+                                     Eigen::ComputeFullU | Eigen::ComputeFullV);
+  svd.setThreshold(kSwallowed);
+  const Eigen::VectorXd along =
+      -svd.solve(Eigen::VectorXd(triangle.col(scale.size()).head(scale.size())));
+  return unmoved(scale.asDiagonal() * along);
+}
+
+/// A step that makes things worse is halved.
 Eigen::VectorXd ArmSubject::nearest_minimum(Eigen::VectorXd x) const {
   const ArmSystem& system = *problem_.system;
   Eigen::VectorXd y = system.scaled(x);
@@ -258,22 +323,7 @@ Eigen::VectorXd ArmSubject::nearest_minimum(Eigen::VectorXd x) const {
   Eigen::MatrixXd jacobian(system.rows(), system.columns());
   for (int step = 0; step < kMostSteps; ++step) {
     system.evaluate(y.data(), residuals.data(), jacobian.data());
-    Eigen::MatrixXd both(residuals.size(), moves(jacobian).cols() + 1);
-    both.leftCols(both.cols() - 1) = moves(jacobian);
-    both.rightCols(1) = residuals;
-    Eigen::VectorXd scale(both.cols() - 1);
-    for (Index c = 0; c < scale.size(); ++c) {
-      const double length = both.col(c).norm();
-      scale[c] = length > 0.0 ? 1.0 / length : 0.0;
-      both.col(c) *= scale[c];
-    }
-    const Eigen::MatrixXd triangle = triangle_of(both, system.num_threads());
-    Eigen::BDCSVD<Eigen::MatrixXd> svd(triangle.topLeftCorner(scale.size(), scale.size()),
-                                       Eigen::ComputeFullU | Eigen::ComputeFullV);
-    svd.setThreshold(kSwallowed);
-    const Eigen::VectorXd along =
-        -svd.solve(Eigen::VectorXd(triangle.col(scale.size()).head(scale.size())));
-    const Eigen::VectorXd full = unmoved(scale.asDiagonal() * along);
+    const Eigen::VectorXd full = step_of(jacobian, residuals);
     const double before = residuals.squaredNorm();
     double share = 1.0;
     double after = system.cost(Eigen::VectorXd(y + full).data());
@@ -311,9 +361,10 @@ void ArmSubject::stand_at(const Eigen::VectorXd& x) {
   const Index rows = system.rows();
   const auto wide = static_cast<Index>(base_free_.size());
   Eigen::VectorXd residuals(rows);
-  Eigen::MatrixXd jacobian(rows, system.columns());
   const Eigen::VectorXd y = system.scaled(x);
-  system.evaluate(y.data(), residuals.data(), jacobian.data());
+  system.evaluate(y.data(), residuals.data(), nullptr);
+  exact_ = exact_joints(system, x);
+  const Eigen::MatrixXd jacobian = derivatives(x);
   linearization_.misfit = jacobian.rightCols(system.columns() - wide) * y.tail(y.size() - wide);
   linearization_.misfit -= residuals;
   const Index points = m_.tracked ? 0 : m_.points();
@@ -389,15 +440,12 @@ void ArmSubject::set_trust(const Eigen::VectorXd& trust) {
 
 Eigen::Matrix3Xd ArmSubject::tips_from_base() const {
   Eigen::Matrix3Xd tips(3, m_.rows());
-  const Eigen::Matrix3Xd misses = deviations();
   const TipWalk walk(problem_.columns, x_, {});
   WalkFrames frames;
   for (Index i = 0; i < m_.rows(); ++i) {
-    Vec3 tip =
-        walk.tip(m_.q.row(i).data(), i, m_.tool[i], m_.station[i], frames, nullptr, nullptr, 0)
-            .translation();
-    if (!m_.tracked) tip -= misses.col(i);
-    tips.col(i) = fit_.bases[m_.station[i]].inverse() * tip;
+    const Pose tip =
+        walk.tip(m_.q.row(i).data(), i, m_.tool[i], m_.station[i], frames, nullptr, nullptr, 0);
+    tips.col(i) = fit_.bases[m_.station[i]].inverse() * tip.translation();
   }
   return tips;
 }
@@ -422,7 +470,7 @@ double ArmSubject::freedom() const {
 
 Eigen::MatrixXd ArmSubject::covariance() const {
   const ArmSystem& system = *problem_.system;
-  const Eigen::MatrixXd jacobian = system.jacobian(x_);
+  const Eigen::MatrixXd jacobian = derivatives(x_);
   const Index effects = jacobian.cols() - held_.rows();
   const Eigen::MatrixXd scanned = by_scanned();
   Eigen::MatrixXd all(jacobian.rows(), held_.cols() + effects + scanned.cols());

@@ -68,12 +68,14 @@ class ArmSubject final : public Subject {
   std::vector<Eigen::MatrixXd> columns_of(std::vector<ActingVariant> acting) const;
   Eigen::MatrixXd by_scanned() const;
   Eigen::VectorXd nearest_minimum(Eigen::VectorXd x) const;
+  Eigen::VectorXd without_size_draw(Eigen::VectorXd x);
+  Eigen::VectorXd step_of(const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& residuals) const;
+  Eigen::MatrixXd derivatives(const Eigen::VectorXd& x) const;
   Eigen::MatrixXd moves(const Eigen::MatrixXd& free) const;
   Eigen::VectorXd unmoved(const Eigen::VectorXd& along) const;
   void stand_at(const Eigen::VectorXd& x);
   bool update_noise();
-  /// (3, N) where the tips are, free of what the residuals say: a field over a place that holds
-  /// the error would explain it by itself. Tracked: by the model; touched: the point.
+  /// (3, N) by the model. (A field over what was measured would explain its errors by itself.)
   Eigen::Matrix3Xd tips_from_base() const;
 
   const Arm& nominal_;
@@ -95,6 +97,7 @@ class ArmSubject final : public Subject {
   Eigen::MatrixXd held_;        ///< (free, k) orthonormal: changes of them that anything holds
   std::vector<int> standing_;   ///< forms of the last `settle`
   Eigen::VectorXd x_;           ///< of all columns, effects' last
+  RowMatrix exact_;  ///< joints at which derivatives are taken: of exact touches
   Linearization linearization_;
 };
 

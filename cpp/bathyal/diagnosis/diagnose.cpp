@@ -90,7 +90,7 @@ class Reporter {
   void tell_shown() {
     std::set<std::string> told;
     for (const Dependence& d : found_.shown) {
-      if (d.p > kShown) break;
+      if (d.p > kShown && !out_.shown.empty()) break;  // the least unlikely is told in any case
       if (!told.insert(form(d.form).effect).second) continue;
       out_.shown.push_back({form(d.form).effect, form(d.form).words, d.size * base_unit(),
                             d.share, d.p});

@@ -16,6 +16,7 @@ namespace bathyal {
 namespace {
 
 constexpr int kMostPasses = 4;       ///< of naming and standing at what was named
+constexpr int kMostScans = 4;        ///< in one pass
 constexpr int kPeaks = 4;            ///< of each scan that are looked at closely
 constexpr int kMostProbes = 6;       ///< that are asked at once
 constexpr int kFinerRounds = 3;
@@ -56,7 +57,8 @@ class Examiner {
 
   void gather_candidates();
   void add_peaks(const Ground& beside);
-  std::vector<int> best_forms();
+  std::vector<int> members_of(const Pool& pool, const std::vector<int>& forms) const;
+  std::vector<int> best_forms(std::vector<int> start);
   Explanation explain(Eigen::VectorXd trust);
   double score_of(const std::vector<int>& forms, const Eigen::VectorXd& trust) const;
   void choose_explanation();
@@ -74,6 +76,7 @@ class Examiner {
   const Progress& progress_;
   std::vector<int> candidates_;       ///< library forms worth a pool
   std::vector<int> in_scans_;         ///< forms that only scans look at, sorted
+  std::set<int> is_sharp_;            ///< forms of scans that were looked at closely
   std::vector<int> names_;
   std::vector<int> probes_;
   Eigen::VectorXd trust_;
@@ -137,6 +140,7 @@ void Examiner::add_peaks(const Ground& beside) {
 /// Each form of a scan where it fits best, between the points of its grid.
 std::vector<int> Examiner::sharpened(std::vector<int> forms) {
   for (int& form : forms) {
+    if (!is_sharp_.insert(form).second) continue;
     for (int round = 0; round < kFinerRounds; ++round) {
       std::vector<int> near = subject_.finer(form);
       if (near.empty()) break;
@@ -156,6 +160,7 @@ std::vector<int> Examiner::sharpened(std::vector<int> forms) {
       form = best->form;
       if (subject_.forms()[form].plain) break;
     }
+    is_sharp_.insert(form);
     if (std::find(candidates_.begin(), candidates_.end(), form) == candidates_.end()) {
       candidates_.push_back(form);
     }
@@ -164,16 +169,25 @@ std::vector<int> Examiner::sharpened(std::vector<int> forms) {
   return forms;
 }
 
-/// The best set where the subject stands; scans look again beside it.
-std::vector<int> Examiner::best_forms() {
+std::vector<int> Examiner::members_of(const Pool& pool, const std::vector<int>& forms) const {
+  std::vector<int> members;
+  for (int m = 0; m < pool.size(); ++m) {
+    if (std::find(forms.begin(), forms.end(), pool.form(m)) != forms.end()) members.push_back(m);
+  }
+  return members;
+}
+
+/// The best set where the subject stands, from `start` on; scans look again beside it.
+std::vector<int> Examiner::best_forms(std::vector<int> start) {
   const Ground base = ground({});
-  std::vector<int> forms = forms_of(pool_of(base, candidates_), {});
-  for (int round = 0; round < 2; ++round) {
+  std::vector<int> forms = std::move(start);
+  for (int round = 0; round < kMostScans; ++round) {
     const Pool pool = pool_of(base, candidates_);
-    const std::vector<int> found = forms_of(pool, find_best_set(pool));
-    if (round > 0 && found == forms) break;
-    forms = found;
-    if (forms.empty()) break;
+    const std::vector<int> set = forms.empty() ? find_best_set(pool)
+                                               : improve_set(pool, members_of(pool, forms));
+    const bool same = forms == forms_of(pool, set);
+    forms = forms_of(pool, set);
+    if (forms.empty() || (same && round > 0)) break;
     const std::size_t known = candidates_.size();
     add_peaks(ground(forms));
     if (candidates_.size() == known) break;
@@ -211,7 +225,7 @@ Examiner::Explanation Examiner::explain(Eigen::VectorXd trust) {
   subject_.set_trust(trust);
   subject_.settle({});
   for (int pass = 0; pass < kMostPasses; ++pass) {
-    const std::vector<int> forms = best_forms();
+    const std::vector<int> forms = best_forms(out.forms);
     subject_.settle(forms);
     const Ground whole = ground(forms);
     const Eigen::VectorXd next =
@@ -321,8 +335,11 @@ void Examiner::look_beyond_names() {
     }
     if (asked.size() == known) return;
     const Pool pool = pool_of(ground({}), asked);
+    const std::vector<int> set = standing.empty()
+                                     ? find_best_set(pool)
+                                     : improve_set(pool, members_of(pool, standing));
     std::vector<int> names, probes;
-    for (const int form : forms_of(pool, find_best_set(pool))) {
+    for (const int form : forms_of(pool, set)) {
       (is_probe(form) ? probes : names).push_back(form);
     }
     if (names == names_ && probes == probes_) return;
@@ -334,42 +351,51 @@ void Examiner::look_beyond_names() {
 
 /// A name must foretell what it has not seen.
 void Examiner::drop_what_foretells_nothing() {
-  const Linearization& at = subject_.linearization();
   for (;;) {
-    const auto error_of = [&](const std::vector<int>& forms) {
-      Eigen::MatrixXd columns = at.base;
-      for (const Eigen::MatrixXd& more : subject_.columns(forms)) {
-        const Index old = columns.cols();
-        columns.conservativeResize(Eigen::NoChange, old + more.cols());
-        columns.rightCols(more.cols()) = more;
+    const Linearization& at = subject_.linearization();
+    const Ground base = ground({});
+    const Pool pool = pool_of(base, names_);
+    Eigen::MatrixXd columns = base.basis;
+    std::vector<Index> basis(static_cast<std::size_t>(base.basis.cols()));
+    std::iota(basis.begin(), basis.end(), Index{0});
+    std::vector<std::vector<Index>> own;
+    for (int m = 0; m < pool.size(); ++m) {
+      const Index old = columns.cols();
+      columns.conservativeResize(Eigen::NoChange, old + pool.width(m));
+      columns.rightCols(pool.width(m)) = pool.columns(m);
+      own.emplace_back(static_cast<std::size_t>(pool.width(m)));
+      std::iota(own.back().begin(), own.back().end(), old);
+    }
+    const auto all_but = [&](int without) {
+      std::vector<Index> which = basis;
+      for (int m = 0; m < pool.size(); ++m) {
+        if (m != without) which.insert(which.end(), own[m].begin(), own[m].end());
       }
-      return hold_out(at.misfit, columns, at.unit, out_.blocks, options_.num_threads);
+      return which;
     };
-    const HeldOutErrors with = error_of(names_);
+    const HoldOut held(at.misfit, columns, at.unit, out_.blocks, options_.num_threads);
+    const double with = held.squares(all_but(-1)).sum() / held.rows();
     out_.names.clear();
     int worst = -1;
     double least = 0.0;
-    for (const int form : names_) {
-      std::vector<int> others = names_;
-      std::erase(others, form);
-      const HeldOutErrors without = error_of(others);
+    for (int m = 0; m < pool.size(); ++m) {
       Chosen chosen;
-      chosen.form = form;
-      chosen.held_out_with = with.of_block.sum() / with.rows;
-      chosen.held_out_without = without.of_block.sum() / with.rows;
-      const double gain = chosen.held_out_without - chosen.held_out_with;
+      chosen.form = pool.form(m);
+      chosen.held_out_with = with;
+      chosen.held_out_without = held.squares(all_but(m)).sum() / held.rows();
+      const double gain = chosen.held_out_without - with;
       if (gain <= least) {
-        worst = form;
+        worst = chosen.form;
         least = gain;
       }
       out_.names.push_back(chosen);
     }
     if (worst < 0) {
-      const HeldOutErrors before = error_of({});
+      const HeldOutErrors before = held.errors(basis);
+      const HeldOutErrors after = held.errors(all_but(-1));
       out_.error_before = before.error;
-      out_.error_after = with.error;
-      const Eigen::VectorXd gains = before.of_block - with.of_block;
-      out_.luck = sign_flip_p(gains);
+      out_.error_after = after.error;
+      out_.luck = sign_flip_p(before.of_block - after.of_block);
       return;
     }
     std::erase(names_, worst);
@@ -438,11 +464,7 @@ void Examiner::tell_rivals() {
     if (std::find(asked.begin(), asked.end(), form) == asked.end()) asked.push_back(form);
   }
   const Pool pool = pool_of(ground({}), asked);
-  std::vector<int> set;
-  for (int m = 0; m < pool.size(); ++m) {
-    if (std::find(names_.begin(), names_.end(), pool.form(m)) != names_.end()) set.push_back(m);
-  }
-  for (const Rival& rival : find_rivals(pool, set)) {
+  for (const Rival& rival : find_rivals(pool, members_of(pool, names_))) {
     out_.rivals.push_back({pool.form(rival.member), pool.form(rival.instead), rival.odds});
   }
 }
@@ -477,7 +499,7 @@ Examination Examiner::run() {
     for (const NoiseFit& fit : out_.noise) trust.array() /= fit.factor.array();
     subject_.set_trust(trust);
     subject_.settle(names_);
-    names_ = best_forms();
+    names_ = best_forms(names_);
     subject_.settle(names_);
   }
   tell(0.6, "looking for what is left");

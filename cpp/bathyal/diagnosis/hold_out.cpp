@@ -3,44 +3,73 @@
 
 #include "bathyal/base/parallel.hpp"
 #include "bathyal/base/random.hpp"
-#include "bathyal/diagnosis/orthonormal.hpp"
 
 namespace bathyal {
 namespace {
 
-/// Share of a direction's square that the other blocks must hold to tell it.
-constexpr double kTold = 1e-9;
+/// Of a column's square: holds at 0 what the other blocks do not tell, and moves nothing else.
+constexpr double kRidge = 1e-8;
 
 }  // namespace
 
-HeldOutErrors hold_out(const Eigen::VectorXd& misfit, const Eigen::MatrixXd& columns,
-                       const std::vector<int>& unit, const Blocks& blocks, int num_threads) {
-  const Eigen::MatrixXd q = orthonormal(columns);
-  std::vector<std::vector<Index>> rows(static_cast<std::size_t>(blocks.count));
+HoldOut::HoldOut(const Eigen::VectorXd& misfit, const Eigen::MatrixXd& columns,
+                 const std::vector<int>& unit, const Blocks& blocks, int num_threads)
+    : misfit_(misfit),
+      columns_(columns),
+      num_threads_(num_threads),
+      rows_(static_cast<std::size_t>(blocks.count)),
+      squares_(static_cast<std::size_t>(blocks.count)) {
+  std::vector<Index> known;
   for (Index r = 0; r < misfit.size(); ++r) {
-    if (unit[r] >= 0) rows[blocks.of[unit[r]]].push_back(r);
+    (unit[r] < 0 ? known : rows_[blocks.of[unit[r]]]).push_back(r);
   }
-  HeldOutErrors out{Eigen::VectorXd::Zero(misfit.size()), Eigen::VectorXd::Zero(blocks.count), 0.0};
-  for (const std::vector<Index>& block : rows) out.rows += static_cast<double>(block.size());
-  const Eigen::VectorXd against = q.transpose() * misfit;
-  parallel_for(rows.size(), 1, num_threads, [&](std::size_t begin, std::size_t end) {
+  const auto square_of = [&](const std::vector<Index>& rows) {
+    Eigen::MatrixXd part(static_cast<Index>(rows.size()), columns.cols() + 1);
+    part << columns(rows, Eigen::all), misfit(rows);
+    return Eigen::MatrixXd(part.transpose() * part);
+  };
+  parallel_for(rows_.size(), 1, num_threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t b = begin; b < end; ++b) squares_[b] = square_of(rows_[b]);
+  });
+  square_ = square_of(known);
+  for (std::size_t b = 0; b < squares_.size(); ++b) {
+    square_ += squares_[b];
+    held_ += static_cast<double>(rows_[b].size());
+  }
+}
+
+Eigen::VectorXd HoldOut::values(const std::vector<Index>& which, std::size_t block) const {
+  const Index last = columns_.cols();
+  Eigen::MatrixXd others = square_(which, which) - squares_[block](which, which);
+  others.diagonal().array() += kRidge;
+  const Eigen::VectorXd against = square_(which, last) - squares_[block](which, last);
+  return others.llt().solve(against);
+}
+
+Eigen::VectorXd HoldOut::squares(const std::vector<Index>& which) const {
+  const Index last = columns_.cols();
+  Eigen::VectorXd out(static_cast<Index>(squares_.size()));
+  parallel_for(squares_.size(), 1, num_threads_, [&](std::size_t begin, std::size_t end) {
     for (std::size_t b = begin; b < end; ++b) {
-      // The square of all rows is 1; that of the others is 1 less the block's.
-      const Eigen::MatrixXd part = q(rows[b], Eigen::all);
-      const Eigen::VectorXd own = misfit(rows[b]);
-      const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> others(
-          Eigen::MatrixXd::Identity(q.cols(), q.cols()) - part.transpose() * part);
-      Eigen::VectorXd inverse = others.eigenvalues();
-      for (double& value : inverse) value = value > kTold ? 1.0 / value : 0.0;
-      const Eigen::VectorXd values =
-          others.eigenvectors() *
-          (inverse.asDiagonal() *
-           (others.eigenvectors().transpose() * (against - part.transpose() * own)));
-      const Eigen::VectorXd error = own - part * values;
-      out.error(rows[b]) = error;
-      out.of_block[static_cast<Index>(b)] = error.squaredNorm();
+      const Eigen::VectorXd v = values(which, b);
+      const Eigen::MatrixXd own = squares_[b](which, which);
+      const Eigen::VectorXd against = squares_[b](which, last);
+      out[static_cast<Index>(b)] =
+          squares_[b](last, last) - 2.0 * v.dot(against) + v.dot(own * v);
     }
   });
+  return out;
+}
+
+HeldOutErrors HoldOut::errors(const std::vector<Index>& which) const {
+  HeldOutErrors out{Eigen::VectorXd::Zero(misfit_.size()),
+                    Eigen::VectorXd::Zero(static_cast<Index>(squares_.size()))};
+  for (std::size_t b = 0; b < rows_.size(); ++b) {
+    const Eigen::VectorXd error =
+        misfit_(rows_[b]) - columns_(rows_[b], which) * values(which, b);
+    out.error(rows_[b]) = error;
+    out.of_block[static_cast<Index>(b)] = error.squaredNorm();
+  }
   return out;
 }
 

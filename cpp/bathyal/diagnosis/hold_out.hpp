@@ -12,14 +12,35 @@ namespace bathyal {
 struct HeldOutErrors {
   Eigen::VectorXd error;       ///< (M,) in units of noise; 0 of rows that are never held out
   Eigen::VectorXd of_block;    ///< (blocks,) sum of their squares
-  double rows = 0.0;           ///< that were held out
 };
 
-/// Least squares of `misfit` by `columns`, once for each block left out. Columns that a block alone
-/// tells stay at 0 when it is left out. Where units share something that the rows are told about
-/// (a touched point), a block that holds all of them is foretold as it is.
-HeldOutErrors hold_out(const Eigen::VectorXd& misfit, const Eigen::MatrixXd& columns,
-                       const std::vector<int>& unit, const Blocks& blocks, int num_threads);
+/// Least squares of a misfit by columns, once for each block left out: by inner products, so that
+/// any choice of the columns is asked without looking at the rows again. A column that a block
+/// alone tells stays at 0 when it is left out. Where units share something that the rows are told
+/// about (a touched point), a block that holds all of them is foretold as it is.
+class HoldOut {
+ public:
+  /// All must outlive it. \pre columns are of length 1
+  HoldOut(const Eigen::VectorXd& misfit, const Eigen::MatrixXd& columns,
+          const std::vector<int>& unit, const Blocks& blocks, int num_threads);
+
+  /// (blocks,) sums of squared errors by the columns `which`.
+  Eigen::VectorXd squares(const std::vector<Index>& which) const;
+  /// The errors themselves.
+  HeldOutErrors errors(const std::vector<Index>& which) const;
+  double rows() const { return held_; }
+
+ private:
+  Eigen::VectorXd values(const std::vector<Index>& which, std::size_t block) const;
+
+  const Eigen::VectorXd& misfit_;
+  const Eigen::MatrixXd& columns_;
+  int num_threads_;
+  double held_ = 0.0;
+  std::vector<std::vector<Index>> rows_;  ///< of each block
+  Eigen::MatrixXd square_;                ///< of [columns misfit], all rows
+  std::vector<Eigen::MatrixXd> squares_;  ///< of each block
+};
 
 /// Probability that gains (one of each block) as large would come of signs thrown at random: all of
 /// them are tried up to 16 blocks, and 65536 of more.

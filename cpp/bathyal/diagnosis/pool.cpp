@@ -15,6 +15,8 @@ constexpr double kNever = -std::numeric_limits<double>::infinity();
 
 /// Share of a candidate's column that the set's other members must leave to it.
 constexpr double kIndependent = 1e-8;
+/// The same of a member of its own cause: with less it is made of the other.
+constexpr double kAnother = 0.1;
 
 }  // namespace
 
@@ -121,15 +123,19 @@ Eigen::VectorXd Pool::scores_beside(std::span<const int> members) const {
       against_ - taken.transpose() * root.matrixL().solve(Eigen::VectorXd(against_(which)));
   for (int m = 0; m < size(); ++m) {
     const Member& member = members_[m];
-    const bool there = std::any_of(members.begin(), members.end(), [&](int other) {
+    const bool kin = std::any_of(members.begin(), members.end(), [&](int other) {
       return members_[other].about->cause == member.about->cause;
     });
-    if (there || !(now->freedom > static_cast<double>(member.width) + 1.0)) continue;
+    const bool stands_alone = std::any_of(members.begin(), members.end(), [&](int other) {
+      return members_[other].about->cause == member.about->cause &&
+             !(members_[other].about->shares && member.about->shares);
+    });
+    if (stands_alone || !(now->freedom > static_cast<double>(member.width) + 1.0)) continue;
     const auto taken_here = taken.middleCols(member.first, member.width);
     const Eigen::LDLT<Eigen::MatrixXd> solver(
         square_.block(member.first, member.first, member.width, member.width) -
         taken_here.transpose() * taken_here);
-    if (!(solver.vectorD().minCoeff() > kIndependent)) continue;
+    if (!(solver.vectorD().minCoeff() > (kin ? kAnother : kIndependent))) continue;
     const Eigen::VectorXd own = against.segment(member.first, member.width);
     const double explained = own.dot(solver.solve(own));
     const double left = std::max(now->left - explained, 1e-12 * total_);

@@ -39,6 +39,10 @@ std::vector<int> best_of(const Eigen::VectorXd& scores, int count) {
   return order;
 }
 
+/// Sets that are kept: causes hide each other where there are few; where there are many the next
+/// one is plain.
+std::size_t beam_of(std::size_t members) { return members < 4 ? 8 : members < 8 ? 3 : 1; }
+
 /// Sets one larger than those of `beam`, the best first.
 std::vector<Scored> grown(const Pool& pool, const std::vector<Scored>& beam,
                           const SetSearchOptions& options) {
@@ -53,31 +57,70 @@ std::vector<Scored> grown(const Pool& pool, const std::vector<Scored>& beam,
   }
   std::stable_sort(out.begin(), out.end(),
                    [](const Scored& a, const Scored& b) { return a.score > b.score; });
-  if (out.size() > static_cast<std::size_t>(options.beam)) {
-    out.erase(out.begin() + options.beam, out.end());
+  if (out.size() > beam_of(beam.front().members.size())) {
+    out.erase(out.begin() + static_cast<std::ptrdiff_t>(beam_of(beam.front().members.size())),
+              out.end());
   }
   return out;
 }
 
-/// The best set that differs by one member dropped, or by one exchanged; `now` when none is better.
-Scored improved(const Pool& pool, const Scored& now, const SetSearchOptions& options) {
-  Scored best = now;
-  const auto consider = [&](std::vector<int> members) {
+/// Rivals less likely than e to minus this are not told.
+constexpr double kLeastOdds = 20.0;
+
+/// What a quick score may lack of the true one: others' costs change with a member.
+constexpr double kQuickScoreLacks = 6.0;
+
+/// The best one that `scores` (of additions to `base`) promise to be better than `best`.
+Scored better_of(const Pool& pool, const std::vector<int>& base, Scored best,
+                 const SetSearchOptions& options) {
+  const Eigen::VectorXd scores = pool.scores_beside(base);
+  for (const int m : best_of(scores, options.extensions)) {
+    if (scores[m] < best.score - kQuickScoreLacks) break;
+    std::vector<int> members = with(base, m);
     const auto fit = pool.judge(members);
     if (fit && fit->score > best.score) best = {std::move(members), fit->score};
-  };
+  }
+  return best;
+}
+
+/// The best set that differs by one member: added, where that helps; else dropped or exchanged.
+Scored improved(const Pool& pool, const Scored& now, const SetSearchOptions& options) {
+  if (static_cast<int>(now.members.size()) < options.most) {
+    Scored larger = better_of(pool, now.members, now, options);
+    if (larger.score > now.score) return larger;
+  }
+  Scored best = now;
   for (std::size_t i = 0; i < now.members.size(); ++i) {
     const std::vector<int> rest = without(now.members, i);
-    consider(rest);
-    for (const int m : best_of(pool.scores_beside(rest), options.extensions)) consider(with(rest, m));
-  }
-  for (const int m : best_of(pool.scores_beside(now.members), options.extensions)) {
-    consider(with(now.members, m));
+    const auto fit = pool.judge(rest);
+    if (fit && fit->score > best.score) best = {rest, fit->score};
+    best = better_of(pool, rest, std::move(best), options);
+    // One wide member may be all that several of its cause are, and fits none of them beside it.
+    std::vector<int> without_kin = now.members;
+    std::erase_if(without_kin, [&](int m) {
+      return pool.about(m).cause == pool.about(now.members[i]).cause;
+    });
+    if (without_kin.size() + 1 < now.members.size()) {
+      best = better_of(pool, without_kin, std::move(best), options);
+    }
   }
   return best;
 }
 
 }  // namespace
+
+std::vector<int> improve_set(const Pool& pool, std::vector<int> start,
+                             const SetSearchOptions& options) {
+  std::sort(start.begin(), start.end());
+  const auto fit = pool.judge(start);
+  const Scored nothing{{}, pool.judge({})->score};
+  Scored best = fit ? Scored{std::move(start), fit->score} : nothing;
+  for (;;) {
+    Scored next = improved(pool, best, options);
+    if (!(next.score > best.score)) return best.members;
+    best = std::move(next);
+  }
+}
 
 std::vector<int> find_best_set(const Pool& pool, const SetSearchOptions& options) {
   Scored best{{}, pool.judge({})->score};
@@ -90,11 +133,7 @@ std::vector<int> find_best_set(const Pool& pool, const SetSearchOptions& options
     worse = beam.front().score > best.score ? 0 : worse + 1;
     if (worse == 0) best = beam.front();
   }
-  for (;;) {
-    Scored next = improved(pool, best, options);
-    if (!(next.score > best.score)) return best.members;
-    best = std::move(next);
-  }
+  return improve_set(pool, best.members, options);
 }
 
 std::vector<Rival> find_rivals(const Pool& pool, const std::vector<int>& set) {
@@ -105,12 +144,17 @@ std::vector<Rival> find_rivals(const Pool& pool, const std::vector<int>& set) {
     const std::vector<int> rest = without(set, i);
     const double own = all->score + trials(set[i]);
     std::map<std::string, Rival> best_of_cause;
-    for (const int m : best_of(pool.scores_beside(rest), pool.size())) {
+    const Eigen::VectorXd scores = pool.scores_beside(rest);
+    for (const int m : best_of(scores, pool.size())) {
+      if (scores[m] + trials(m) < own - kLeastOdds) continue;
       const std::string& cause = pool.about(m).cause;
       if (cause == pool.about(set[i]).cause) continue;
       const auto fit = pool.judge(with(rest, m));
       if (!fit) continue;
-      const Rival rival{set[i], m, std::exp(std::min(fit->score + trials(m) - own, 0.0))};
+      // What helps as much beside the member as in its place stands for something else.
+      const auto both = pool.judge(with(set, m));
+      const double best = std::max(own, both ? both->score + trials(m) + trials(set[i]) : own);
+      const Rival rival{set[i], m, std::exp(std::min(fit->score + trials(m) - best, 0.0))};
       const auto [place, fresh] = best_of_cause.emplace(cause, rival);
       if (!fresh && rival.odds > place->second.odds) place->second = rival;
     }

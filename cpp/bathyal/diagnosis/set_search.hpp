@@ -15,15 +15,18 @@ struct Rival {
 };
 
 struct SetSearchOptions {
-  int beam = 8;             ///< sets kept of each size
-  int extensions = 24;      ///< of each, by their quick score
-  int most = 16;            ///< members
+  int extensions = 12;  ///< of a set, by their quick score, that are judged
+  int most = 48;        ///< members
 };
 
 /// The best set of a pool's candidates by Pool::judge: sets grow by one, the best of each size are
-/// kept (a beam), then the best of all is improved by dropping and by exchanging members until
-/// nothing helps.
+/// kept (a beam, wide while sets are small), then the best of all is improved by adding, dropping
+/// and exchanging members until nothing helps.
 std::vector<int> find_best_set(const Pool& pool, const SetSearchOptions& options = {});
+
+/// The second half of it alone, from `start`.
+std::vector<int> improve_set(const Pool& pool, std::vector<int> start,
+                             const SetSearchOptions& options = {});
 
 /// The best one of each other cause in each member's place, likeliest first. Odds leave out how many
 /// forms were tried: two that explain the same are told apart by none of that.

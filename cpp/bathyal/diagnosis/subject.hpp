@@ -17,10 +17,11 @@ using Eigen::Index;
 struct Form {
   std::string effect;   ///< "joint_harmonic"; of a probe: what the structure is against
   int joint = -1;
-  std::string cause;    ///< forms of one cause are words for one thing: a model takes one of them
+  std::string cause;    ///< forms of one cause are words for one thing
   std::string words;    ///< for people
   double trials = 1.0;  ///< how many forms of its effect are tried beside it, itself counted
   bool plain = false;   ///< among its neighbours of a scan, the one to take when they fit alike
+  bool shares = false;  ///< may stand beside others of its cause that it is not made of
   bool probe = false;   ///< shows that structure is there, and is no cause
 };
 

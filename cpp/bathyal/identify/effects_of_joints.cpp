@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <set>
@@ -109,6 +110,8 @@ class JointHarmonic final : public Effect {
 };
 
 class JointMap final : public Effect {
+  static constexpr Index kRowsForTerm = 6;  ///< poses for each term, or there is nothing to tell
+
  public:
   EffectInfo info() const override {
     return {"joint_map",
@@ -122,20 +125,20 @@ class JointMap final : public Effect {
   }
 
   std::vector<EffectVariant> variants(const EffectData& data) const override {
-    constexpr int kMostTerms = 8;
+    constexpr std::array<int, 6> kTerms{2, 3, 4, 6, 8, 12};  // one term is a harmonic
     std::vector<EffectVariant> out;
     for_each_moving(data, [&](int j) {
       const std::string unit = unit_of(*data.arm, j);
       const double wave =
           slides(*data.arm, j) ? 2.0 * std::numbers::pi / (1.5 * span_of(data, j)) : 1.0;
-      std::vector<EffectParameter> parameters;
-      for (int term = 1; term <= kMostTerms; ++term) {
-        const std::string number = std::to_string(term);
-        parameters.push_back({"cos_" + number, unit, kOrdinaryError});
-        parameters.push_back({"sin_" + number, unit, kOrdinaryError});
-        if (term == 1) continue;  // that is a harmonic
-        const std::map<std::string, double> settings{{"terms", term}, {"wave", wave}};
-        out.push_back({"joint_map", j, settings, parameters, curve_of(j)});
+      for (const int terms : kTerms) {
+        if (kRowsForTerm * terms > data.rows()) break;
+        out.push_back({"joint_map", j, {{"terms", terms}, {"wave", wave}}, {}, curve_of(j)});
+        for (int term = 1; term <= terms; ++term) {
+          const std::string number = std::to_string(term);
+          out.back().parameters.push_back({"cos_" + number, unit, kOrdinaryError});
+          out.back().parameters.push_back({"sin_" + number, unit, kOrdinaryError});
+        }
       }
     });
     return out;
