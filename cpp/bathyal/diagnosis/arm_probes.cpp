@@ -56,7 +56,8 @@ class ProbeMaker {
   ProbeMaker(const EffectData& data, const Eigen::Matrix3Xd& position)
       : data_(data), position_(position) {
     for (const Joint& joint : data.arm->joints()) {
-      if (joint.type == JointType::kFixed || slides_.size() > static_cast<std::size_t>(joint.coordinate)) {
+      if (joint.type == JointType::kFixed ||
+          slides_.size() > static_cast<std::size_t>(joint.coordinate)) {
         continue;
       }
       slides_.push_back(joint.type == JointType::kPrismatic);
@@ -77,7 +78,8 @@ class ProbeMaker {
   }
 
  private:
-  /// First harmonic of a turning joint, two polynomials of a sliding one; with `second`, twice that.
+  /// First harmonic of a turning joint, two polynomials of a sliding one; with `second`, twice
+  /// that.
   Functions of_joint(int j, bool second) const {
     const Eigen::VectorXd q = data_.q.col(j);
     if (slides_[j]) return curve(spread_out(q)).leftCols(second ? 3 : 2);
@@ -126,7 +128,8 @@ class ProbeMaker {
     for (const int degree : {2, 3}) {
       along_axes("position", "a field over the tip's position", Axes::kBase, 2.0, [=, this] {
         Functions u(position_.cols(), 3);
-        for (int axis = 0; axis < 3; ++axis) u.col(axis) = spread_out(position_.row(axis).transpose());
+        for (int axis = 0; axis < 3; ++axis)
+          u.col(axis) = spread_out(position_.row(axis).transpose());
         std::vector<Eigen::VectorXd> terms;
         for (int i = 0; i <= degree; ++i) {
           for (int j = 0; i + j <= degree; ++j) {
@@ -138,7 +141,8 @@ class ProbeMaker {
           }
         }
         Functions out(u.rows(), static_cast<Eigen::Index>(terms.size()));
-        for (std::size_t t = 0; t < terms.size(); ++t) out.col(static_cast<Eigen::Index>(t)) = terms[t];
+        for (std::size_t t = 0; t < terms.size(); ++t)
+          out.col(static_cast<Eigen::Index>(t)) = terms[t];
         return out;
       });
     }
@@ -151,8 +155,8 @@ class ProbeMaker {
       const std::string name = "joint " + number(i);
       along_axes(name, "what shifts the tip in the base's axes with " + name, Axes::kBase, 2.0 * n,
                  functions);
-      along_axes(name, "what shifts the tip in the tool's axes with " + name, Axes::kFlange, 2.0 * n,
-                 functions);
+      along_axes(name, "what shifts the tip in the tool's axes with " + name, Axes::kFlange,
+                 2.0 * n, functions);
       for (int j = 0; j < n; ++j) {
         if (j == i) continue;
         on_joint(name, "what moves joint " + number(j) + " with " + name, j, n * (n - 1.0),
@@ -167,7 +171,9 @@ class ProbeMaker {
     for (int i = 0; i < n; ++i) {
       for (int j = i + 1; j < n; ++j) {
         const std::string name = "joints " + number(i) + " and " + number(j);
-        const auto functions = [=, this] { return products(of_joint(i, false), of_joint(j, false)); };
+        const auto functions = [=, this] {
+          return products(of_joint(i, false), of_joint(j, false));
+        };
         along_axes(name, "what shifts the tip with " + name + " together", Axes::kBase, pairs,
                    functions);
         for (int k = 0; k < n; ++k) {
@@ -227,7 +233,8 @@ class ProbeMaker {
     for (std::size_t i = 0; i < row.size(); ++i) row[data_.order[i]] = static_cast<int>(i);
     for (int j = 0; j < n; ++j) {
       on_joint("the last move of joint " + number(j),
-               "a play of joint " + number(j) + " that depends on where it came from", j, n, [=, this] {
+               "a play of joint " + number(j) + " that depends on where it came from", j, n,
+               [=, this] {
                  Functions sign = Functions::Zero(data_.rows(), 1);
                  double last = 0.0;
                  for (std::size_t k = 1; k < row.size(); ++k) {
@@ -251,8 +258,7 @@ class ProbeMaker {
       for (Eigen::Index c = 0; c < table.cols(); ++c) {
         const Eigen::VectorXd u = spread_out(table.col(c));
         if (u.isZero()) continue;
-        const std::string what =
-            table.cols() > 1 ? name + " " + std::to_string(c + 1) : name;
+        const std::string what = table.cols() > 1 ? name + " " + std::to_string(c + 1) : name;
         const auto functions = [=] { return curve(u); };
         along_axes(what, "what shifts the tip in the base's axes with " + what, Axes::kBase, 2.0,
                    functions);

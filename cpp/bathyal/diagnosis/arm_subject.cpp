@@ -18,14 +18,14 @@
 namespace bathyal {
 namespace {
 
-constexpr double kTwins = 1e-3;         ///< [rad] or [m]: poses nearer than this are one pose
-constexpr std::size_t kScanFrom = 9;    ///< so many forms of one cause of one effect are a scan
+constexpr double kTwins = 1e-3;       ///< [rad] or [m]: poses nearer than this are one pose
+constexpr std::size_t kScanFrom = 9;  ///< so many forms of one cause of one effect are a scan
 constexpr int kNoiseRounds = 4;
 constexpr int kMostSteps = 20;
-constexpr double kSettledStep = 1e-6;   ///< in units of the columns' scale: nm and nrad
-constexpr double kSettledCost = 1e-7;   ///< of the sum of squares
+constexpr double kSettledStep = 1e-6;    ///< in units of the columns' scale: nm and nrad
+constexpr double kSettledCost = 1e-7;    ///< of the sum of squares
 constexpr double kSeenDirection = 1e-5;  ///< of the largest singular value, per mm and mrad
-constexpr double kOrdinaryMove = 1e-3;  ///< [m]
+constexpr double kOrdinaryMove = 1e-3;   ///< [m]
 constexpr double kRounding = 1e-7;
 constexpr int kOrderRounds = 4;
 constexpr double kOrderSettled = 0.05;  ///< standard deviations
@@ -128,7 +128,8 @@ void ArmSubject::gather_forms(const Effects& effects) {
     for (EffectVariant& variant : variants) {
       by_cause[{variant.joint, variant.cause}].push_back(static_cast<int>(forms_.size()));
       forms_.push_back({variant.effect, variant.joint, variant.cause, words_of(variant, nominal_),
-                        static_cast<double>(variants.size()), has_whole_order(variant), false, false});
+                        static_cast<double>(variants.size()), has_whole_order(variant), false,
+                        false});
       forms_.back().shares = variant.effect == "joint_harmonic" || variant.effect == "joint_map";
       sources_.push_back({effect, std::move(variant), -1});
     }
@@ -146,8 +147,8 @@ void ArmSubject::gather_forms(const Effects& effects) {
   for (int p = 0; p < static_cast<int>(probes_.size()); ++p) {
     const Probe& probe = probes_[p];
     if (probe.family >= 0) families[probe.family].push_back(static_cast<int>(forms_.size()));
-    forms_.push_back({probe.against, -1, "probe " + probe.words, probe.words, probe.trials,
-                      false, false, true});
+    forms_.push_back(
+        {probe.against, -1, "probe " + probe.words, probe.words, probe.trials, false, false, true});
     sources_.push_back({nullptr, {}, p});
   }
   for (auto& [number, family] : families) scans_.push_back(std::move(family));
@@ -271,8 +272,8 @@ bool ArmSubject::move_orders() {
     EffectVariant& variant = sources_[form].variant;
     if (!variant.settings.contains("order") || has_whole_order(variant)) continue;
     const double step = change[at];
-    const double far = kFarOrder / (data_.q.col(variant.joint).maxCoeff() -
-                                    data_.q.col(variant.joint).minCoeff());
+    const double far =
+        kFarOrder / (data_.q.col(variant.joint).maxCoeff() - data_.q.col(variant.joint).minCoeff());
     const double order = variant.settings["order"] + step;
     if (std::abs(step) * sure[at] > kOrderSettled && std::abs(step) < far && order > 0.0) {
       variant.settings["order"] = order;
@@ -534,8 +535,7 @@ Eigen::MatrixXd ArmSubject::covariance() const {
     scale[c] = length > 0.0 ? 1.0 / length : 0.0;
     all.col(c) *= scale[c];
   }
-  const RankReport rank =
-      reveal_rank(triangle_of(all, system.num_threads()), kSwallowed);
+  const RankReport rank = reveal_rank(triangle_of(all, system.num_threads()), kSwallowed);
   const Eigen::MatrixXd root = scale.asDiagonal() * rank.directions.leftCols(rank.rank) *
                                rank.singular_values.head(rank.rank).cwiseInverse().asDiagonal();
   Eigen::MatrixXd own = root.middleRows(held_.cols(), effects);

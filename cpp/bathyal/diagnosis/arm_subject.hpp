@@ -101,7 +101,7 @@ class ArmSubject final : public Subject {
   Eigen::MatrixXd held_;        ///< (free, k) orthonormal: changes of them that anything holds
   std::vector<int> standing_;   ///< forms of the last `settle`
   Eigen::VectorXd x_;           ///< of all columns, effects' last
-  RowMatrix exact_;  ///< joints at which derivatives are taken: of exact touches
+  RowMatrix exact_;             ///< joints at which derivatives are taken: of exact touches
   Linearization linearization_;
 };
 

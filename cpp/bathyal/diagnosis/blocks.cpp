@@ -71,18 +71,21 @@ std::vector<int> find_twins(const Eigen::Ref<const Eigen::MatrixXd>& q, double n
   return counted_up(out);
 }
 
-Blocks make_blocks(const Units& units, int wanted) {
+namespace {
+
+/// With `by_point`, whole points are in one block too.
+Blocks cut(const Units& units, int wanted, bool by_point) {
   const auto n = static_cast<std::size_t>(units.count());
   Blocks out;
   out.of.assign(n, 0);
-  const int points = units.point.empty() ? 0 : count_of(units.point);
   std::vector<int> key = units.twin;
-  if (points >= kLeastPoints) {
+  if (by_point) {
     // What is held out together must not share a point that the model leaves free.
     Unions unions(n);
     std::map<int, int> first_of_point, first_twin;
     for (int i = 0; i < static_cast<int>(n); ++i) {
-      if (units.point[i] >= 0) unions.join(i, first_of_point.emplace(units.point[i], i).first->second);
+      if (units.point[i] >= 0)
+        unions.join(i, first_of_point.emplace(units.point[i], i).first->second);
       unions.join(i, first_twin.emplace(units.twin[i], i).first->second);
     }
     for (int i = 0; i < static_cast<int>(n); ++i) key[i] = unions.root(i);
@@ -92,7 +95,8 @@ Blocks make_blocks(const Units& units, int wanted) {
   std::vector<int> order(n);
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
-    return std::pair(units.session[a], units.order[a]) < std::pair(units.session[b], units.order[b]);
+    return std::pair(units.session[a], units.order[a]) <
+           std::pair(units.session[b], units.order[b]);
   });
   std::map<int, std::size_t> size_in_session, before;
   std::map<int, std::size_t> size_of_key;
@@ -119,6 +123,18 @@ Blocks make_blocks(const Units& units, int wanted) {
               (size_in_session.size() > 1 ? ", each with its share of every session" : "");
   }
   return out;
+}
+
+}  // namespace
+
+Blocks make_blocks(const Units& units, int wanted) {
+  const int points = units.point.empty() ? 0 : count_of(units.point);
+  if (points >= kLeastPoints) {
+    // Touches of planes, or twins that join points, may leave too few to hold out.
+    Blocks whole = cut(units, wanted, true);
+    if (2 * whole.count >= kLeastPoints) return whole;
+  }
+  return cut(units, wanted, false);
 }
 
 }  // namespace bathyal

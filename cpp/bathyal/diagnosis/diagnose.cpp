@@ -16,8 +16,8 @@
 namespace bathyal {
 namespace {
 
-constexpr double kShown = 0.01;        ///< corrected p-value of structure that is told
-constexpr double kLeastRepeats = 12.0; ///< degrees of freedom of repeats that tell the noise
+constexpr double kShown = 0.01;         ///< corrected p-value of structure that is told
+constexpr double kLeastRepeats = 12.0;  ///< degrees of freedom of repeats that tell the noise
 constexpr std::size_t kMostRivals = 5;
 
 /// The t whose two tails hold 5 %.
@@ -92,8 +92,8 @@ class Reporter {
     for (const Dependence& d : found_.shown) {
       if (d.p > kShown && !out_.shown.empty()) break;  // the least unlikely is told in any case
       if (!told.insert(form(d.form).effect).second) continue;
-      out_.shown.push_back({form(d.form).effect, form(d.form).words, d.size * base_unit(),
-                            d.share, d.p});
+      out_.shown.push_back(
+          {form(d.form).effect, form(d.form).words, d.size * base_unit(), d.share, d.p});
     }
   }
 
@@ -127,12 +127,12 @@ class Reporter {
     const std::vector<int>& session = subject_.units().session;
     const int sessions = 1 + *std::max_element(session.begin(), session.end());
     for (int s = 0; sessions > 1 && s < sessions; ++s) {
-      out.parts.push_back(part("session " + std::to_string(s + 1),
-                               [&](Index i) { return session[i] == s; }));
+      out.parts.push_back(
+          part("session " + std::to_string(s + 1), [&](Index i) { return session[i] == s; }));
     }
     for (int p = 0; !m_.tracked && p < m_.points(); ++p) {
-      out.parts.push_back(part("point " + m_.name_of(m_.labels[p]),
-                               [&](Index i) { return m_.point[i] == p; }));
+      out.parts.push_back(
+          part("point " + m_.name_of(m_.labels[p]), [&](Index i) { return m_.point[i] == p; }));
     }
     if (out.parts.empty()) out.parts.push_back(all);
     const double above = out.rms_before * out.rms_before - out.noise * out.noise;
@@ -159,8 +159,8 @@ class Reporter {
         std::max(held.rms_before * held.rms_before - held.noise * held.noise, 1e-300);
     Index at = 0;
     for (const FoundEffect& effect : out_.found) {
-      const auto chosen = std::find_if(
-          found_.names.begin(), found_.names.end(), [&](const Chosen& c) {
+      const auto chosen =
+          std::find_if(found_.names.begin(), found_.names.end(), [&](const Chosen& c) {
             return &subject_.variant(c.form) != nullptr &&
                    subject_.effect(c.form) == effect.effect.get() &&
                    subject_.variant(c.form).settings == effect.variant.settings &&
@@ -242,8 +242,8 @@ class Reporter {
   }
 
   void decide() {
-    const bool left = !found_.probes.empty() &&
-                      found_.left_over > options_.leftover * found_.removed;
+    const bool left =
+        !found_.probes.empty() && found_.left_over > options_.leftover * found_.removed;
     if (left) {
       out_.verdict = Verdict::kUnknown;
       return;

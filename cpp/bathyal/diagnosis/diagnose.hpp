@@ -43,9 +43,9 @@ struct Diagnosis {
   std::vector<Structure> shown;      ///< in the residuals of geometry alone, beyond noise
   Structure leftover;                ///< beside all that was named; size 0 when nothing
   HeldOut held_out;
-  double gain = 0.0;  ///< (r₀² - r₁²) / (r₀² - σ²) of held-out rms
-  ArmFit fit;         ///< geometry alone
-  Arm arm;            ///< geometry found together with the effects
+  double gain = 0.0;               ///< (r₀² - r₁²) / (r₀² - σ²) of held-out rms
+  ArmFit fit;                      ///< geometry alone
+  Arm arm;                         ///< geometry found together with the effects
   std::vector<FoundEffect> found;  ///< the effects that move the arm
   Support support;                 ///< of the data: with `arm` and `found` it makes a CorrectedArm
   double noise = 0.0;              ///< standard deviation of a measurement, per axis [m]

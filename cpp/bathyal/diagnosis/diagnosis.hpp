@@ -42,9 +42,9 @@ struct NamedEffect {
   int joint = -1;
   std::string words;
   std::vector<Estimate> parameters;
-  std::vector<int> rows;   ///< of `outliers`: the rows
-  double size = 0.0;       ///< rms of what it moves beside all else that was fitted, per axis [m]
-  double gain = 0.0;       ///< share of the held-out variance above noise that it removes
+  std::vector<int> rows;  ///< of `outliers`: the rows
+  double size = 0.0;      ///< rms of what it moves beside all else that was fitted, per axis [m]
+  double gain = 0.0;      ///< share of the held-out variance above noise that it removes
   double held_out_before = 0.0;  ///< rms (3-D) on data not used, without it [m]
   double held_out_after = 0.0;   ///< with it [m]
   double p_value = 1.0;          ///< of its F test within the set, corrected for all that was tried
@@ -53,11 +53,11 @@ struct NamedEffect {
 
 /// A dependence of the residuals that chance does not make.
 struct Structure {
-  std::string against;  ///< "joint 3", "position", "time, period 12.1 s", "joints 2 and 3"
-  std::string words;    ///< a sentence
-  double size = 0.0;    ///< rms of it, per axis, noise taken out [m]
-  double share = 0.0;   ///< of the residuals' variance, noise taken out
-  double p_value = 1.0; ///< corrected for all that were asked
+  std::string against;   ///< "joint 3", "position", "time, period 12.1 s", "joints 2 and 3"
+  std::string words;     ///< a sentence
+  double size = 0.0;     ///< rms of it, per axis, noise taken out [m]
+  double share = 0.0;    ///< of the residuals' variance, noise taken out
+  double p_value = 1.0;  ///< corrected for all that were asked
 };
 
 /// What was held out, and how well it was foretold.

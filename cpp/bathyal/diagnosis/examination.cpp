@@ -15,13 +15,14 @@
 namespace bathyal {
 namespace {
 
-constexpr int kMostPasses = 4;       ///< of naming and standing at what was named
-constexpr int kMostScans = 4;        ///< in one pass
-constexpr int kPeaks = 4;            ///< of each scan that are looked at closely
-constexpr int kMostProbes = 6;       ///< that are asked at once
+constexpr int kMostPasses = 4;  ///< of naming and standing at what was named
+constexpr int kMostScans = 4;   ///< in one pass
+constexpr int kPeaks = 4;       ///< of each scan that are looked at closely
+constexpr int kMostProbes = 6;  ///< that are asked at once
 constexpr int kFinerRounds = 3;
-constexpr double kPlainBonus = 3.0;  ///< log evidence: two and a half standard deviations of an order
-constexpr double kShown = 0.01;      ///< corrected p-value below which structure is beyond noise
+constexpr double kPlainBonus =
+    3.0;                         ///< log evidence: two and a half standard deviations of an order
+constexpr double kShown = 0.01;  ///< corrected p-value below which structure is beyond noise
 constexpr double kLeastFreedom = 10.0;
 constexpr int kLeastBlocks = 3;
 
@@ -74,9 +75,9 @@ class Examiner {
   Subject& subject_;
   const ExaminationOptions& options_;
   const Progress& progress_;
-  std::vector<int> candidates_;       ///< library forms worth a pool
-  std::vector<int> in_scans_;         ///< forms that only scans look at, sorted
-  std::set<int> is_sharp_;            ///< forms of scans that were looked at closely
+  std::vector<int> candidates_;  ///< library forms worth a pool
+  std::vector<int> in_scans_;    ///< forms that only scans look at, sorted
+  std::set<int> is_sharp_;       ///< forms of scans that were looked at closely
   std::vector<int> names_;
   std::vector<int> probes_;
   Eigen::VectorXd trust_;
@@ -183,8 +184,8 @@ std::vector<int> Examiner::best_forms(std::vector<int> start) {
   std::vector<int> forms = std::move(start);
   for (int round = 0; round < kMostScans; ++round) {
     const Pool pool = pool_of(base, candidates_);
-    const std::vector<int> set = forms.empty() ? find_best_set(pool)
-                                               : improve_set(pool, members_of(pool, forms));
+    const std::vector<int> set =
+        forms.empty() ? find_best_set(pool) : improve_set(pool, members_of(pool, forms));
     const bool same = forms == forms_of(pool, set);
     forms = forms_of(pool, set);
     if (forms.empty() || (same && round > 0)) break;
@@ -297,17 +298,16 @@ std::vector<Dependence> Examiner::dependences(const Ground& beside) const {
   const Eigen::VectorXd& misfit = subject_.linearization().misfit;
   const std::vector<ScannedForm> scanned =
       scan(subject_, asked, beside.basis, misfit, beside.freedom, options_.num_threads);
-  const double total =
-      misfit.squaredNorm() - (beside.basis.transpose() * misfit).squaredNorm();
+  const double total = misfit.squaredNorm() - (beside.basis.transpose() * misfit).squaredNorm();
   const auto rows = static_cast<double>(misfit.size());
   std::vector<Dependence> out;
   for (const ScannedForm& form : scanned) {
     if (form.width == 0.0 || !(beside.freedom > form.width + 1.0)) continue;
     Dependence d{form.form, form.explained, form.width, 1.0, 0.0, 0.0};
     const double noise = (total - form.explained) / (beside.freedom - form.width);
-    d.p = std::min(1.0, static_cast<double>(asked.size()) *
-                            f_tail(form.explained / form.width / noise, form.width,
-                                   beside.freedom - form.width));
+    d.p = std::min(
+        1.0, static_cast<double>(asked.size()) * f_tail(form.explained / form.width / noise,
+                                                        form.width, beside.freedom - form.width));
     const double beyond = std::max(form.explained - form.width * noise, 0.0);
     d.size = std::sqrt(beyond / rows);
     d.share = total > 0.0 ? beyond / total : 0.0;
@@ -335,9 +335,8 @@ void Examiner::look_beyond_names() {
     }
     if (asked.size() == known) return;
     const Pool pool = pool_of(ground({}), asked);
-    const std::vector<int> set = standing.empty()
-                                     ? find_best_set(pool)
-                                     : improve_set(pool, members_of(pool, standing));
+    const std::vector<int> set =
+        standing.empty() ? find_best_set(pool) : improve_set(pool, members_of(pool, standing));
     std::vector<int> names, probes;
     for (const int form : forms_of(pool, set)) {
       (is_probe(form) ? probes : names).push_back(form);
@@ -425,9 +424,8 @@ void Examiner::tell_evidence() {
   };
   const double noise = whole->noise();
   out_.removed = std::max(pool.total() - names_only->left - width_of(named) * noise, 0.0);
-  out_.left_over = std::max(names_only->left - whole->left -
-                                (width_of(everything) - width_of(named)) * noise,
-                            0.0);
+  out_.left_over = std::max(
+      names_only->left - whole->left - (width_of(everything) - width_of(named)) * noise, 0.0);
   const auto rows = static_cast<double>(subject_.linearization().misfit.size());
   std::set<std::string> effects;
   for (const Form& form : subject_.forms()) {

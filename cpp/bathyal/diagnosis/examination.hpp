@@ -19,7 +19,7 @@ struct ExaminationOptions {
   int num_threads = 0;
   int blocks = 10;           ///< that are held out in turn
   double rival_odds = 0.05;  ///< from which a rival cannot be told apart
-  double leftover = 0.25;    ///< of what the names removed: more is left, and they are not the cause
+  double leftover = 0.25;  ///< of what the names removed: more is left, and they are not the cause
 };
 
 /// A form that was chosen.
@@ -52,22 +52,22 @@ struct Dependence {
 
 /// Findings of one subject: which forms explain what its base model does not.
 struct Examination {
-  bool held_out = false;            ///< there was enough to hold out
+  bool held_out = false;  ///< there was enough to hold out
   Blocks blocks;
   std::vector<Chosen> names;
-  std::vector<Chosen> probes;       ///< structure beside the names
-  std::vector<RivalForm> rivals;    ///< likeliest first, by name
-  std::vector<Dependence> shown;    ///< of the base model alone, likeliest first
-  std::vector<int> odd;             ///< units left out
-  std::vector<NoiseFit> noise;      ///< noise forms that were named
-  double base_squares = 0.0;        ///< beside the base model, before anything was named
-  double removed = 0.0;             ///< by the names, noise taken out
-  double left_over = 0.0;           ///< by the probes, noise taken out
-  double freedom = 0.0;             ///< of what remains
-  double detectable = 0.0;          ///< size per row that would have been found [noise]
-  Eigen::VectorXd error_before;     ///< (M,) held out, base model alone [noise]
-  Eigen::VectorXd error_after;      ///< (M,) with the names
-  double luck = 1.0;                ///< probability that the gain is
+  std::vector<Chosen> probes;     ///< structure beside the names
+  std::vector<RivalForm> rivals;  ///< likeliest first, by name
+  std::vector<Dependence> shown;  ///< of the base model alone, likeliest first
+  std::vector<int> odd;           ///< units left out
+  std::vector<NoiseFit> noise;    ///< noise forms that were named
+  double base_squares = 0.0;      ///< beside the base model, before anything was named
+  double removed = 0.0;           ///< by the names, noise taken out
+  double left_over = 0.0;         ///< by the probes, noise taken out
+  double freedom = 0.0;           ///< of what remains
+  double detectable = 0.0;        ///< size per row that would have been found [noise]
+  Eigen::VectorXd error_before;   ///< (M,) held out, base model alone [noise]
+  Eigen::VectorXd error_after;    ///< (M,) with the names
+  double luck = 1.0;              ///< probability that the gain is
 };
 
 /// Shows, names and measures; leaves the subject standing at what it named.

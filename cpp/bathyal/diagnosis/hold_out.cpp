@@ -54,8 +54,7 @@ Eigen::VectorXd HoldOut::squares(const std::vector<Index>& which) const {
       const Eigen::VectorXd v = values(which, b);
       const Eigen::MatrixXd own = squares_[b](which, which);
       const Eigen::VectorXd against = squares_[b](which, last);
-      out[static_cast<Index>(b)] =
-          squares_[b](last, last) - 2.0 * v.dot(against) + v.dot(own * v);
+      out[static_cast<Index>(b)] = squares_[b](last, last) - 2.0 * v.dot(against) + v.dot(own * v);
     }
   });
   return out;
@@ -65,8 +64,7 @@ HeldOutErrors HoldOut::errors(const std::vector<Index>& which) const {
   HeldOutErrors out{Eigen::VectorXd::Zero(misfit_.size()),
                     Eigen::VectorXd::Zero(static_cast<Index>(squares_.size()))};
   for (std::size_t b = 0; b < rows_.size(); ++b) {
-    const Eigen::VectorXd error =
-        misfit_(rows_[b]) - columns_(rows_[b], which) * values(which, b);
+    const Eigen::VectorXd error = misfit_(rows_[b]) - columns_(rows_[b], which) * values(which, b);
     out.error(rows_[b]) = error;
     out.of_block[static_cast<Index>(b)] = error.squaredNorm();
   }
@@ -76,7 +74,8 @@ HeldOutErrors HoldOut::errors(const std::vector<Index>& which) const {
 double sign_flip_p(const Eigen::VectorXd& gains) {
   constexpr Index kAllOf = 16;
   const bool all = gains.size() <= kAllOf;
-  const std::uint64_t count = std::uint64_t{1} << static_cast<unsigned>(std::min(gains.size(), kAllOf));
+  const std::uint64_t count = std::uint64_t{1}
+                              << static_cast<unsigned>(std::min(gains.size(), kAllOf));
   const double found = gains.sum();
   const double rounding = 1e-12 * gains.cwiseAbs().sum();
   RandomStream random(0);

@@ -10,8 +10,8 @@ namespace bathyal {
 
 /// Errors of rows that were foretold by a fit to the other blocks.
 struct HeldOutErrors {
-  Eigen::VectorXd error;       ///< (M,) in units of noise; 0 of rows that are never held out
-  Eigen::VectorXd of_block;    ///< (blocks,) sum of their squares
+  Eigen::VectorXd error;     ///< (M,) in units of noise; 0 of rows that are never held out
+  Eigen::VectorXd of_block;  ///< (blocks,) sum of their squares
 };
 
 /// Least squares of a misfit by columns, once for each block left out: by inner products, so that

@@ -8,9 +8,10 @@
 namespace bathyal {
 namespace {
 
-constexpr double kLeastStep = 1e-8;   ///< [rad]; finer ones are digits of a file
-constexpr double kWhole = 1e-3;       ///< how far from a whole number a multiple may lie
-constexpr std::size_t kFewest = 20;   ///< different values: fewer lie on a grid by chance
+constexpr double kLeastStep = 1e-8;  ///< [rad]; finer ones are digits of a file
+constexpr double kRounding = 1e-10;  ///< [rad] of a value that was computed from its step
+constexpr double kWhole = 1e-2;      ///< how far from a whole number a multiple may lie
+constexpr std::size_t kFewest = 20;  ///< different values: fewer lie on a grid by chance
 
 /// Values but 0, by rising size, each once.
 std::vector<double> sizes(const RowMatrix& q, const Arm& arm) {
@@ -46,8 +47,7 @@ double logged_step(const RowMatrix& q, const Arm& arm) {
   if (values.size() < kFewest) return 0.0;
   double step = values.front();
   for (const double value : values) {
-    const double tolerance = kWhole * step + 1e-13 * value;
-    step = common_measure(value, step, tolerance);
+    step = common_measure(value, step, kRounding);
     if (step < kLeastStep) return 0.0;
   }
   // The smallest value knows the step with its own rounding only: larger ones sharpen it.
@@ -57,7 +57,7 @@ double logged_step(const RowMatrix& q, const Arm& arm) {
     step = value / multiple;
   }
   for (const double value : values) {
-    if (std::abs(value / step - std::round(value / step)) > kWhole * 10.0) return 0.0;
+    if (std::abs(value / step - std::round(value / step)) > kWhole) return 0.0;
   }
   return step;
 }

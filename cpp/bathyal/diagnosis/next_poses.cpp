@@ -69,9 +69,9 @@ RowMatrix next_poses(ArmSubject& subject, const Examination& found, double rival
 
   std::vector<Index> order(static_cast<std::size_t>(kCandidates));
   std::iota(order.begin(), order.end(), Index{0});
-  std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) { return apart[a] > apart[b]; });
-  const Eigen::RowVectorXd near =
-      kApart * (support.joints.high - support.joints.low).transpose();
+  std::stable_sort(order.begin(), order.end(),
+                   [&](Index a, Index b) { return apart[a] > apart[b]; });
+  const Eigen::RowVectorXd near = kApart * (support.joints.high - support.joints.low).transpose();
   std::vector<Index> taken;
   for (const Index i : order) {
     if (static_cast<int>(taken.size()) == count || !(apart[i] > 0.0)) break;

@@ -43,8 +43,8 @@ int Pool::add(std::span<const int> forms, std::span<const Form> all,
   for (std::size_t i = 0; i < beside.size(); ++i) {
     if (beside[i].cols() == 0) continue;
     const Form& about = all[static_cast<std::size_t>(forms[i])];
-    members_.push_back({forms[i], &about, wide, beside[i].cols(),
-                        std::log(about.trials) + kNameCost});
+    members_.push_back(
+        {forms[i], &about, wide, beside[i].cols(), std::log(about.trials) + kNameCost});
     wide += beside[i].cols();
     ++taken;
   }

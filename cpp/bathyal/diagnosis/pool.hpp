@@ -16,18 +16,18 @@ namespace bathyal {
 /// 100 diagnoses (tests/python/score_card.py).
 inline constexpr double kNameCost = 4.5;
 
-/// What the freedom of `width` columns takes from the log evidence when their values were found with
-/// Wald's statistic `f` per column: that of a normal prior as wide as the values, (k/2) (ln F + 1)
-/// where F is large and 0 where it is 0.
+/// What the freedom of `width` columns takes from the log evidence when their values were found
+/// with Wald's statistic `f` per column: that of a normal prior as wide as the values, (k/2) (ln F
+/// + 1) where F is large and 0 where it is 0.
 double cost_of_freedom(double width, double f);
 
 /// What a set of candidates explains. Candidates' values are along their orthonormal columns.
 struct SetFit {
-  double left = 0.0;        ///< sum of squares that remains
-  double freedom = 0.0;     ///< of it
-  double score = 0.0;       ///< log evidence, see Pool::judge
-  std::vector<double> f;    ///< of each candidate, given the others: Wald's statistic per column
-  std::vector<int> width;   ///< columns of each candidate
+  double left = 0.0;       ///< sum of squares that remains
+  double freedom = 0.0;    ///< of it
+  double score = 0.0;      ///< log evidence, see Pool::judge
+  std::vector<double> f;   ///< of each candidate, given the others: Wald's statistic per column
+  std::vector<int> width;  ///< columns of each candidate
   double noise() const { return left / freedom; }  ///< variance
 };
 
@@ -37,7 +37,8 @@ class Pool {
   /// base model has been fitted.
   Pool(const Eigen::MatrixXd& basis, const Eigen::VectorXd& misfit, double freedom);
 
-  /// Takes candidates in; those that the base model swallows are left out. Returns how many it took.
+  /// Takes candidates in; those that the base model swallows are left out. Returns how many it
+  /// took.
   int add(std::span<const int> forms, std::span<const Form> all,
           const std::vector<Eigen::MatrixXd>& columns, int num_threads);
 

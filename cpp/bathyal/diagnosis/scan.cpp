@@ -63,9 +63,8 @@ std::vector<int> peaks(const std::vector<ScannedForm>& family, int count) {
     const bool over_right = i + 1 == family.size() || family[i].gain >= family[i + 1].gain;
     if (std::isfinite(family[i].gain) && over_left && over_right) found.push_back(i);
   }
-  std::stable_sort(found.begin(), found.end(), [&](std::size_t a, std::size_t b) {
-    return family[a].gain > family[b].gain;
-  });
+  std::stable_sort(found.begin(), found.end(),
+                   [&](std::size_t a, std::size_t b) { return family[a].gain > family[b].gain; });
   std::vector<int> out;
   for (const std::size_t i : found) {
     if (static_cast<int>(out.size()) == count) break;

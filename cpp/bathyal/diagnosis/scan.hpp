@@ -10,9 +10,9 @@ namespace bathyal {
 /// A form and what it would add: the log evidence of Pool::judge, without ln(trials).
 struct ScannedForm {
   int form = 0;
-  double gain = 0.0;     ///< in log evidence
+  double gain = 0.0;       ///< in log evidence
   double explained = 0.0;  ///< sum of squares
-  double width = 0.0;    ///< columns
+  double width = 0.0;      ///< columns
 };
 
 /// What each of `forms` adds to a model that `basis` (orthonormal) spans, in their order. Columns

@@ -32,8 +32,11 @@ std::vector<int> best_of(const Eigen::VectorXd& scores, int count) {
   for (int m = 0; m < static_cast<int>(scores.size()); ++m) {
     if (std::isfinite(scores[m])) order.push_back(m);
   }
-  const auto better = [&](int a, int b) { return std::pair(-scores[a], a) < std::pair(-scores[b], b); };
-  const auto end = order.begin() + std::min<std::ptrdiff_t>(count, static_cast<std::ptrdiff_t>(order.size()));
+  const auto better = [&](int a, int b) {
+    return std::pair(-scores[a], a) < std::pair(-scores[b], b);
+  };
+  const auto end =
+      order.begin() + std::min<std::ptrdiff_t>(count, static_cast<std::ptrdiff_t>(order.size()));
   std::partial_sort(order.begin(), end, order.end(), better);
   order.erase(end, order.end());
   return order;
@@ -97,9 +100,8 @@ Scored improved(const Pool& pool, const Scored& now, const SetSearchOptions& opt
     best = better_of(pool, rest, std::move(best), options);
     // One wide member may be all that several of its cause are, and fits none of them beside it.
     std::vector<int> without_kin = now.members;
-    std::erase_if(without_kin, [&](int m) {
-      return pool.about(m).cause == pool.about(now.members[i]).cause;
-    });
+    std::erase_if(without_kin,
+                  [&](int m) { return pool.about(m).cause == pool.about(now.members[i]).cause; });
     if (without_kin.size() + 1 < now.members.size()) {
       best = better_of(pool, without_kin, std::move(best), options);
     }

@@ -28,8 +28,8 @@ std::vector<int> find_best_set(const Pool& pool, const SetSearchOptions& options
 std::vector<int> improve_set(const Pool& pool, std::vector<int> start,
                              const SetSearchOptions& options = {});
 
-/// The best one of each other cause in each member's place, likeliest first. Odds leave out how many
-/// forms were tried: two that explain the same are told apart by none of that.
+/// The best one of each other cause in each member's place, likeliest first. Odds leave out how
+/// many forms were tried: two that explain the same are told apart by none of that.
 std::vector<Rival> find_rivals(const Pool& pool, const std::vector<int>& set);
 
 }  // namespace bathyal

@@ -15,7 +15,7 @@ using Eigen::Index;
 
 /// A way in which the model may be wrong: columns that change its residuals together.
 struct Form {
-  std::string effect;   ///< "joint_harmonic"; of a probe: what the structure is against
+  std::string effect;  ///< "joint_harmonic"; of a probe: what the structure is against
   int joint = -1;
   std::string cause;    ///< forms of one cause are words for one thing
   std::string words;    ///< for people
@@ -29,7 +29,7 @@ struct Form {
 struct NoiseForm {
   std::string effect;
   std::string words;
-  std::string parameter;     ///< whose square multiplies `variance`
+  std::string parameter;  ///< whose square multiplies `variance`
   std::string unit;
   double trials = 1.0;
   Eigen::VectorXd variance;  ///< (units,) of a position row per axis, per unit of parameter² [m²]

@@ -47,12 +47,15 @@ std::string words_of(const EffectVariant& variant, const Arm& arm) {
        }},
       {"backlash", [&] { return "play in " + joint; }},
       {"joint_compliance", [&] { return joint + " giving way under gravity"; }},
-      {"link_compliance", [&] { return "the link that " + joint + " moves bending under its load"; }},
+      {"link_compliance",
+       [&] { return "the link that " + joint + " moves bending under its load"; }},
       {"payload", [&] { return std::string("a load at the tool that nobody told of"); }},
       {"base_shift", [&] { return session_words(variant, "the base, or the tracker, moved"); }},
       {"base_compliance", [&] { return std::string("the base tilting under the arm's weight"); }},
       {"tool_slip",
-       [&] { return "the tool slipping after row " + three_digits(setting("moment")) + " in time"; }},
+       [&] {
+         return "the tool slipping after row " + three_digits(setting("moment")) + " in time";
+       }},
       {"tool_change", [&] { return session_words(variant, "the tool sitting otherwise"); }},
       {"thermal", [&] { return std::string("links growing with temperature"); }},
       {"drift", [&] { return std::string("the base, or the tracker, drifting with time"); }},

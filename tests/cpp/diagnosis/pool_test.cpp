@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bathyal/diagnosis/pool.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "bathyal/base/random.hpp"
+#include "bathyal/diagnosis/orthonormal.hpp"
+#include "bathyal/diagnosis/set_search.hpp"
+
+namespace bathyal {
+namespace {
+
+constexpr Index kRows = 200;
+
+Eigen::MatrixXd random_columns(std::uint64_t seed, Index columns) {
+  Eigen::MatrixXd out(kRows, columns);
+  for (Index c = 0; c < columns; ++c) {
+    RandomStream random(seed, static_cast<std::uint64_t>(c));
+    for (Index r = 0; r < kRows; ++r) out(r, c) = random.normal();
+  }
+  return out;
+}
+
+Form named(const std::string& effect, int joint) {
+  return {effect, joint, effect + std::to_string(joint), effect, 4.0};
+}
+
+/// Three base columns, six candidates of two columns each; the misfit is made of the second and the
+/// fifth one, some of the base, and noise of size 1.
+class PoolTest : public ::testing::Test {
+ protected:
+  PoolTest() : base_(random_columns(1, 3)), basis_(orthonormal(base_)) {
+    for (int f = 0; f < 6; ++f) {
+      forms_.push_back(named("effect", f));
+      ids_.push_back(f);
+      columns_.push_back(random_columns(static_cast<std::uint64_t>(10 + f), 2));
+    }
+    misfit_ = base_ * Eigen::Vector3d(5.0, -3.0, 2.0) + columns_[1] * Eigen::Vector2d(1.0, 0.5) +
+              columns_[4] * Eigen::Vector2d(-0.7, 0.4) + random_columns(99, 1);
+  }
+  Pool pool() const {
+    Pool out(basis_, misfit_, kRows - 3.0);
+    out.add(ids_, forms_, columns_, 1);
+    return out;
+  }
+
+  Eigen::MatrixXd base_, basis_;
+  std::vector<Form> forms_;
+  std::vector<int> ids_;
+  std::vector<Eigen::MatrixXd> columns_;
+  Eigen::VectorXd misfit_;
+};
+
+TEST_F(PoolTest, WhatIsLeftIsThatOfLeastSquares) {
+  const Pool p = pool();
+  const std::vector<int> set{1, 4};
+  Eigen::MatrixXd all(kRows, 7);
+  all << base_, columns_[1], columns_[4];
+  const Eigen::VectorXd values = all.colPivHouseholderQr().solve(misfit_);
+  const auto fit = p.judge(set);
+  ASSERT_TRUE(fit);
+  EXPECT_NEAR(fit->left, (misfit_ - all * values).squaredNorm(), 1e-9);
+  EXPECT_EQ(fit->freedom, kRows - 7.0);
+}
+
+TEST_F(PoolTest, WaldIsWhatGoesWithoutTheMember) {
+  const Pool p = pool();
+  const std::vector<int> both{1, 4}, alone{4};
+  const auto fit = p.judge(both);
+  const auto without = p.judge(alone);
+  EXPECT_NEAR(fit->f[0] * 2.0 * fit->noise(), without->left - fit->left, 1e-9);
+}
+
+TEST_F(PoolTest, QuickScoresAreTheTrueOnesForTheFirstMember) {
+  const Pool p = pool();
+  const Eigen::VectorXd quick = p.scores_beside({});
+  for (int m = 0; m < p.size(); ++m) {
+    const std::vector<int> alone{m};
+    EXPECT_NEAR(quick[m], p.judge(alone)->score, 1e-9);
+  }
+}
+
+TEST_F(PoolTest, TheSearchFindsTheSetAndNothingBesideIt) {
+  EXPECT_EQ(find_best_set(pool()), (std::vector<int>{1, 4}));
+}
+
+TEST_F(PoolTest, NoiseAloneHasNoCause) {
+  misfit_ = random_columns(98, 1);
+  EXPECT_TRUE(find_best_set(pool()).empty());
+}
+
+TEST_F(PoolTest, WhatTheBaseCanDoIsNoCandidate) {
+  columns_[2] = base_ * Eigen::MatrixXd::Random(3, 2);
+  const Pool p = pool();
+  EXPECT_EQ(p.size(), 5);
+  for (int m = 0; m < p.size(); ++m) EXPECT_NE(p.form(m), 2);
+}
+
+TEST_F(PoolTest, TwoWordsForOneThingAreRivals) {
+  columns_[2] = columns_[1] * Eigen::Matrix2d{{1.0, 1.0}, {0.0, 2.0}};
+  const Pool p = pool();
+  const std::vector<int> set = find_best_set(p);
+  ASSERT_EQ(set.size(), 2u);
+  bool found = false;
+  for (const Rival& rival : find_rivals(p, set)) {
+    if (rival.member == 4 || rival.odds < 0.5) continue;
+    found = true;
+    EXPECT_EQ(rival.member + rival.instead, 3);
+    EXPECT_NEAR(rival.odds, 1.0, 1e-6);
+  }
+  EXPECT_TRUE(found);
+}
+
+TEST_F(PoolTest, WhatHelpsBesideAMemberIsNoRivalOfIt) {
+  const Pool p = pool();
+  const std::vector<int> incomplete{1};
+  for (const Rival& rival : find_rivals(p, incomplete)) EXPECT_LT(rival.odds, 0.05);
+}
+
+TEST_F(PoolTest, TheSameForAnyNumberOfThreads) {
+  Pool two(basis_, misfit_, kRows - 3.0);
+  two.add(ids_, forms_, columns_, 2);
+  const std::vector<int> set{0, 1, 2, 3, 4, 5};
+  EXPECT_EQ(pool().judge(set)->score, two.judge(set)->score);
+}
+
+}  // namespace
+}  // namespace bathyal
