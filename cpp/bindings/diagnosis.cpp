@@ -54,12 +54,12 @@ void bind_parts(py::module_& module) {
       .def_property_readonly("joint", [](const Cause& c) { return joint_or_none(c.joint); })
       .def_readonly("words", &Cause::words)
       .def_readonly("odds", &Cause::odds, "Against the best explanation, 0 to 1.")
-      .def("__repr__",
-           [](const Cause& c) { return "Cause(" + c.name + on_joint(c.joint) + ")"; });
+      .def("__repr__", [](const Cause& c) { return "Cause(" + c.name + on_joint(c.joint) + ")"; });
   py::class_<NamedEffect>(module, "NamedEffect", kNamedEffectDoc)
       .def_readonly("name", &NamedEffect::name)
-      .def_property_readonly("joint", [](const NamedEffect& e) { return joint_or_none(e.joint); },
-                             "Coordinate in error, from 0, or None.")
+      .def_property_readonly(
+          "joint", [](const NamedEffect& e) { return joint_or_none(e.joint); },
+          "Coordinate in error, from 0, or None.")
       .def_readonly("words", &NamedEffect::words)
       .def_property_readonly(
           "parameters",
@@ -80,9 +80,8 @@ void bind_parts(py::module_& module) {
       .def_readonly("p_value", &NamedEffect::p_value,
                     "Of its F test among the others, corrected for all that was tried.")
       .def_readonly("rivals", &NamedEffect::rivals, "Cause: the best other explanations of it.")
-      .def("__repr__", [](const NamedEffect& e) {
-        return "NamedEffect(" + e.name + on_joint(e.joint) + ")";
-      });
+      .def("__repr__",
+           [](const NamedEffect& e) { return "NamedEffect(" + e.name + on_joint(e.joint) + ")"; });
   py::class_<Structure>(module, "Structure", "A dependence of residuals that chance does not make.")
       .def_readonly("against", &Structure::against)
       .def_readonly("words", &Structure::words)
@@ -90,8 +89,8 @@ void bind_parts(py::module_& module) {
       .def_readonly("share", &Structure::share, "Of the residuals' variance, noise taken out.")
       .def_readonly("p_value", &Structure::p_value, "Corrected for all that was asked.")
       .def("__repr__", [](const Structure& s) {
-        return "Structure(" + (s.against.empty() ? "nothing" : s.against) + ", " +
-               to_text(s.size) + " m)";
+        return "Structure(" + (s.against.empty() ? "nothing" : s.against) + ", " + to_text(s.size) +
+               " m)";
       });
 }
 
@@ -146,8 +145,7 @@ void bind_result(py::module_& module) {
       .def_readonly("gain", &Diagnosis::gain, "(r0² - r1²) / (r0² - noise²) of held-out rms.")
       .def_readonly("fit", &Diagnosis::fit, "ArmFit: geometry alone.")
       .def_property_readonly(
-          "model",
-          [](const Diagnosis& d) { return CorrectedArm(d.arm, d.found, d.support); },
+          "model", [](const Diagnosis& d) { return CorrectedArm(d.arm, d.found, d.support); },
           "CorrectedArm: geometry and effects, with the support that taught them.")
       .def_readonly("noise", &Diagnosis::noise, "Standard deviation per axis [m].")
       .def_readonly("noise_source", &Diagnosis::noise_source)

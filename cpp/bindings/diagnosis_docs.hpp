@@ -8,8 +8,7 @@ namespace bathyal::python {
 inline constexpr const char* kEstimateDoc =
     R"(A number and the interval that holds it in 95 of 100 cases; float() gives the number.)";
 
-inline constexpr const char* kNamedEffectDoc =
-    R"(A cause that was found, with its evidence.)";
+inline constexpr const char* kNamedEffectDoc = R"(A cause that was found, with its evidence.)";
 
 inline constexpr const char* kDiagnosisWriteDoc =
     R"(Write the report: a page (.html), a picture (.png) or everything for machines (.json).

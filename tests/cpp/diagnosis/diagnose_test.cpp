@@ -17,9 +17,9 @@ namespace {
 Arm six_joints() {
   constexpr double kQuarter = std::numbers::pi / 2.0;
   DhTable table;
-  table.rows = {{0.0, kQuarter, 0.1273, 0.0},     {-0.612, 0.0, 0.0, 0.0},
-                {-0.5723, 0.0, 0.0, 0.0},         {0.0, kQuarter, 0.163941, 0.0},
-                {0.0, -kQuarter, 0.1157, 0.0},    {0.0, 0.0, 0.0922, 0.0}};
+  table.rows = {{0.0, kQuarter, 0.1273, 0.0},  {-0.612, 0.0, 0.0, 0.0},
+                {-0.5723, 0.0, 0.0, 0.0},      {0.0, kQuarter, 0.163941, 0.0},
+                {0.0, -kQuarter, 0.1157, 0.0}, {0.0, 0.0, 0.0922, 0.0}};
   table.types.assign(6, JointType::kRevolute);
   return arm_from_dh(table);
 }
@@ -37,8 +37,7 @@ Tracked wavy(double size, double noise, Index rows) {
     q[1] += size * std::cos(2.0 * q[1]);
     const RowFrames frames = row_frames(arm, {q.data(), 6});
     for (Index axis = 0; axis < 3; ++axis) {
-      out.position(i, axis) =
-          frames.world_from_tool.translation()[axis] + noise * random.normal();
+      out.position(i, axis) = frames.world_from_tool.translation()[axis] + noise * random.normal();
     }
   }
   return out;
@@ -46,7 +45,8 @@ Tracked wavy(double size, double noise, Index rows) {
 
 TEST(Diagnose, NamesAnEccentricEncoder) {
   const Diagnosis found = diagnose(six_joints(), wavy(1e-3, 1e-4, 150));
-  for (const auto& e : found.effects) std::printf("%s %d size %g gain %g p %g\n", e.name.c_str(), e.joint, e.size, e.gain, e.p_value);
+  for (const auto& e : found.effects)
+    std::printf("%s %d size %g gain %g p %g\n", e.name.c_str(), e.joint, e.size, e.gain, e.p_value);
   for (const auto& e : found.ambiguous) std::printf("  rival %s %g\n", e.words.c_str(), e.odds);
   ASSERT_EQ(found.verdict, Verdict::kNamed);
   ASSERT_EQ(found.effects.size(), 1u);
