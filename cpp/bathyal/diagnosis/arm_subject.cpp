@@ -24,6 +24,7 @@ constexpr int kNoiseRounds = 4;
 constexpr int kMostSteps = 20;
 constexpr double kSettledStep = 1e-6;   ///< in units of the columns' scale: nm and nrad
 constexpr double kSettledCost = 1e-7;   ///< of the sum of squares
+constexpr double kSeenDirection = 1e-5;  ///< of the largest singular value, per mm and mrad
 constexpr double kOrdinaryMove = 1e-3;  ///< [m]
 constexpr double kRounding = 1e-7;
 constexpr double kOrderStep = 1e-4;     ///< relative
@@ -57,21 +58,31 @@ ArmSubject::ArmSubject(const Arm& arm, const Measurement& measurement, const Cov
   start_ = search(problem_, seen_);
   fit_ = report(problem_, seen_, start_);
   geometry_ = problem_.columns.columns.size();
-  base_free_ = problem_.system->free();
-  // What is blind stays where the search has left it: columns leave it out from here on.
-  problem_.system->set_linear_rows({});
-  const Eigen::MatrixXd blind = seen_.blind(base_free_, Eigen::all);
-  held_ = Eigen::MatrixXd::Identity(blind.rows(), blind.rows());
-  if (blind.cols() > 0) {
-    const Eigen::HouseholderQR<Eigen::MatrixXd> qr(blind);
-    held_ = Eigen::MatrixXd(qr.householderQ()).rightCols(blind.rows() - blind.cols());
-  }
-  x_ = start_.x;
+  free_what_is_seen();
   gather_data(covariates);
   gather_units();
   gather_forms(effects);
   gather_noise_forms();
   stand_at(x_);
+}
+
+/// All that the caller does not hold, along the directions that the data or priors see where the
+/// search ended. What identification leaves to base and tool as superfluous in general need not be
+/// so for an arm of special angles: columns that depend do no harm here.
+void ArmSubject::free_what_is_seen() {
+  for (int c = 0; c < static_cast<int>(geometry_); ++c) {
+    if (std::find(problem_.fixed.begin(), problem_.fixed.end(), c) == problem_.fixed.end()) {
+      base_free_.push_back(c);
+    }
+  }
+  ArmSystem& system = *problem_.system;
+  system.set_linear_rows({});
+  system.set_free(base_free_);
+  x_ = start_.x;
+  exact_ = exact_joints(system, x_);
+  const RankReport rank =
+      reveal_rank(triangle_of(derivatives(x_), system.num_threads()), kSeenDirection);
+  held_ = rank.directions.leftCols(rank.rank);
 }
 
 void ArmSubject::gather_data(const Covariates& covariates) {
@@ -364,6 +375,8 @@ void ArmSubject::stand_at(const Eigen::VectorXd& x) {
   const Eigen::VectorXd y = system.scaled(x);
   system.evaluate(y.data(), residuals.data(), nullptr);
   exact_ = exact_joints(system, x);
+  // What follows recorded joints would follow their scatter, and explain it by itself.
+  data_.q = exact_;
   const Eigen::MatrixXd jacobian = derivatives(x);
   linearization_.misfit = jacobian.rightCols(system.columns() - wide) * y.tail(y.size() - wide);
   linearization_.misfit -= residuals;

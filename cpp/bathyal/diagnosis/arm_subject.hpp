@@ -36,6 +36,7 @@ class ArmSubject final : public Subject {
   double noise() const override { return problem_.system->noise().position; }
 
   const ArmFit& fit() const { return fit_; }
+  /// Poses of touches are those of exact ones.
   const EffectData& data() const { return data_; }
   /// Probes have none.
   const Effect* effect(int form) const { return sources_[form].effect.get(); }
@@ -60,6 +61,7 @@ class ArmSubject final : public Subject {
     EffectVariant variant;
     std::vector<std::vector<Action>> actions;
   };
+  void free_what_is_seen();
   void gather_data(const Covariates& covariates);
   void gather_units();
   void gather_forms(const Effects& effects);

@@ -94,16 +94,20 @@ Blocks make_blocks(const Units& units, int wanted) {
   std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
     return std::pair(units.session[a], units.order[a]) < std::pair(units.session[b], units.order[b]);
   });
-  std::map<int, std::size_t> size_in_session;
-  for (const int i : order) ++size_in_session[units.session[i]];
-  std::map<int, int> block_of_key;
-  std::map<int, std::size_t> seen;
-  const int blocks = std::min<int>(wanted, static_cast<int>(n));
+  std::map<int, std::size_t> size_in_session, before;
+  std::map<int, std::size_t> size_of_key;
   for (const int i : order) {
-    const std::size_t place = seen[units.session[i]]++;
-    const auto block = static_cast<int>(place * static_cast<std::size_t>(blocks) /
-                                        size_in_session[units.session[i]]);
-    block_of_key.emplace(key[i], block);
+    ++size_in_session[units.session[i]];
+    ++size_of_key[key[i]];
+  }
+  const auto blocks = std::min(static_cast<std::size_t>(wanted), n);
+  std::map<int, int> block_of_key;
+  for (const int i : order) {
+    if (block_of_key.contains(key[i])) continue;
+    std::size_t& place = before[units.session[i]];
+    const std::size_t size = size_in_session[units.session[i]];
+    block_of_key[key[i]] = static_cast<int>(std::min(place * blocks / size, blocks - 1));
+    place += size_of_key[key[i]];
   }
   std::vector<int> raw(n);
   for (std::size_t i = 0; i < n; ++i) raw[i] = block_of_key[key[i]];
