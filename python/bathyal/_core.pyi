@@ -2940,8 +2940,6 @@ class HeldOut:
 class Diagnosis:
     """
     What the model of an arm gets wrong, by its measurements; see `diagnose`.
-    
-    `.data` is the Touches or Tracked that it was found from.
     """
     def __repr__(self) -> str:
         ...
@@ -2967,6 +2965,11 @@ class Diagnosis:
     def ambiguous(self) -> list[Cause]:
         """
         Cause: all among which these data cannot choose.
+        """
+    @property
+    def data(self) -> Touches | Tracked:
+        """
+        Touches or Tracked: what it was found from.
         """
     @property
     def detectable(self) -> float:
