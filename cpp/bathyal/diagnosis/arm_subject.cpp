@@ -27,6 +27,9 @@ constexpr double kSettledCost = 1e-7;   ///< of the sum of squares
 constexpr double kSeenDirection = 1e-5;  ///< of the largest singular value, per mm and mrad
 constexpr double kOrdinaryMove = 1e-3;  ///< [m]
 constexpr double kRounding = 1e-7;
+constexpr int kOrderRounds = 4;
+constexpr double kOrderSettled = 0.05;  ///< standard deviations
+constexpr double kFarOrder = 3.0;       ///< over the span: half a wave
 constexpr double kOrderStep = 1e-4;     ///< relative
 constexpr double kNoiseSettled = 1e-3;  ///< relative
 
@@ -245,6 +248,43 @@ std::vector<Eigen::MatrixXd> ArmSubject::columns_of(std::vector<ActingVariant> a
 }
 
 void ArmSubject::settle(const std::vector<int>& forms) {
+  for (int round = 0; round < kOrderRounds; ++round) {
+    fit(forms);
+    if (!move_orders()) break;
+  }
+}
+
+/// A step of Gauss and Newton for the orders of waves that stand, beside all else that is fitted.
+bool ArmSubject::move_orders() {
+  const Eigen::MatrixXd by_order = by_scanned();
+  if (by_order.cols() == 0) return false;
+  const Eigen::MatrixXd basis = orthonormal(moves(derivatives(x_)), kSwallowed);
+  const Eigen::MatrixXd beside = by_order - basis * (basis.transpose() * by_order);
+  Eigen::VectorXd residuals(problem_.system->rows());
+  problem_.system->evaluate(problem_.system->scaled(x_).data(), residuals.data(), nullptr);
+  const Eigen::VectorXd change =
+      -(beside.transpose() * beside).ldlt().solve(beside.transpose() * residuals);
+  const Eigen::VectorXd sure = beside.colwise().norm();  // 1 / standard deviation
+  bool moved = false;
+  Index at = 0;
+  for (const int form : standing_) {
+    EffectVariant& variant = sources_[form].variant;
+    if (!variant.settings.contains("order") || has_whole_order(variant)) continue;
+    const double step = change[at];
+    const double far = kFarOrder / (data_.q.col(variant.joint).maxCoeff() -
+                                    data_.q.col(variant.joint).minCoeff());
+    const double order = variant.settings["order"] + step;
+    if (std::abs(step) * sure[at] > kOrderSettled && std::abs(step) < far && order > 0.0) {
+      variant.settings["order"] = order;
+      forms_[form].words = words_of(variant, nominal_);
+      moved = true;
+    }
+    ++at;
+  }
+  return moved;
+}
+
+void ArmSubject::fit(const std::vector<int>& forms) {
   // Values of forms that stay are where their search starts.
   std::map<int, Eigen::VectorXd> known;
   auto at = static_cast<Index>(geometry_);

@@ -35,7 +35,7 @@ class ArmSubject final : public Subject {
   void set_trust(const Eigen::VectorXd& trust) override;
   double noise() const override { return problem_.system->noise().position; }
 
-  const ArmFit& fit() const { return fit_; }
+  const ArmFit& geometry() const { return fit_; }
   /// Poses of touches are those of exact ones.
   const EffectData& data() const { return data_; }
   /// Probes have none.
@@ -62,6 +62,8 @@ class ArmSubject final : public Subject {
     std::vector<std::vector<Action>> actions;
   };
   void free_what_is_seen();
+  void fit(const std::vector<int>& forms);
+  bool move_orders();
   void gather_data(const Covariates& covariates);
   void gather_units();
   void gather_forms(const Effects& effects);

@@ -37,11 +37,11 @@ class Reporter {
       : subject_(subject), m_(measurement), found_(found), options_(options), out_(nominal) {}
 
   Diagnosis report() {
-    out_.fit = subject_.fit();
+    out_.fit = subject_.geometry();
     out_.arm = subject_.arm();
     out_.found = subject_.found();
     out_.support = support_of(m_.q, subject_.data().covariates);
-    out_.residuals_before = subject_.fit().residuals;
+    out_.residuals_before = subject_.geometry().residuals;
     out_.residuals_after = subject_.deviations();
     tell_noise();
     out_.detectable = found_.detectable * unit();
@@ -98,7 +98,7 @@ class Reporter {
   }
 
   /// One unit of the examination's first rows: the noise that geometry alone left.
-  double base_unit() const { return subject_.fit().noise; }
+  double base_unit() const { return subject_.geometry().noise; }
 
   void tell_held_out() {
     HeldOut& out = out_.held_out;
