@@ -2,6 +2,7 @@
 #include "bathyal/diagnosis/diagnose.hpp"
 
 #include <pybind11/stl.h>
+#include <pybind11/typing.h>
 
 #include <optional>
 #include <string>
@@ -120,8 +121,13 @@ py::object words_about(const char* function, const py::object& self) {
 }
 
 void bind_result(py::module_& module) {
-  // `data` is the caller's own object: what it was found from, for the report to draw.
   py::class_<Diagnosis>(module, "Diagnosis", py::dynamic_attr(), kDiagnosisDoc)
+      .def_property_readonly(
+          "data",  // the caller's own object
+          [](const py::object& self) -> py::typing::Union<Touches, Tracked> {
+            return self.attr("_data");
+          },
+          "Touches or Tracked: what it was found from.")
       .def_property_readonly(
           "verdict", [](const Diagnosis& d) { return word_of(d.verdict, verdict_words()); },
           "\"clean\", \"named\", \"ambiguous\", \"unknown\", or \"none\" where nothing can be held "
@@ -216,7 +222,7 @@ void bind_function(py::module_& module) {
             return diagnose(arm, known, options, asked, tell);
           };
           py::object found = py::cast(find());
-          found.attr("data") = data;
+          found.attr("_data") = data;
           return found;
         };
         if (py::isinstance<Touches>(data)) return run(data.cast<const Touches&>());

@@ -25,9 +25,7 @@ ValueError
 )";
 
 inline constexpr const char* kDiagnosisDoc =
-    R"(What the model of an arm gets wrong, by its measurements; see `diagnose`.
-
-`.data` is the Touches or Tracked that it was found from.)";
+    R"(What the model of an arm gets wrong, by its measurements; see `diagnose`.)";
 
 inline constexpr const char* kDiagnoseDoc =
     R"(Show what the best rigid model of an arm gets wrong, name the cause, measure the gain.

@@ -7,7 +7,7 @@ import numpy
 import numpy.typing
 import os
 import typing
-__all__: list[str] = ['Arm', 'ArmFit', 'CleanReport', 'CleanResult', 'DhTable', 'Error', 'FitParameter', 'Hits', 'InverseResult', 'Link', 'MeshReport', 'Nearest', 'Outlier', 'Plane', 'PlaneFit', 'PointCloud', 'Polyline', 'Scene', 'SheetPatch', 'SheetReport', 'Targets', 'TextTable', 'ToolPath', 'TouchForecast', 'TouchPlan', 'Touches', 'Tracked', 'Trade', 'TriangleMesh', 'Verification', 'arm_from_chain', 'arm_from_parts', 'arm_parts', 'chain_from_arm', 'clean_cloud', 'cover_polygon', 'find_sheets', 'find_targets', 'fit_plane', 'forecast_touches', 'generate_survey', 'identify_arm', 'intersect_moller_trumbore', 'mesh_report', 'plan_toolpath', 'plan_touches', 'read_pcd', 'read_text_table', 'set_simd_level', 'simd_level', 'survey_height', 'triangulate', 'triangulate_delaunay', 'verify_positions', 'write_xyz']
+__all__: list[str] = ['Arm', 'ArmFit', 'Cause', 'CleanReport', 'CleanResult', 'CorrectedArm', 'DhTable', 'Diagnosis', 'Effect', 'EffectRange', 'EffectRows', 'Error', 'Estimate', 'FitParameter', 'FoundEffect', 'HeldOut', 'HeldOutPart', 'Hits', 'InverseResult', 'Link', 'MeshReport', 'NamedEffect', 'Nearest', 'Outlier', 'Plane', 'PlaneFit', 'PointCloud', 'Polyline', 'Scene', 'SheetPatch', 'SheetReport', 'Structure', 'Support', 'Targets', 'TextTable', 'ToolPath', 'TouchForecast', 'TouchPlan', 'Touches', 'Tracked', 'Trade', 'TriangleMesh', 'Verification', 'arm_from_chain', 'arm_from_parts', 'arm_parts', 'chain_from_arm', 'clean_cloud', 'cover_polygon', 'diagnose', 'find_sheets', 'find_targets', 'fit_plane', 'forecast_touches', 'generate_survey', 'identify_arm', 'intersect_moller_trumbore', 'library_effects', 'mesh_report', 'plan_toolpath', 'plan_touches', 'read_pcd', 'read_text_table', 'set_simd_level', 'simd_level', 'survey_height', 'triangulate', 'triangulate_delaunay', 'verify_positions', 'write_xyz']
 class Error(RuntimeError):
     """
     A broken file, a solver that failed or a part that is not installed.
@@ -1751,6 +1751,529 @@ class Tracked:
         """
         (N,), or (0,) when all are equal.
         """
+class EffectRows:
+    """
+    The rows that an effect's function is asked for.
+    
+    Its numbers must follow from each row alone (or, with ``by_difference=True``, from how rows differ
+    from their neighbours), so that an effect found in one recording means the same in the next.
+    """
+    def __len__(self) -> int:
+        ...
+    @property
+    def arm(self) -> typing.Any:
+        """
+        Arm: rows as far as they are known, and masses.
+        """
+    @property
+    def covariates(self) -> dict:
+        """
+        Name to (N,) or (N, k) array.
+        """
+    @property
+    def gravity(self) -> numpy.ndarray:
+        """
+        (N, 3) [m/s²], in the arm's base frame.
+        """
+    @property
+    def has_rotation(self) -> bool:
+        """
+        Whether orientations were measured too.
+        """
+    @property
+    def order(self) -> numpy.ndarray:
+        """
+        (N,) rows in the order in which they were taken.
+        """
+    @property
+    def q(self) -> numpy.ndarray:
+        """
+        (N, n) as recorded [rad] or [m].
+        """
+    @property
+    def recording(self) -> bool:
+        """
+        Whether the rows follow each other in time; else each is a pose by itself.
+        """
+class EffectRange:
+    """
+    Plausible sizes of a parameter.
+    """
+    def __repr__(self) -> str:
+        ...
+    @property
+    def high(self) -> float:
+        ...
+    @property
+    def low(self) -> float:
+        ...
+    @property
+    def parameter(self) -> str:
+        ...
+    @property
+    def unit(self) -> str:
+        ...
+class Effect:
+    """
+    Something that may be wrong with an arm beside its geometry.
+    
+    Those of the library come from `bathyal.effects.list`; this makes one of your own. It is linear in
+    its parameters: each moves its site by itself times the numbers that the function gives for it.
+    Python functions are slow beside the library's; write one in C++ to make it fast.
+    
+    Parameters
+    ----------
+    name : str
+        As diagnosis will name it.
+    function : callable
+        ``function(data, joint)`` of site "joint", else ``function(data)``; `data` is an EffectRows.
+        Gives what a unit of each parameter does in each row: (N, k) of the sites "joint" [rad or m]
+        and "lengths" [share], (N, k, 6) of "base" and "tool" (shift x, y, z [m], then turn x, y, z
+        [rad] in that frame). Of one parameter (N,) and (N, 6) do as well.
+    parameters : dict of str to str
+        Name to unit of each.
+    joints : "each" or list of int, optional
+        Of site "joint": which it may sit in, counted from 0.
+    site : str
+        What it moves: "joint", "base", "tool" or "lengths" (all a and d of the arm).
+    needs : list of str
+        Covariates without which it cannot be seen.
+    words, formula, source : str
+        For people.
+    scales : dict of str to float, optional
+        An ordinary size of each parameter, in its unit; 1e-3 unless given.
+    by_difference : bool
+        Whether it looks at how rows differ from their neighbours, not at where they lie: the ranges of
+        the data that taught it are no bounds to it.
+    
+    Raises
+    ------
+    ValueError
+        For a name that is empty, no parameters, joints that do not go with the site. Where the
+        effect is used: for numbers of another shape, or not finite.
+    Error
+        Where it is used: when the function raises.
+    
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from bathyal.effects import Effect
+    >>> def cable(data, joint):
+    ...     return np.sin(data.q[:, 1] + data.q[:, 2])
+    >>> Effect("cable", cable, parameters={"pull": "rad"}, joints="each")
+    Effect("cable")
+    """
+    def __init__(self, name: str, function: collections.abc.Callable, *, parameters: dict, joints: typing.Any = None, site: str = 'joint', needs: collections.abc.Sequence[str] = [], words: str = '', formula: str = '', source: str = '', scales: collections.abc.Mapping[str, typing.SupportsFloat | typing.SupportsIndex] = {}, by_difference: bool = False) -> None:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def __str__(self) -> str:
+        ...
+    @property
+    def by_difference(self) -> bool:
+        """
+        Whether it looks at how rows differ from their neighbours.
+        """
+    @property
+    def formula(self) -> str:
+        ...
+    @property
+    def name(self) -> str:
+        ...
+    @property
+    def needs(self) -> list[str]:
+        """
+        Covariates without which it cannot be seen.
+        """
+    @property
+    def ranges(self) -> list[EffectRange]:
+        """
+        EffectRange of each parameter.
+        """
+    @property
+    def source(self) -> str:
+        """
+        Paper or textbook.
+        """
+    @property
+    def words(self) -> str:
+        """
+        What it is, for people.
+        """
+class FoundEffect:
+    """
+    An effect with its values: what a corrected arm carries.
+    
+    Parameters
+    ----------
+    effect : Effect or str
+        Or the name of one of `bathyal.effects`.
+    parameters : dict of str to float
+        Values, in the order of the effect's parameters.
+    joint : int, optional
+        Counted from 0.
+    settings : dict of str to float, optional
+        What tells this form of the effect from others, such as ``{"order": 2}``.
+    units : dict of str to str, optional
+        Of the parameters; the effect's own unless given.
+    scales : dict of str to float, optional
+        Ordinary sizes of the parameters, above 0; 1e-3 unless given.
+    cause : str
+        Effects of one cause are words for the same thing.
+    
+    Raises
+    ------
+    ValueError
+        For no such effect.
+    
+    Examples
+    --------
+    >>> from bathyal.effects import FoundEffect
+    >>> FoundEffect("joint_harmonic", {"cos": 1e-3, "sin": 0.0}, joint=2, settings={"order": 2})
+    FoundEffect("joint_harmonic", joint=2, cos=0.001, sin=0)
+    """
+    def __init__(self, effect: typing.Any, parameters: dict, *, joint: typing.SupportsInt | typing.SupportsIndex | None = None, settings: collections.abc.Mapping[str, typing.SupportsFloat | typing.SupportsIndex] = {}, units: collections.abc.Mapping[str, str] = {}, scales: collections.abc.Mapping[str, typing.SupportsFloat | typing.SupportsIndex] = {}, cause: str = '') -> None:
+        ...
+    def __repr__(self) -> str:
+        ...
+    @property
+    def cause(self) -> str:
+        ...
+    @property
+    def effect(self) -> Effect:
+        """
+        The Effect itself.
+        """
+    @property
+    def joint(self) -> typing.Any:
+        """
+        Counted from 0, or None.
+        """
+    @property
+    def name(self) -> str:
+        ...
+    @property
+    def parameters(self) -> dict:
+        """
+        Name to value.
+        """
+    @property
+    def scales(self) -> dict:
+        """
+        Name to an ordinary size.
+        """
+    @property
+    def settings(self) -> dict[str, float]:
+        """
+        What tells this form of the effect from others.
+        """
+    @property
+    def units(self) -> dict:
+        """
+        Name to unit.
+        """
+class Support:
+    """
+    What the data that taught a corrected arm covered.
+    
+    Parameters
+    ----------
+    joints : (2, n) array
+        Least and greatest of each coordinate [rad] or [m].
+    gravity : (2, 3) array, optional
+        [m/s²] in the arm's base frame; straight down unless given.
+    covariates : dict of str to (2, k) array, optional
+        Of all others but `session`.
+    sessions : (s,) array, optional
+        That were seen, rising.
+    """
+    def __init__(self, joints: typing.Any, *, gravity: typing.Any = None, covariates: dict = {}, sessions: typing.Any = None) -> None:
+        ...
+    def __repr__(self) -> str:
+        ...
+    @property
+    def covariates(self) -> dict:
+        """
+        Name to (2, k): all but `session` and `gravity`.
+        """
+    @property
+    def gravity(self) -> numpy.ndarray:
+        """
+        (2, 3) [m/s²]
+        """
+    @property
+    def joints(self) -> numpy.ndarray:
+        """
+        (2, n) least and greatest of each coordinate [rad] or [m].
+        """
+    @property
+    def sessions(self) -> numpy.ndarray:
+        """
+        (s,) that were seen.
+        """
+class CorrectedArm:
+    """
+    An arm with what a diagnosis found inside.
+    
+    Rigid geometry, effects with their values, and the support of the data that taught them; what
+    ``report.model`` is. `q` is what the controller records; the effects move joints, frames and
+    lengths from there.
+    
+    An effect counts in a row where its own arguments lie within the support. Where one lies beyond (a
+    joint, a temperature, a load, a session that nobody saw) and would change what the effect does, the
+    effect is left out of that row, and where all are the answer is the rigid arm's: beyond what it was
+    taught a curve may do anything. That is never silent: each call warns once with a `SupportWarning`,
+    and `in_support` gives the rows. A NaN covariate is one that is not known in that row.
+    
+    Every method that computes takes ``covariates``, a dict of name to a number, (N,) or (N, k) array. An
+    effect that needs one that is missing is left out with the warning where no covariates are told at
+    all, and refused where some are. `payload` counts 0 kg and `gravity` (0, 0, −9.80665) m/s² in the
+    arm's base frame unless told. A base that moved and a tool that was changed follow `session`; a tool
+    that slipped follows `time`, and without it has slipped; joints that are late follow the speed that
+    `time` tells between rows, and without it stand still.
+    
+    Parameters
+    ----------
+    arm : Arm
+        The rigid part, with base and tool.
+    effects : list of FoundEffect
+    data : Touches, Tracked or Support
+        What taught them.
+    
+    Raises
+    ------
+    ValueError
+        For an effect whose values or settings do not fit the arm, or that needs a covariate of which
+        `data` say nothing.
+    
+    Examples
+    --------
+    >>> import bathyal, numpy as np
+    >>> arm = bathyal.arms.ur10e()
+    >>> q = np.random.default_rng(1).uniform(-1, 1, (50, 6))
+    >>> def cable(data, joint):
+    ...     return np.sin(data.q[:, 1] + data.q[:, 2])
+    >>> cable = bathyal.effects.Effect("cable", cable, parameters={"pull": "rad"}, joints="each")
+    >>> pull = bathyal.effects.FoundEffect(cable, {"pull": 1e-3}, joint=3)
+    >>> model = bathyal.CorrectedArm(arm, [pull], bathyal.Tracked(q, arm.forward(q)[:, :3, 3]))
+    >>> model
+    CorrectedArm("UR10e", 6 joints, cable of joint 4)
+    >>> float(np.linalg.norm((model.forward(q) - arm.forward(q))[:, :3, 3], axis=1).max().round(4))
+    0.0001
+    >>> model.in_support([[0.5] * 6, [0.5, 2.0, 0.5, 0.5, 0.5, 0.5]])
+    array([[ True],
+           [False]])
+    """
+    def __copy__(self) -> CorrectedArm:
+        ...
+    def __deepcopy__(self, memo: dict) -> CorrectedArm:
+        ...
+    def __init__(self, arm: Arm, effects: collections.abc.Sequence[FoundEffect], data: typing.Any) -> None:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def copy(self) -> CorrectedArm:
+        """
+        One of its own, base and tool too.
+        """
+    def forward(self, q: typing.Any, *, covariates: typing.Any = None, links: bool = False, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> numpy.ndarray:
+        """
+        Poses of the tool in the world.
+        
+        Parameters
+        ----------
+        q : (N, n) or (n,) array
+            As the controller records them [rad] or [m].
+        covariates : dict, optional
+            Name to a number for all, (N,) or (N, k) array.
+        links : bool
+            Poses of every link instead, in the order of `link_names`.
+        num_threads : int
+            0 is all.
+        
+        Returns
+        -------
+        (N, 4, 4) or (4, 4) array; with `links` (N, L, 4, 4) or (L, 4, 4)
+            world_from_tool, world_from_link.
+        
+        Raises
+        ------
+        ValueError
+            For other shapes, and for a covariate that an effect needs and that is missing among others.
+        
+        Warns
+        -----
+        SupportWarning
+            Where effects were left out.
+        """
+    def in_support(self, q: typing.Any, *, covariates: typing.Any = None) -> numpy.ndarray:
+        """
+        Which effects count in which row.
+        
+        Parameters
+        ----------
+        q : (N, n) or (n,) array
+        covariates : dict, optional
+            As of `forward`.
+        
+        Returns
+        -------
+        (N, E) or (E,) array of bool
+            In the order of `effects`; all False in a row is the rigid arm.
+        """
+    def inverse(self, poses: typing.Any, start: typing.Any = None, *, covariates: typing.Any = None, task: str = 'pose', axis: typing.Any = (0.0, 0.0, 1.0), position_tolerance: typing.SupportsFloat | typing.SupportsIndex | None = None, angle_tolerance: typing.SupportsFloat | typing.SupportsIndex | None = None, max_iterations: typing.SupportsInt | typing.SupportsIndex = 60, max_starts: typing.SupportsInt | typing.SupportsIndex = 64, candidates: typing.SupportsInt | typing.SupportsIndex = 1, centering_steps: typing.SupportsInt | typing.SupportsIndex | None = None, seed: typing.SupportsInt | typing.SupportsIndex = 0, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> InverseResult:
+        """
+        What the controller is to be told to bring the tool to poses.
+        
+        The rigid arm (`Arm.inverse`, method "damped") is sent where the target lies less what the effects
+        do, until the corrected tip agrees to the tolerances, 1e-9 m and rad unless given. Arguments and
+        statuses are those of `Arm.inverse`, with `covariates` as `forward` takes them; errors are those of
+        the corrected arm.
+        
+        A pose on the edge of the support that comes out beyond it with an effect and within it without is
+        "singular", with the error that is left. On the edge of what the rigid arm reaches a pose may be
+        called out of reach by as little as the effects amount to.
+        
+        Returns
+        -------
+        InverseResult
+            .q (N, n), .status, .error, .position_error, .angle_error, .iterations, .starts.
+        
+        Raises
+        ------
+        ValueError
+            As `Arm.inverse` and `forward`.
+        
+        Warns
+        -----
+        SupportWarning
+            Where effects were left out at the q that was found.
+        """
+    def jacobian(self, q: typing.Any, *, covariates: typing.Any = None, frame: str = 'world', num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> numpy.ndarray:
+        """
+        Geometric Jacobians at the tool centre point.
+        
+        The derivative of `forward`, the effects that count held: of the chain as it stands, of the effects
+        by central differences of what they move (1e-6 rad or m apart). Arguments, errors and warnings are
+        those of `forward`, and the axes of `Arm.jacobian`.
+        
+        Returns
+        -------
+        (N, 6, n) or (6, n) array
+            Rows of the linear velocity [m/s] above those of the angular velocity [rad/s].
+        """
+    def save(self, path: typing.Any) -> None:
+        """
+        Write all of it to a .json file, for bathyal.read_arm (bathyal.corrected_arm_files.save_corrected_arm).
+        """
+    def write(self, path: typing.Any) -> None:
+        """
+        Write all of it to a .json file, for bathyal.read_arm (bathyal.corrected_arm_files.save_corrected_arm).
+        """
+    @property
+    def arm(self) -> Arm:
+        """
+        Arm: a copy of the rigid part, for what knows no effects (.to_urdf() of it).
+        """
+    @property
+    def base(self) -> numpy.ndarray:
+        """
+        (4, 4) world_from_base; may be set, None is the identity.
+        """
+    @base.setter
+    def base(self, arg1: typing.Any) -> None:
+        ...
+    @property
+    def effects(self) -> list[FoundEffect]:
+        """
+        The FoundEffects: a list.
+        """
+    @property
+    def effort(self) -> typing.Any:
+        """
+        As of `Arm`: `arm`'s own.
+        """
+    @property
+    def joint_names(self) -> typing.Any:
+        """
+        As of `Arm`: `arm`'s own.
+        """
+    @property
+    def joint_types(self) -> typing.Any:
+        """
+        As of `Arm`: `arm`'s own.
+        """
+    @property
+    def link_names(self) -> typing.Any:
+        """
+        As of `Arm`: `arm`'s own.
+        """
+    @property
+    def links(self) -> typing.Any:
+        """
+        As of `Arm`: `arm`'s own.
+        """
+    @property
+    def lower(self) -> typing.Any:
+        """
+        As of `Arm`: `arm`'s own.
+        """
+    @property
+    def name(self) -> str:
+        ...
+    @property
+    def plot(self) -> typing.Any:
+        """
+        As of `Arm`: `arm`'s own.
+        """
+    @property
+    def show(self) -> typing.Any:
+        """
+        As of `Arm`: `arm`'s own.
+        """
+    @property
+    def size(self) -> int:
+        """
+        Number of coordinates n, the width of every q.
+        """
+    @property
+    def source(self) -> str:
+        """
+        Where the numbers come from.
+        """
+    @property
+    def support(self) -> Support:
+        """
+        What the data covered.
+        """
+    @property
+    def to_urdf(self) -> typing.Any:
+        """
+        As of `Arm`: `arm`'s own.
+        """
+    @property
+    def tool(self) -> numpy.ndarray:
+        """
+        (4, 4) flange_from_tool; may be set, None is the identity.
+        """
+    @tool.setter
+    def tool(self, arg1: typing.Any) -> None:
+        ...
+    @property
+    def upper(self) -> typing.Any:
+        """
+        As of `Arm`: `arm`'s own.
+        """
+    @property
+    def velocity(self) -> typing.Any:
+        """
+        As of `Arm`: `arm`'s own.
+        """
+    @property
+    def within_limits(self) -> typing.Any:
+        """
+        As of `Arm`: `arm`'s own.
+        """
 class Trade:
     """
     A parameter that moves along, unseen, with another one.
@@ -2216,6 +2739,309 @@ class Verification:
         """
         √mean‖e‖² with the centroids removed only [m].
         """
+class Estimate:
+    """
+    A number and the interval that holds it in 95 of 100 cases; float() gives the number.
+    """
+    def __float__(self) -> float:
+        ...
+    def __int__(self) -> int:
+        ...
+    def __repr__(self) -> str:
+        ...
+    @property
+    def interval(self) -> tuple[float, float]:
+        """
+        (low, high) that holds the truth in 95 of 100 cases.
+        """
+    @property
+    def name(self) -> str:
+        ...
+    @property
+    def std(self) -> float:
+        """
+        0 of what was counted or chosen, not measured.
+        """
+    @property
+    def unit(self) -> str:
+        ...
+    @property
+    def value(self) -> float:
+        ...
+class Cause:
+    """
+    A cause by name, as lists of rivals hold it.
+    """
+    def __repr__(self) -> str:
+        ...
+    @property
+    def joint(self) -> int | None:
+        ...
+    @property
+    def name(self) -> str:
+        ...
+    @property
+    def odds(self) -> float:
+        """
+        Against the best explanation, 0 to 1.
+        """
+    @property
+    def words(self) -> str:
+        ...
+class NamedEffect:
+    """
+    A cause that was found, with its evidence.
+    """
+    def __repr__(self) -> str:
+        ...
+    @property
+    def gain(self) -> float:
+        """
+        Share of the held-out variance above noise that it removes; of effects on the noise itself: held-out log likelihood.
+        """
+    @property
+    def held_out_after(self) -> float:
+        """
+        With it, 3-D rms [m].
+        """
+    @property
+    def held_out_before(self) -> float:
+        """
+        Without it, 3-D rms [m].
+        """
+    @property
+    def joint(self) -> int | None:
+        """
+        Coordinate in error, from 0, or None.
+        """
+    @property
+    def name(self) -> str:
+        ...
+    @property
+    def p_value(self) -> float:
+        """
+        Of its F test among the others, corrected for all that was tried.
+        """
+    @property
+    def parameters(self) -> dict:
+        """
+        Estimate of each parameter, by name.
+        """
+    @property
+    def rivals(self) -> list[Cause]:
+        """
+        Cause: the best other explanations of it.
+        """
+    @property
+    def rows(self) -> list[int]:
+        """
+        Of outliers: the rows.
+        """
+    @property
+    def size(self) -> float:
+        """
+        rms of what it moves beside all else that was fitted, per axis [m].
+        """
+    @property
+    def words(self) -> str:
+        ...
+class Structure:
+    """
+    A dependence of residuals that chance does not make.
+    """
+    def __repr__(self) -> str:
+        ...
+    @property
+    def against(self) -> str:
+        ...
+    @property
+    def p_value(self) -> float:
+        """
+        Corrected for all that was asked.
+        """
+    @property
+    def share(self) -> float:
+        """
+        Of the residuals' variance, noise taken out.
+        """
+    @property
+    def size(self) -> float:
+        """
+        rms per axis, noise taken out [m].
+        """
+    @property
+    def words(self) -> str:
+        ...
+class HeldOutPart:
+    """
+    One session, or one touched point.
+    """
+    @property
+    def name(self) -> str:
+        ...
+    @property
+    def rms_after(self) -> float:
+        """
+        3-D [m].
+        """
+    @property
+    def rms_before(self) -> float:
+        """
+        3-D [m].
+        """
+    @property
+    def rows(self) -> int:
+        ...
+class HeldOut:
+    """
+    Errors of rows that were foretold by all others.
+    """
+    @property
+    def after(self) -> numpy.ndarray:
+        """
+        (N,) [m].
+        """
+    @property
+    def before(self) -> numpy.ndarray:
+        """
+        (N,) geometry alone [m]; NaN of outliers.
+        """
+    @property
+    def blocks(self) -> int:
+        ...
+    @property
+    def how(self) -> str:
+        """
+        What was held out at once.
+        """
+    @property
+    def noise(self) -> float:
+        """
+        Floor, 3-D [m].
+        """
+    @property
+    def p_value(self) -> float:
+        """
+        That the gain is luck, over the blocks.
+        """
+    @property
+    def parts(self) -> list[HeldOutPart]:
+        ...
+    @property
+    def rms_after(self) -> float:
+        """
+        With the effects, 3-D [m].
+        """
+    @property
+    def rms_before(self) -> float:
+        """
+        Geometry alone, 3-D [m].
+        """
+class Diagnosis:
+    """
+    What the model of an arm gets wrong, by its measurements; see `diagnose`.
+    """
+    def __repr__(self) -> str:
+        ...
+    def summary(self) -> typing.Any:
+        """
+        One paragraph that a person can act on.
+        """
+    def write(self, path: typing.Any) -> None:
+        """
+        Write the report: a page (.html), a picture (.png) or everything for machines (.json).
+        
+        Parameters
+        ----------
+        path : str or os.PathLike
+            The ending says what is written.
+        
+        Raises
+        ------
+        ValueError
+            For another ending.
+        """
+    @property
+    def ambiguous(self) -> list[Cause]:
+        """
+        Cause: all among which these data cannot choose.
+        """
+    @property
+    def data(self) -> Touches | Tracked:
+        """
+        Touches or Tracked: what it was found from.
+        """
+    @property
+    def detectable(self) -> float:
+        """
+        Size of an effect that would have been found, per axis [m].
+        """
+    @property
+    def effects(self) -> list[NamedEffect]:
+        """
+        NamedEffect, largest first; partial when the verdict is unknown.
+        """
+    @property
+    def fit(self) -> ArmFit:
+        """
+        ArmFit: geometry alone.
+        """
+    @property
+    def gain(self) -> float:
+        """
+        (r0² - r1²) / (r0² - noise²) of held-out rms.
+        """
+    @property
+    def held_out(self) -> HeldOut:
+        ...
+    @property
+    def leftover(self) -> Structure:
+        """
+        Structure beside all that was named; its size is 0 when there is none.
+        """
+    @property
+    def model(self) -> CorrectedArm:
+        """
+        CorrectedArm: geometry and effects, with the support that taught them.
+        """
+    @property
+    def next_poses(self) -> numpy.ndarray:
+        """
+        (m, n) poses that would tell them apart [rad or m].
+        """
+    @property
+    def noise(self) -> float:
+        """
+        Standard deviation per axis [m].
+        """
+    @property
+    def noise_source(self) -> str:
+        ...
+    @property
+    def residuals_after(self) -> numpy.ndarray:
+        """
+        (3, N) the same with the effects [m].
+        """
+    @property
+    def residuals_before(self) -> numpy.ndarray:
+        """
+        (3, N) tip less measured (of touches: less their mean), geometry alone [m].
+        """
+    @property
+    def shown(self) -> list[Structure]:
+        """
+        Structure in the residuals of geometry alone, likeliest first.
+        """
+    @property
+    def verdict(self) -> str:
+        """
+        "clean", "named", "ambiguous", "unknown", or "none" where nothing can be held out.
+        """
+    @property
+    def warnings(self) -> list[str]:
+        """
+        Sentences.
+        """
 def arm_from_chain(chain: dict, *, nearly_parallel: typing.SupportsFloat | typing.SupportsIndex = 0.1) -> Arm:
     """
     The Arm of joint origins, axes and links: what a URDF tells.
@@ -2316,6 +3142,68 @@ def cover_polygon(surface: typing.Any, polygon: typing.Any, spacing: typing.Supp
     >>> aims = bathyal.cover_polygon(bathyal.Plane((0, 0, 1), -5.0), square, spacing=1.0)
     >>> aims[:, :3].tolist()
     [[0.0, 0.5, -4.0], [4.0, 0.5, -4.0], [4.0, 1.5, -4.0], [0.0, 1.5, -4.0]]
+    """
+def diagnose(arm: Arm, data: typing.Any, *, effects: typing.Any = None, fixed: collections.abc.Sequence[str] = [], blocks: typing.SupportsInt | typing.SupportsIndex = 10, rival_odds: typing.SupportsFloat | typing.SupportsIndex = 0.05, leftover: typing.SupportsFloat | typing.SupportsIndex = 0.25, num_next_poses: typing.SupportsInt | typing.SupportsIndex = 8, progress: typing.Any = None, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> typing.Any:
+    """
+    Show what the best rigid model of an arm gets wrong, name the cause, measure the gain.
+    
+    The arm's geometry is identified first. What it leaves is compared with each effect of the library,
+    alone and in growing sets, fitted jointly with the geometry; sets are judged by their likelihood
+    less what their freedom costs, and each name must foretell data that it has not seen. Structure that
+    nothing in the library explains is told as such, without a name.
+    
+    Parameters
+    ----------
+    arm : Arm
+        Nominal; its masses, where they are told, make loads of gravity known.
+    data : Touches or Tracked
+        With any of the covariates `temperature` (N,) [°C], `time` (N,) [s], `payload` (N,) [kg at the
+        tool centre point], `direction` (N, n) -1, 0 or 1, `gravity` (N, 3) [m/s², base frame] and
+        `session` (N,); others are looked at for structure.
+    effects : list of Effect, optional
+        What may be named; `bathyal.effects.list()` unless given.
+    fixed : list of str
+        Names of geometric parameters to hold at nominal.
+    blocks : int
+        How many blocks are held out in turn, 3 to 50.
+    rival_odds : float
+        Odds of a rival against the best explanation from which the two count as not to be told apart.
+    leftover : float
+        Structure left over, as a share of the variance that the names removed, from which the verdict
+        is "unknown" and the names stand as partial.
+    num_next_poses : int
+        How many poses to propose where causes cannot be told apart.
+    progress : callable, optional
+        Called with (share done, what comes next).
+    num_threads : int
+        0 = all; the same bytes for any number.
+    
+    Returns
+    -------
+    Diagnosis
+    
+    Raises
+    ------
+    ValueError
+        For bad data, covariates or options, another number of joints, an effect given twice.
+    bathyal.Error
+        For an effect of the user's own that fails.
+    
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import bathyal
+    >>> arm = bathyal.arms.ur10()
+    >>> random = np.random.default_rng(1)
+    >>> q = random.uniform(-1.5, 1.5, (150, 6))
+    >>> wrong = q.copy()
+    >>> wrong[:, 1] += 1e-3 * np.cos(2.0 * q[:, 1])  # an eccentric encoder
+    >>> seen = arm.forward(wrong)[:, :3, 3] + random.normal(0.0, 1e-4, (150, 3))
+    >>> report = bathyal.diagnose(arm, bathyal.Tracked(q, seen))
+    >>> report
+    Diagnosis(named, joint_harmonic[1])
+    >>> round(float(report.effects[0].parameters["order"]))
+    2
     """
 def find_sheets(cloud: typing.Any, *, min_separation: typing.SupportsFloat | typing.SupportsIndex = 0.0, min_points: typing.SupportsInt | typing.SupportsIndex = 12, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> SheetReport:
     """
@@ -2562,7 +3450,7 @@ def generate_survey(*, seed: typing.SupportsInt | typing.SupportsIndex = 0, orig
     >>> sorted(cloud.attributes)
     ['intensity', 'uncertainty']
     """
-def identify_arm(arm: Arm, data: typing.Any, *, parametrization: str = 'hayati', nearly_parallel: typing.SupportsFloat | typing.SupportsIndex = 0.1, criterion: str = 'centroid', pair_weights: bool = False, solver: str = 'levenberg_marquardt', max_iterations: typing.SupportsInt | typing.SupportsIndex = 100, tool_start: str = 'auto', base: str = 'auto', fixed: collections.abc.Sequence[str] = [], length_prior: typing.SupportsFloat | typing.SupportsIndex | None = None, angle_prior: typing.SupportsFloat | typing.SupportsIndex | None = None, priors: collections.abc.Mapping[str, typing.SupportsFloat | typing.SupportsIndex] = {}, size_prior: typing.SupportsFloat | typing.SupportsIndex = 0.001, noise: typing.SupportsFloat | typing.SupportsIndex | None = None, rotation_noise: typing.SupportsFloat | typing.SupportsIndex | None = None, loss: str = 'square', loss_width: typing.SupportsFloat | typing.SupportsIndex | None = None, prune_sigma: typing.SupportsFloat | typing.SupportsIndex | None = None, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> ArmFit:
+def identify_arm(arm: Arm | CorrectedArm, data: typing.Any, *, parametrization: str = 'hayati', nearly_parallel: typing.SupportsFloat | typing.SupportsIndex = 0.1, criterion: str = 'centroid', pair_weights: bool = False, solver: str = 'levenberg_marquardt', max_iterations: typing.SupportsInt | typing.SupportsIndex = 100, tool_start: str = 'auto', base: str = 'auto', fixed: collections.abc.Sequence[str] = [], length_prior: typing.SupportsFloat | typing.SupportsIndex | None = None, angle_prior: typing.SupportsFloat | typing.SupportsIndex | None = None, priors: collections.abc.Mapping[str, typing.SupportsFloat | typing.SupportsIndex] = {}, size_prior: typing.SupportsFloat | typing.SupportsIndex = 0.001, noise: typing.SupportsFloat | typing.SupportsIndex | None = None, rotation_noise: typing.SupportsFloat | typing.SupportsIndex | None = None, loss: str = 'square', loss_width: typing.SupportsFloat | typing.SupportsIndex | None = None, prune_sigma: typing.SupportsFloat | typing.SupportsIndex | None = None, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> ArmFit:
     """
     Find the true geometry of an arm from measured poses.
     
@@ -2571,8 +3459,10 @@ def identify_arm(arm: Arm, data: typing.Any, *, parametrization: str = 'hayati',
     
     Parameters
     ----------
-    arm : Arm
-        Nominal. Its tool, where it has one, is where the search for the tool starts.
+    arm : Arm or CorrectedArm
+        Nominal. Its tool, where it has one, is where the search for the tool starts. The effects of a
+        corrected arm act as they were found, each in the rows that lie in its support, and stand among
+        the parameters, "fixed"; the fit's arm is the rigid part.
     data : Touches or Tracked
     parametrization : {"hayati", "dh"}
         "hayati": beta (Hayati, Mirmirani 1985) in place of d where the next axis is nearly parallel.
@@ -2671,6 +3561,10 @@ def intersect_moller_trumbore(mesh: TriangleMesh, origins: typing.Any, direction
     >>> floor = bathyal.TriangleMesh([[0, 0, 0], [4, 0, 0], [0, 4, 0]], [[0, 1, 2]])
     >>> bathyal.intersect_moller_trumbore(floor, (1, 1, 3), [[0, 0, -1], [0, 0, 1]]).range
     array([ 3., inf])
+    """
+def library_effects() -> list[Effect]:
+    """
+    The effects of the library, in a fixed order (bathyal.effects.list).
     """
 def mesh_report(mesh: TriangleMesh, *, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> MeshReport:
     """

@@ -39,7 +39,8 @@ def warn(
     model: CorrectedArm, q: Floats, covariates: Mapping[str, Any], mask: NDArray[np.bool_]
 ) -> None:
     """Warn of one call; what the methods of `CorrectedArm` do."""
-    counts, reasons = {}, []
+    counts: dict[str, int] = {}
+    reasons = []
     for found, missing in zip(model.effects, np.count_nonzero(~mask, axis=0), strict=True):
         if missing == 0:
             continue

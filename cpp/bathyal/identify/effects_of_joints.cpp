@@ -171,11 +171,7 @@ class JointScale final : public Effect {
   std::vector<EffectVariant> variants(const EffectData& data) const override {
     std::vector<EffectVariant> out;
     for_each_moving(data, [&](int j) {
-      out.push_back({"joint_scale",
-                     j,
-                     {},
-                     {{"scale", "1", kOrdinaryError}},
-                     curve_of(j)});
+      out.push_back({"joint_scale", j, {}, {{"scale", "1", kOrdinaryError}}, curve_of(j)});
     });
     return out;
   }
