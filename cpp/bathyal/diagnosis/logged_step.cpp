@@ -8,9 +8,9 @@
 namespace bathyal {
 namespace {
 
-constexpr double kLeastStep = 1e-8;  ///< [rad]; finer ones are digits of a file
-constexpr double kRounding = 1e-10;  ///< [rad] of a value that was computed from its step
-constexpr double kWhole = 1e-2;      ///< how far from a whole number a multiple may lie
+constexpr double kLeastStep = 1e-7;  ///< [rad]; finer ones are digits of a file
+constexpr double kRounding = 2e-8;  ///< [rad] that Euclid's steps may make of a value's last digits
+constexpr double kWhole = 1e-2;     ///< how far from a whole number a multiple may lie
 constexpr std::size_t kFewest = 20;  ///< different values: fewer lie on a grid by chance
 
 /// Values but 0, by rising size, each once.
