@@ -8,7 +8,7 @@
 namespace bathyal {
 namespace {
 
-constexpr double kLeastStep = 1e-7;  ///< [rad]; finer ones are digits of a file
+constexpr double kLeastStep = 1e-5;  ///< [rad]; finer ones move no tip by what can be measured
 constexpr double kRounding = 2e-8;  ///< [rad] that Euclid's steps may make of a value's last digits
 constexpr double kWhole = 1e-2;     ///< how far from a whole number a multiple may lie
 constexpr std::size_t kFewest = 20;  ///< different values: fewer lie on a grid by chance

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdio>
 #include <numbers>
 
 #include "bathyal/arm/dh.hpp"
@@ -47,10 +46,41 @@ TEST(Diagnose, NamesAnEccentricEncoder) {
   const Diagnosis found = diagnose(six_joints(), wavy(1e-3, 1e-4, 150));
   for (const auto& e : found.effects)
     std::printf("%s %d size %g gain %g p %g\n", e.name.c_str(), e.joint, e.size, e.gain, e.p_value);
-  for (const auto& e : found.ambiguous) std::printf("  rival %s %g\n", e.words.c_str(), e.odds);
   ASSERT_EQ(found.verdict, Verdict::kNamed);
   ASSERT_EQ(found.effects.size(), 1u);
-  EXPECT_EQ(found.effects[0].joint, 1);
+  const NamedEffect& wave = found.effects[0];
+  EXPECT_EQ(wave.name, "joint_harmonic");
+  EXPECT_EQ(wave.joint, 1);
+  EXPECT_GT(wave.gain, 0.9);
+  for (const Estimate& e : wave.parameters) {
+    if (e.name == "cos") {
+      EXPECT_LT(e.low, 1e-3);
+      EXPECT_GT(e.high, 1e-3);
+    }
+  }
+  EXPECT_LT(found.held_out.rms_after, 1.2 * std::sqrt(3.0) * 1e-4);
+  EXPECT_GT(found.held_out.rms_before, 3.0 * found.held_out.rms_after);
+}
+
+TEST(Diagnose, GivesTheSameBytesOnAnyNumberOfThreads) {
+  const Tracked data = wavy(1e-3, 1e-4, 150);
+  const Diagnosis one = diagnose(six_joints(), data, {.num_threads = 1});
+  const Diagnosis two = diagnose(six_joints(), data, {.num_threads = 2});
+  EXPECT_EQ(one.residuals_after, two.residuals_after);
+  EXPECT_EQ(one.held_out.rms_after, two.held_out.rms_after);
+  EXPECT_EQ(one.effects[0].parameters[1].value, two.effects[0].parameters[1].value);
+}
+
+TEST(Diagnose, TwelvePosesAreTooFewToHoldAnyOut) {
+  const Diagnosis found = diagnose(six_joints(), wavy(1e-3, 1e-4, 12));
+  EXPECT_EQ(found.verdict, Verdict::kNone);
+  EXPECT_FALSE(found.warnings.empty());
+}
+
+TEST(Diagnose, RefusesAnEffectTwice) {
+  std::vector<std::shared_ptr<const Effect>> effects = library_effects();
+  effects.push_back(effects.front());
+  EXPECT_THROW(diagnose(six_joints(), wavy(0.0, 1e-4, 60), {}, effects), std::invalid_argument);
 }
 
 TEST(Diagnose, CleanDataAreClean) {
