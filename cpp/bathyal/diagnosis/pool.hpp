@@ -12,8 +12,8 @@
 
 namespace bathyal {
 
-/// ln of the odds against a name, whatever it is: with `trials` it keeps clean data clean in 99 of
-/// 100 diagnoses (tests/python/score_card.py).
+/// ln of the odds against a name, whatever it is: with `trials` it keeps clean data clean (the
+/// score card, tests/python/score_card.py, shows how often).
 inline constexpr double kNameCost = 4.5;
 
 /// What the freedom of `width` columns takes from the log evidence when their values were found
