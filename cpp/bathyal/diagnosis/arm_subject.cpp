@@ -157,7 +157,7 @@ void ArmSubject::gather_forms(const Effects& effects) {
 std::vector<int> ArmSubject::finer(int form) {
   const auto found = neighbours_.find(form);
   if (found == neighbours_.end()) return {};
-  const auto [lower, upper] = found->second;
+  const int lower = found->second.first, upper = found->second.second;
   std::vector<int> chain;
   const auto add_between = [&](int from, int to) {
     if (from < 0 || to < 0) return;

@@ -161,8 +161,7 @@ class Reporter {
     for (const FoundEffect& effect : out_.found) {
       const auto chosen =
           std::find_if(found_.names.begin(), found_.names.end(), [&](const Chosen& c) {
-            return &subject_.variant(c.form) != nullptr &&
-                   subject_.effect(c.form) == effect.effect.get() &&
+            return subject_.effect(c.form) == effect.effect.get() &&
                    subject_.variant(c.form).settings == effect.variant.settings &&
                    subject_.variant(c.form).joint == effect.variant.joint;
           });
