@@ -80,10 +80,14 @@ TEST(Effects, SessionsMoveTheBaseAndTheTool) {
   const Scene& scene = odd_scene();
   const RowMatrix& session = scene.covariates.at("session");
   const int flange = static_cast<int>(scene.arm.joints().size()) + 1;
-  for (const auto& [name, frame] : {std::pair{"base_shift", 0}, std::pair{"tool_change", flange}}) {
+  for (const auto& tried : {std::pair{"base_shift", 0}, std::pair{"tool_change", flange}}) {
+    const char* name = tried.first;
+    const int frame = tried.second;
     const auto variants = variants_of(name, scene.data());
     ASSERT_EQ(variants.size(), 3U);
-    for (const auto& [index, from] : {std::pair{0, 7.0}, std::pair{1, 9.0}}) {
+    for (const auto& start : {std::pair{0, 7.0}, std::pair{1, 9.0}}) {
+      const int index = start.first;
+      const double from = start.second;
       EXPECT_EQ(variants[index].settings.at("from"), from);
       expect_means(scene, variants[index], [&](Index i, const Eigen::VectorXd& p) {
         if (session(i, 0) < from) return Wrong{};
