@@ -3,13 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <numeric>
 
 #include "bathyal/diagnosis/blocks.hpp"
 #include "bathyal/diagnosis/logged_step.hpp"
-#include "bathyal/diagnosis/orthonormal.hpp"
 #include "bathyal/diagnosis/words.hpp"
 #include "bathyal/identify/arm_report.hpp"
 #include "bathyal/identify/effect_columns.hpp"
@@ -18,20 +16,11 @@
 namespace bathyal {
 namespace {
 
-constexpr double kTwins = 1e-3;       ///< [rad] or [m]: poses nearer than this are one pose
-constexpr std::size_t kScanFrom = 9;  ///< so many forms of one cause of one effect are a scan
-constexpr int kNoiseRounds = 4;
-constexpr int kMostSteps = 20;
-constexpr double kSettledStep = 1e-6;    ///< in units of the columns' scale: nm and nrad
-constexpr double kSettledCost = 1e-7;    ///< of the sum of squares
+constexpr double kTwins = 1e-3;          ///< [rad] or [m]: poses nearer than this are one pose
+constexpr std::size_t kScanFrom = 9;     ///< so many forms of one cause of one effect are a scan
 constexpr double kSeenDirection = 1e-5;  ///< of the largest singular value, per mm and mrad
 constexpr double kOrdinaryMove = 1e-3;   ///< [m]
 constexpr double kRounding = 1e-7;
-constexpr int kOrderRounds = 4;
-constexpr double kOrderSettled = 0.05;  ///< standard deviations
-constexpr double kFarOrder = 3.0;       ///< over the span: half a wave
-constexpr double kOrderStep = 1e-4;     ///< relative
-constexpr double kNoiseSettled = 1e-3;  ///< relative
 
 std::vector<int> numbered(const Eigen::VectorXd& values) {
   std::map<double, int> known;
@@ -41,11 +30,6 @@ std::vector<int> numbered(const Eigen::VectorXd& values) {
   std::vector<int> out;
   for (const double value : values) out.push_back(known[value]);
   return out;
-}
-
-bool has_whole_order(const EffectVariant& variant) {
-  const auto order = variant.settings.find("order");
-  return order != variant.settings.end() && order->second == std::round(order->second);
 }
 
 }  // namespace
@@ -130,7 +114,7 @@ void ArmSubject::gather_forms(const Effects& effects) {
       forms_.push_back({variant.effect, variant.joint, variant.cause, words_of(variant, nominal_),
                         static_cast<double>(variants.size()), has_whole_order(variant), false,
                         false});
-      forms_.back().shares = variant.effect == "joint_harmonic" || variant.effect == "joint_map";
+      forms_.back().shares = effect->info().adds_up;
       sources_.push_back({effect, std::move(variant), -1});
     }
     for (auto& [cause, family] : by_cause) {
@@ -248,250 +232,6 @@ std::vector<Eigen::MatrixXd> ArmSubject::columns_of(std::vector<ActingVariant> a
   return out;
 }
 
-void ArmSubject::settle(const std::vector<int>& forms) {
-  for (int round = 0; round < kOrderRounds; ++round) {
-    fit(forms);
-    if (!move_orders()) break;
-  }
-}
-
-/// A step of Gauss and Newton for the orders of waves that stand, beside all else that is fitted.
-bool ArmSubject::move_orders() {
-  const Eigen::MatrixXd by_order = by_scanned();
-  if (by_order.cols() == 0) return false;
-  const Eigen::MatrixXd basis = orthonormal(moves(derivatives(x_)), kSwallowed);
-  const Eigen::MatrixXd beside = by_order - basis * (basis.transpose() * by_order);
-  Eigen::VectorXd residuals(problem_.system->rows());
-  problem_.system->evaluate(problem_.system->scaled(x_).data(), residuals.data(), nullptr);
-  const Eigen::VectorXd change =
-      -(beside.transpose() * beside).ldlt().solve(beside.transpose() * residuals);
-  const Eigen::VectorXd sure = beside.colwise().norm();  // 1 / standard deviation
-  bool moved = false;
-  Index at = 0;
-  for (const int form : standing_) {
-    EffectVariant& variant = sources_[form].variant;
-    if (!variant.settings.contains("order") || has_whole_order(variant)) continue;
-    const double step = change[at];
-    const double far =
-        kFarOrder / (data_.q.col(variant.joint).maxCoeff() - data_.q.col(variant.joint).minCoeff());
-    const double order = variant.settings["order"] + step;
-    if (std::abs(step) * sure[at] > kOrderSettled && std::abs(step) < far && order > 0.0) {
-      variant.settings["order"] = order;
-      forms_[form].words = words_of(variant, nominal_);
-      moved = true;
-    }
-    ++at;
-  }
-  return moved;
-}
-
-void ArmSubject::fit(const std::vector<int>& forms) {
-  // Values of forms that stay are where their search starts.
-  std::map<int, Eigen::VectorXd> known;
-  auto at = static_cast<Index>(geometry_);
-  for (const int form : standing_) {
-    const auto wide = static_cast<Index>(sources_[form].variant.parameters.size());
-    known[form] = x_.segment(at, wide);
-    at += wide;
-  }
-  truncate_columns(problem_.columns, geometry_);
-  Eigen::VectorXd x = x_.head(static_cast<Index>(geometry_));
-  std::vector<int> free = base_free_;
-  for (const int form : forms) {
-    const int begin = add_effect(problem_.columns, sources_[form].variant, actions_of(form));
-    const auto end = static_cast<int>(problem_.columns.columns.size());
-    for (int c = begin; c < end; ++c) free.push_back(c);
-    x.conservativeResize(end);
-    x.tail(end - begin).setZero();
-    if (known.contains(form)) x.tail(end - begin) = known[form];
-  }
-  standing_ = forms;
-  problem_.system->set_free(std::move(free));
-  for (int round = 0; round < kNoiseRounds; ++round) {
-    x = nearest_minimum(std::move(x));
-    if (!m_.tracked) x = without_size_draw(std::move(x));
-    stand_at(x);
-    if (!update_noise()) break;
-  }
-  stand_at(x);
-}
-
-/// Derivatives of exact touches: scatter would pass for information about the arm's size (see
-/// arm_search.cpp).
-Eigen::MatrixXd ArmSubject::derivatives(const Eigen::VectorXd& x) const {
-  ArmSystem exact = *problem_.system;
-  exact.set_joints(exact_);
-  return exact.jacobian(x);
-}
-
-/// Least squares of touches lie at an arm too small; steps along the derivatives of exact touches
-/// end where what is known of the size is met.
-Eigen::VectorXd ArmSubject::without_size_draw(Eigen::VectorXd x) {
-  const ArmSystem& system = *problem_.system;
-  const Eigen::VectorXd least = x;
-  Eigen::VectorXd residuals(system.rows());
-  double last = std::numeric_limits<double>::infinity();
-  for (int step = 0; step < kMostSteps; ++step) {
-    exact_ = exact_joints(system, x);
-    const Eigen::VectorXd y = system.scaled(x);
-    system.evaluate(y.data(), residuals.data(), nullptr);
-    const Eigen::VectorXd move = step_of(derivatives(x), residuals);
-    if (!(move.norm() < last)) return step < 2 ? least : x;
-    last = move.norm();
-    x = system.values(y + move);
-    if (last < kSettledStep) break;
-  }
-  return x;
-}
-
-/// The step that Gauss and Newton would take, by the singular values of columns of length 1: what
-/// hardly moves the residuals by itself (a curve over a quarter of a turn has such parts) stays
-/// where it is, and nothing runs off.
-Eigen::VectorXd ArmSubject::step_of(const Eigen::MatrixXd& jacobian,
-                                    const Eigen::VectorXd& residuals) const {
-  Eigen::MatrixXd both(residuals.size(), held_.cols() + jacobian.cols() - held_.rows() + 1);
-  both.leftCols(both.cols() - 1) = moves(jacobian);
-  both.rightCols(1) = residuals;
-  Eigen::VectorXd scale(both.cols() - 1);
-  for (Index c = 0; c < scale.size(); ++c) {
-    const double length = both.col(c).norm();
-    scale[c] = length > 0.0 ? 1.0 / length : 0.0;
-    both.col(c) *= scale[c];
-  }
-  const Eigen::MatrixXd triangle = triangle_of(both, problem_.system->num_threads());
-  Eigen::BDCSVD<Eigen::MatrixXd> svd(triangle.topLeftCorner(scale.size(), scale.size()),
-                                     Eigen::ComputeFullU | Eigen::ComputeFullV);
-  svd.setThreshold(kSwallowed);
-  const Eigen::VectorXd along =
-      -svd.solve(Eigen::VectorXd(triangle.col(scale.size()).head(scale.size())));
-  return unmoved(scale.asDiagonal() * along);
-}
-
-/// A step that makes things worse is halved.
-Eigen::VectorXd ArmSubject::nearest_minimum(Eigen::VectorXd x) const {
-  const ArmSystem& system = *problem_.system;
-  Eigen::VectorXd y = system.scaled(x);
-  Eigen::VectorXd residuals(system.rows());
-  Eigen::MatrixXd jacobian(system.rows(), system.columns());
-  for (int step = 0; step < kMostSteps; ++step) {
-    system.evaluate(y.data(), residuals.data(), jacobian.data());
-    const Eigen::VectorXd full = step_of(jacobian, residuals);
-    const double before = residuals.squaredNorm();
-    double share = 1.0;
-    double after = system.cost(Eigen::VectorXd(y + full).data());
-    while (!(after <= before) && share > 1e-3) {
-      share *= 0.5;
-      after = system.cost(Eigen::VectorXd(y + share * full).data());
-    }
-    if (!(after <= before)) break;
-    y += share * full;
-    if (before - after < kSettledCost * before) break;
-  }
-  return system.values(y);
-}
-
-/// Columns of the free unknowns, those of the base model along the directions that data or priors
-/// hold.
-Eigen::MatrixXd ArmSubject::moves(const Eigen::MatrixXd& free) const {
-  const Index base = held_.rows();
-  Eigen::MatrixXd out(free.rows(), held_.cols() + free.cols() - base);
-  out << free.leftCols(base) * held_, free.rightCols(free.cols() - base);
-  return out;
-}
-
-/// What steps along `moves` are for the free unknowns.
-Eigen::VectorXd ArmSubject::unmoved(const Eigen::VectorXd& along) const {
-  const Index effects = along.size() - held_.cols();
-  Eigen::VectorXd out(held_.rows() + effects);
-  out << held_ * along.head(held_.cols()), along.tail(effects);
-  return out;
-}
-
-void ArmSubject::stand_at(const Eigen::VectorXd& x) {
-  x_ = x;
-  ArmSystem& system = *problem_.system;
-  const Index rows = system.rows();
-  const auto wide = static_cast<Index>(base_free_.size());
-  Eigen::VectorXd residuals(rows);
-  const Eigen::VectorXd y = system.scaled(x);
-  system.evaluate(y.data(), residuals.data(), nullptr);
-  exact_ = exact_joints(system, x);
-  // What follows recorded joints would follow their scatter, and explain it by itself.
-  data_.q = exact_;
-  const Eigen::MatrixXd jacobian = derivatives(x);
-  linearization_.misfit = jacobian.rightCols(system.columns() - wide) * y.tail(y.size() - wide);
-  linearization_.misfit -= residuals;
-  const Index points = m_.tracked ? 0 : m_.points();
-  const Index seen = held_.cols();
-  linearization_.base = Eigen::MatrixXd::Zero(rows, seen + 3 * points);
-  linearization_.base.leftCols(seen) = jacobian.leftCols(wide) * held_;
-  linearization_.unit.assign(static_cast<std::size_t>(rows), -1);
-  linearization_.lost = 0.0;
-  linearization_.noise_rows = system.position_rows();
-  for (Index i = 0; i < m_.rows(); ++i) {
-    const bool plane = !m_.tracked && m_.plane[i] >= 0;
-    const double kinds = m_.has_rotation() ? 2.0 : 1.0;
-    if (system.trust()[i] < kLeftOut * 2.0) {
-      linearization_.lost += plane ? 1.0 : 3.0 * kinds;
-    }
-    if (plane) linearization_.lost += 2.0;  // rows that hold nothing
-    for (Index axis = 0; axis < 3; ++axis) {
-      linearization_.unit[3 * i + axis] = static_cast<int>(i);
-      if (m_.has_rotation()) {
-        linearization_.unit[3 * m_.rows() + 3 * i + axis] = static_cast<int>(i);
-      }
-      // Where a point is, is free: what the centroid takes of the rows, as columns.
-      if (!m_.tracked && m_.point[i] >= 0) {
-        linearization_.base(3 * i + axis, seen + 3 * m_.point[i] + axis) =
-            std::sqrt(system.weight(i)) / system.noise().position;
-      }
-    }
-  }
-}
-
-bool ArmSubject::update_noise() {
-  ArmSystem& system = *problem_.system;
-  const double taken = static_cast<double>(system.columns());
-  const Index positions = system.position_rows();
-  Eigen::VectorXd residuals(system.rows());
-  const Eigen::VectorXd y = system.scaled(x_);
-  system.evaluate(y.data(), residuals.data(), nullptr);
-  const double all = static_cast<double>(positions + system.rotation_rows());
-  double free = free_position_rows(m_);
-  double turning = static_cast<double>(system.rotation_rows());
-  for (Index i = 0; i < m_.rows(); ++i) {
-    if (system.trust()[i] >= kLeftOut * 2.0) continue;
-    free -= !m_.tracked && m_.plane[i] >= 0 ? 1.0 : 3.0;
-    if (m_.has_rotation()) turning -= 3.0;
-  }
-  Noise noise = system.noise();
-  const Noise old = noise;
-  // Columns take of each kind of row its share.
-  const auto estimate = [&](double squares, double rows, double share, double now) {
-    const double freedom = rows - taken * share;
-    return freedom > 0.5 ? std::max(now * std::sqrt(squares / freedom), kLeastNoise) : now;
-  };
-  if (!problem_.options.noise) {
-    noise.position = estimate(residuals.head(positions).squaredNorm(), free,
-                              static_cast<double>(positions) / all, old.position);
-  }
-  if (m_.has_rotation() && !problem_.options.rotation_noise) {
-    noise.rotation = estimate(residuals.segment(positions, system.rotation_rows()).squaredNorm(),
-                              turning, 1.0 - static_cast<double>(positions) / all, old.rotation);
-  }
-  system.set_noise(noise, x_);
-  return std::abs(noise.position / old.position - 1.0) > kNoiseSettled ||
-         std::abs(noise.rotation / old.rotation - 1.0) > kNoiseSettled;
-}
-
-void ArmSubject::set_trust(const Eigen::VectorXd& trust) {
-  std::vector<double> factors(static_cast<std::size_t>(trust.size()));
-  for (Index i = 0; i < trust.size(); ++i) {
-    factors[i] = trust[i] > 0.0 ? std::max(trust[i], kLeftOut) : kLeftOut;
-  }
-  problem_.system->set_trust(std::move(factors));
-}
-
 Eigen::Matrix3Xd ArmSubject::tips_from_base() const {
   Eigen::Matrix3Xd tips(3, m_.rows());
   const TipWalk walk(problem_.columns, x_, {});
@@ -503,84 +243,5 @@ Eigen::Matrix3Xd ArmSubject::tips_from_base() const {
   }
   return tips;
 }
-
-std::vector<FoundEffect> ArmSubject::found() const {
-  std::vector<FoundEffect> out;
-  auto at = static_cast<Index>(geometry_);
-  for (const int form : standing_) {
-    const Source& source = sources_[form];
-    const auto wide = static_cast<Index>(source.variant.parameters.size());
-    out.push_back({source.effect, source.variant, x_.segment(at, wide)});
-    at += wide;
-  }
-  return out;
-}
-
-double ArmSubject::freedom() const {
-  const Eigen::MatrixXd& base = linearization_.base;
-  const auto effects = static_cast<Index>(problem_.columns.columns.size() - geometry_);
-  return static_cast<double>(base.rows() - base.cols() - effects) - linearization_.lost;
-}
-
-Eigen::MatrixXd ArmSubject::covariance() const {
-  const ArmSystem& system = *problem_.system;
-  const Eigen::MatrixXd jacobian = derivatives(x_);
-  const Index effects = jacobian.cols() - held_.rows();
-  const Eigen::MatrixXd scanned = by_scanned();
-  Eigen::MatrixXd all(jacobian.rows(), held_.cols() + effects + scanned.cols());
-  all << moves(jacobian), scanned;
-  Eigen::VectorXd scale(all.cols());
-  for (Index c = 0; c < scale.size(); ++c) {
-    const double length = all.col(c).norm();
-    scale[c] = length > 0.0 ? 1.0 / length : 0.0;
-    all.col(c) *= scale[c];
-  }
-  const RankReport rank = reveal_rank(triangle_of(all, system.num_threads()), kSwallowed);
-  const Eigen::MatrixXd root = scale.asDiagonal() * rank.directions.leftCols(rank.rank) *
-                               rank.singular_values.head(rank.rank).cwiseInverse().asDiagonal();
-  Eigen::MatrixXd own = root.middleRows(held_.cols(), effects);
-  for (Index i = 0; i < effects; ++i) {
-    own.row(i) *= problem_.columns.columns[geometry_ + static_cast<std::size_t>(i)].scale;
-  }
-  Eigen::VectorXd residuals(system.rows());
-  system.evaluate(system.scaled(x_).data(), residuals.data(), nullptr);
-  return residuals.squaredNorm() / freedom() * (own * own.transpose());
-}
-
-/// What a change of each standing order does to the residuals: the values beside it are no surer
-/// than the order is.
-Eigen::MatrixXd ArmSubject::by_scanned() const {
-  std::vector<Eigen::VectorXd> out;
-  auto at = static_cast<Index>(geometry_);
-  for (const int form : standing_) {
-    const EffectVariant& here = sources_[form].variant;
-    const auto wide = static_cast<Index>(here.parameters.size());
-    const Eigen::VectorXd values = x_.segment(at, wide);
-    at += wide;
-    const auto order = here.settings.find("order");
-    if (order == here.settings.end() || has_whole_order(here)) continue;
-    const auto moved = [&](double change) {
-      EffectVariant other = here;
-      other.settings["order"] += change;
-      auto actions = bathyal::actions_of(*sources_[form].effect, other, data_);
-      return Eigen::VectorXd(columns_of({{std::move(other), std::move(actions)}})[0] * values);
-    };
-    const double change = kOrderStep * order->second;
-    out.push_back((moved(change) - moved(-change)) / (2.0 * change));
-  }
-  Eigen::MatrixXd columns(linearization_.misfit.size(), static_cast<Index>(out.size()));
-  for (std::size_t i = 0; i < out.size(); ++i) columns.col(static_cast<Index>(i)) = out[i];
-  return columns;
-}
-
-Arm ArmSubject::arm() const {
-  const ArmState state = state_at(problem_.columns, x_);
-  Arm arm = state.arm;
-  arm.set_base(state.bases[0]);
-  arm.set_tool(state.tools[0]);
-  return arm;
-}
-
-Eigen::Matrix3Xd ArmSubject::deviations() const { return problem_.system->deviations(x_); }
 
 }  // namespace bathyal

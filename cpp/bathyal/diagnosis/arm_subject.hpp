@@ -50,6 +50,8 @@ class ArmSubject final : public Subject {
   /// The rigid part where the model stands, base and tool set.
   Arm arm() const;
   Eigen::Matrix3Xd deviations() const;
+  /// The same where the subject last stood without effects.
+  const Eigen::Matrix3Xd& bare_deviations() const { return bare_; }
 
  private:
   struct Source {
@@ -103,6 +105,7 @@ class ArmSubject final : public Subject {
   Eigen::VectorXd x_;           ///< of all columns, effects' last
   RowMatrix exact_;             ///< joints at which derivatives are taken: of exact touches
   Linearization linearization_;
+  Eigen::Matrix3Xd bare_;
 };
 
 }  // namespace bathyal

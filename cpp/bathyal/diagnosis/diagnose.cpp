@@ -16,7 +16,6 @@
 namespace bathyal {
 namespace {
 
-constexpr double kShown = 0.01;         ///< corrected p-value of structure that is told
 constexpr double kLeastRepeats = 12.0;  ///< degrees of freedom of repeats that tell the noise
 constexpr std::size_t kMostRivals = 5;
 
@@ -41,7 +40,7 @@ class Reporter {
     out_.arm = subject_.arm();
     out_.found = subject_.found();
     out_.support = support_of(m_.q, subject_.data().covariates);
-    out_.residuals_before = subject_.geometry().residuals;
+    out_.residuals_before = subject_.bare_deviations();
     out_.residuals_after = subject_.deviations();
     tell_noise();
     out_.detectable = found_.detectable * unit();
@@ -90,15 +89,13 @@ class Reporter {
   void tell_shown() {
     std::set<std::string> told;
     for (const Dependence& d : found_.shown) {
-      if (d.p > kShown && !out_.shown.empty()) break;  // the least unlikely is told in any case
+      if (d.p > kBeyondNoise && !out_.shown.empty())
+        break;  // the least unlikely is told in any case
       if (!told.insert(form(d.form).effect).second) continue;
       out_.shown.push_back(
-          {form(d.form).effect, form(d.form).words, d.size * base_unit(), d.share, d.p});
+          {form(d.form).effect, form(d.form).words, d.size * found_.base_noise, d.share, d.p});
     }
   }
-
-  /// One unit of the examination's first rows: the noise that geometry alone left.
-  double base_unit() const { return subject_.geometry().noise; }
 
   void tell_held_out() {
     HeldOut& out = out_.held_out;
@@ -145,7 +142,7 @@ class Reporter {
   Eigen::VectorXd errors(const Eigen::VectorXd& rows) const {
     Eigen::VectorXd out(m_.rows());
     for (Index i = 0; i < m_.rows(); ++i) {
-      out[i] = rows.segment<3>(3 * i).norm() * unit() / std::sqrt(m_.weights[i]);
+      out[i] = rows.segment<3>(3 * i).norm() * unit() / std::sqrt(m_.weights[i] * found_.trust[i]);
     }
     for (const int odd : found_.odd) out[odd] = std::numeric_limits<double>::quiet_NaN();
     return out;

@@ -21,10 +21,14 @@ constexpr int kPeaks = 4;       ///< of each scan that are looked at closely
 constexpr int kMostProbes = 6;  ///< that are asked at once
 constexpr int kFinerRounds = 3;
 constexpr double kPlainBonus =
-    3.0;                         ///< log evidence: two and a half standard deviations of an order
-constexpr double kShown = 0.01;  ///< corrected p-value below which structure is beyond noise
+    3.0;  ///< log evidence: two and a half standard deviations of an order
 constexpr double kLeastFreedom = 10.0;
 constexpr int kLeastBlocks = 3;
+
+void append(Eigen::MatrixXd& columns, const Eigen::MatrixXd& more) {
+  columns.conservativeResize(Eigen::NoChange, columns.cols() + more.cols());
+  columns.rightCols(more.cols()) = more;
+}
 
 class Examiner {
  public:
@@ -57,6 +61,7 @@ class Examiner {
   std::vector<int> sharpened(std::vector<int> forms);
 
   void gather_candidates();
+  void remember(int form);
   void add_peaks(const Ground& beside);
   std::vector<int> members_of(const Pool& pool, const std::vector<int>& forms) const;
   std::vector<int> best_forms(std::vector<int> start);
@@ -76,7 +81,6 @@ class Examiner {
   const ExaminationOptions& options_;
   const Progress& progress_;
   std::vector<int> candidates_;  ///< library forms worth a pool
-  std::vector<int> in_scans_;    ///< forms that only scans look at, sorted
   std::set<int> is_sharp_;       ///< forms of scans that were looked at closely
   std::vector<int> names_;
   std::vector<int> probes_;
@@ -90,9 +94,7 @@ Examiner::Ground Examiner::ground(const std::vector<int>& forms) const {
   out.basis = orthonormal(at.base);
   for (const Eigen::MatrixXd& columns : subject_.columns(forms)) {
     const Eigen::MatrixXd more = orthonormal_beside(out.basis, columns);
-    const Index old = out.basis.cols();
-    out.basis.conservativeResize(Eigen::NoChange, old + more.cols());
-    out.basis.rightCols(more.cols()) = more;
+    append(out.basis, more);
   }
   out.freedom = static_cast<double>(at.misfit.size() - out.basis.cols()) - at.lost;
   return out;
@@ -111,15 +113,20 @@ std::vector<int> Examiner::forms_of(const Pool& pool, const std::vector<int>& se
   return forms;
 }
 
+/// All library forms that no scan has: those come by their peaks.
 void Examiner::gather_candidates() {
+  std::set<int> scanned;
   for (const std::vector<int>& family : subject_.scans()) {
-    in_scans_.insert(in_scans_.end(), family.begin(), family.end());
+    scanned.insert(family.begin(), family.end());
   }
-  std::sort(in_scans_.begin(), in_scans_.end());
   for (int form = 0; form < static_cast<int>(subject_.forms().size()); ++form) {
-    if (!is_probe(form) && !std::binary_search(in_scans_.begin(), in_scans_.end(), form)) {
-      candidates_.push_back(form);
-    }
+    if (!is_probe(form) && !scanned.contains(form)) candidates_.push_back(form);
+  }
+}
+
+void Examiner::remember(int form) {
+  if (std::find(candidates_.begin(), candidates_.end(), form) == candidates_.end()) {
+    candidates_.push_back(form);
   }
 }
 
@@ -130,11 +137,7 @@ void Examiner::add_peaks(const Ground& beside) {
     const std::vector<ScannedForm> scanned =
         scan(subject_, family, beside.basis, subject_.linearization().misfit, beside.freedom,
              options_.num_threads);
-    for (const int form : peaks(scanned, kPeaks)) {
-      if (std::find(candidates_.begin(), candidates_.end(), form) == candidates_.end()) {
-        candidates_.push_back(form);
-      }
-    }
+    for (const int form : peaks(scanned, kPeaks)) remember(form);
   }
 }
 
@@ -162,9 +165,7 @@ std::vector<int> Examiner::sharpened(std::vector<int> forms) {
       if (subject_.forms()[form].plain) break;
     }
     is_sharp_.insert(form);
-    if (std::find(candidates_.begin(), candidates_.end(), form) == candidates_.end()) {
-      candidates_.push_back(form);
-    }
+    remember(form);
   }
   std::sort(forms.begin(), forms.end());
   return forms;
@@ -252,13 +253,11 @@ void Examiner::choose_explanation() {
   subject_.set_trust(all);
   subject_.settle({});
   gather_candidates();
-  {
-    const Ground base = ground({});
-    out_.shown = dependences(base);
-    tell(0.2, "looking for causes");
-    add_peaks(base);
-  }
   const Ground base = ground({});
+  out_.shown = dependences(base);
+  out_.base_noise = subject_.noise();
+  tell(0.2, "looking for causes");
+  add_peaks(base);
   const Eigen::VectorXd without_odd =
       leave_out_odd(subject_.linearization(), base.basis, all, base.freedom);
   Explanation best = explain(all);
@@ -330,7 +329,7 @@ void Examiner::look_beyond_names() {
     asked.insert(asked.end(), probes_.begin(), probes_.end());
     const std::size_t known = asked.size();
     for (const Dependence& d : beyond) {
-      if (d.p > kShown || asked.size() == known + kMostProbes) break;
+      if (d.p > kBeyondNoise || asked.size() == known + kMostProbes) break;
       asked.push_back(d.form);
     }
     if (asked.size() == known) return;
@@ -360,8 +359,7 @@ void Examiner::drop_what_foretells_nothing() {
     std::vector<std::vector<Index>> own;
     for (int m = 0; m < pool.size(); ++m) {
       const Index old = columns.cols();
-      columns.conservativeResize(Eigen::NoChange, old + pool.width(m));
-      columns.rightCols(pool.width(m)) = pool.columns(m);
+      append(columns, pool.columns(m));
       own.emplace_back(static_cast<std::size_t>(pool.width(m)));
       std::iota(own.back().begin(), own.back().end(), old);
     }
@@ -457,11 +455,8 @@ void Examiner::tell_evidence() {
 
 void Examiner::tell_rivals() {
   if (names_.empty()) return;
-  std::vector<int> asked = candidates_;
-  for (const int form : names_) {
-    if (std::find(asked.begin(), asked.end(), form) == asked.end()) asked.push_back(form);
-  }
-  const Pool pool = pool_of(ground({}), asked);
+  for (const int form : names_) remember(form);
+  const Pool pool = pool_of(ground({}), candidates_);
   for (const Rival& rival : find_rivals(pool, members_of(pool, names_))) {
     out_.rivals.push_back({pool.form(rival.member), pool.form(rival.instead), rival.odds});
   }
@@ -479,10 +474,11 @@ void Examiner::tell_detectable() {
 }
 
 Examination Examiner::run() {
-  tell(0.0, "finding the geometry");
+  tell(0.1, "looking at what geometry leaves");
   out_.blocks = make_blocks(subject_.units(), options_.blocks);
   choose_explanation();
   tell_detectable();
+  out_.trust = trust_;
   const Ground whole = ground(names_);
   out_.held_out = out_.blocks.count >= kLeastBlocks && whole.freedom >= kLeastFreedom;
   if (!out_.held_out) {
@@ -493,9 +489,8 @@ Examination Examiner::run() {
   weigh_noise();
   if (!out_.noise.empty()) {
     // Rows count by their own noise from here on, and what was named is asked again.
-    Eigen::VectorXd trust = trust_;
-    for (const NoiseFit& fit : out_.noise) trust.array() /= fit.factor.array();
-    subject_.set_trust(trust);
+    for (const NoiseFit& fit : out_.noise) out_.trust.array() /= fit.factor.array();
+    subject_.set_trust(out_.trust);
     subject_.settle(names_);
     names_ = best_forms(names_);
     subject_.settle(names_);

@@ -17,9 +17,7 @@ using Progress = std::function<void(double done, const std::string& stage)>;
 
 struct ExaminationOptions {
   int num_threads = 0;
-  int blocks = 10;           ///< that are held out in turn
-  double rival_odds = 0.05;  ///< from which a rival cannot be told apart
-  double leftover = 0.25;  ///< of what the names removed: more is left, and they are not the cause
+  int blocks = 10;  ///< that are held out in turn
 };
 
 /// A form that was chosen.
@@ -50,6 +48,9 @@ struct Dependence {
   double share = 0.0;
 };
 
+/// Corrected p-value below which structure is beyond noise.
+inline constexpr double kBeyondNoise = 0.01;
+
 /// Findings of one subject: which forms explain what its base model does not.
 struct Examination {
   bool held_out = false;  ///< there was enough to hold out
@@ -59,6 +60,8 @@ struct Examination {
   std::vector<RivalForm> rivals;  ///< likeliest first, by name
   std::vector<Dependence> shown;  ///< of the base model alone, likeliest first
   std::vector<int> odd;           ///< units left out
+  Eigen::VectorXd trust;          ///< (units,) factors on their weights, by which rows were judged
+  double base_noise = 0.0;        ///< one unit of `shown` [m]
   std::vector<NoiseFit> noise;    ///< noise forms that were named
   double base_squares = 0.0;      ///< beside the base model, before anything was named
   double removed = 0.0;           ///< by the names, noise taken out

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bathyal/diagnosis/words.hpp"
 
+#include <cmath>
 #include <functional>
 #include <map>
 
@@ -64,6 +65,11 @@ std::string words_of(const EffectVariant& variant, const Arm& arm) {
   const auto known = sentences.find(variant.effect);
   if (known != sentences.end()) return known->second();
   return joint.empty() ? variant.effect : variant.effect + " of " + joint;
+}
+
+bool has_whole_order(const EffectVariant& variant) {
+  const auto order = variant.settings.find("order");
+  return order != variant.settings.end() && order->second == std::round(order->second);
 }
 
 }  // namespace bathyal

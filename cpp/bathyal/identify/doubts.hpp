@@ -18,7 +18,7 @@ struct Case {
   const ArmSystem& system;
   const Arm& nominal;
   const ArmFit& fit;
-  const Structure& structure;
+  const JointStructure& structure;
   const OutlierSearch& search;
 };
 

@@ -119,7 +119,7 @@ void doubt_noise_told(const Case& seen, Warnings& warnings) {
 void doubt_geometry(const Case& seen, Warnings& warnings) {
   constexpr double kSurely = 1e-3;
   constexpr double kWorthTelling = 0.02;  // of the variance
-  const Structure& structure = seen.structure;
+  const JointStructure& structure = seen.structure;
   constexpr double kLeastPart = 1e-5;  // [m] no arm is asked for less
   const double part = std::sqrt(structure.share) * seen.fit.rms_after;
   if (structure.p > kSurely || structure.share < kWorthTelling || part < kLeastPart ||

@@ -99,6 +99,8 @@ struct EffectInfo {
   /// Whether it looks at what changes from row to row, not at where a row lies: the ranges of the
   /// data that taught it are no bounds to it.
   bool by_difference = false;
+  /// Whether several of its forms may stand for one cause together, as waves make up a curve.
+  bool adds_up = false;
 };
 
 /// An effect of the library, or a user's own.

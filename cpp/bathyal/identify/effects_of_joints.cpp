@@ -36,7 +36,9 @@ class JointHarmonic final : public Effect {
             "1986 (gear eccentricity); Tuttle, Seering: A nonlinear model of a harmonic drive gear "
             "transmission, 1996",
             {},
-            {{"cos", "rad or m", 1e-6, 5e-3}, {"sin", "rad or m", 1e-6, 5e-3}}};
+            {{"cos", "rad or m", 1e-6, 5e-3}, {"sin", "rad or m", 1e-6, 5e-3}},
+            false,
+            true};
   }
 
   std::vector<EffectVariant> variants(const EffectData& data) const override {
@@ -121,7 +123,9 @@ class JointMap final : public Effect {
             "Judd, Knasinski: A technique to calibrate industrial robots with experimental "
             "verification, 1990 (gear errors as Fourier series)",
             {},
-            {{"cos_1", "rad or m", 1e-6, 5e-3}, {"sin_1", "rad or m", 1e-6, 5e-3}}};
+            {{"cos_1", "rad or m", 1e-6, 5e-3}, {"sin_1", "rad or m", 1e-6, 5e-3}},
+            false,
+            true};
   }
 
   std::vector<EffectVariant> variants(const EffectData& data) const override {

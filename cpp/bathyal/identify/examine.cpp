@@ -10,8 +10,8 @@ namespace bathyal {
 void examine(const Measurement& measurement, const ArmSystem& system, const Arm& nominal,
              ArmFit& fit) {
   const OutlierSearch search = find_outliers(system, fit.values);
-  const Structure structure =
-      search.hopeless ? Structure{} : find_structure(system, search.x, search.trust);
+  const JointStructure structure =
+      search.hopeless ? JointStructure{} : find_structure(system, search.x, search.trust);
   fit.outliers = search.outliers;
   fit.structure_p = structure.p;
   fit.warnings = find_doubts({measurement, system, nominal, fit, structure, search});

@@ -162,9 +162,9 @@ class ArmSpace {
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> second_;
 };
 
-Structure test(const ArmSystem& system, const Eigen::VectorXd& x) {
+JointStructure test(const ArmSystem& system, const Eigen::VectorXd& x) {
   const Measurement& m = system.measurement();
-  Structure out;
+  JointStructure out;
   if (system.columns() == 0 || 3 * m.rows() <= system.columns()) return out;
   Eigen::VectorXd residuals(system.rows());
   Eigen::MatrixXd jacobian(system.rows(), system.columns());
@@ -197,8 +197,8 @@ Structure test(const ArmSystem& system, const Eigen::VectorXd& x) {
 
 }  // namespace
 
-Structure find_structure(const ArmSystem& system, const Eigen::VectorXd& x,
-                         const std::vector<double>& trust) {
+JointStructure find_structure(const ArmSystem& system, const Eigen::VectorXd& x,
+                              const std::vector<double>& trust) {
   const Measurement& all = system.measurement();
   if (all.rows() <= kMostPoses) {
     ArmSystem asked = system;

@@ -10,7 +10,7 @@
 namespace bathyal {
 
 /// How much of the residuals low harmonics of the joints explain.
-struct Structure {
+struct JointStructure {
   double p = 1.0;       ///< probability that noise alone follows the joints as well; 1: not asked
   double share = 0.0;   ///< of the residuals' variance, less what chance would explain; 0 … 1
   int coordinate = -1;  ///< the joint that explains most by itself
@@ -25,7 +25,7 @@ struct Structure {
 /// that under normal noise `p` is uniform.
 ///
 /// Every pose counts as an independent one. Of more than 2000, every k-th is asked.
-Structure find_structure(const ArmSystem& system, const Eigen::VectorXd& x,
-                         const std::vector<double>& trust);
+JointStructure find_structure(const ArmSystem& system, const Eigen::VectorXd& x,
+                              const std::vector<double>& trust);
 
 }  // namespace bathyal
