@@ -21,6 +21,7 @@ constexpr std::size_t kScanFrom = 9;     ///< so many forms of one cause of one 
 constexpr double kSeenDirection = 1e-5;  ///< of the largest singular value, per mm and mrad
 constexpr double kOrdinaryMove = 1e-3;   ///< [m]
 constexpr double kRounding = 1e-7;
+constexpr double kPlausible = 100.0;  ///< of a parameter's scale, where nobody told
 
 std::vector<int> numbered(const Eigen::VectorXd& values) {
   std::map<double, int> known;
@@ -177,6 +178,21 @@ std::vector<std::vector<Action>> ArmSubject::actions_of(int form) const {
   return out;
 }
 
+/// By the ranges that the effect's description gives for each unit; nothing of probes.
+std::vector<double> ArmSubject::plausible(int form) const {
+  const Source& source = sources_[form];
+  std::vector<double> out;
+  if (source.probe >= 0) return out;
+  const std::vector<EffectInfo::Range> ranges = source.effect->info().ranges;
+  for (const EffectParameter& parameter : source.variant.parameters) {
+    const auto told = std::find_if(ranges.begin(), ranges.end(), [&](const auto& range) {
+      return range.unit.find(parameter.unit) != std::string::npos;
+    });
+    out.push_back(told != ranges.end() ? told->high : kPlausible * parameter.scale);
+  }
+  return out;
+}
+
 std::vector<Eigen::MatrixXd> ArmSubject::columns(std::span<const int> forms) const {
   std::vector<ActingVariant> acting;
   for (const int form : forms) {
@@ -188,19 +204,25 @@ std::vector<Eigen::MatrixXd> ArmSubject::columns(std::span<const int> forms) con
         variant.parameters.push_back({std::to_string(c), "", 1.0});
       }
     }
-    acting.push_back({std::move(variant), std::move(actions)});
+    acting.push_back({std::move(variant), std::move(actions), plausible(form)});
   }
   return columns_of(std::move(acting));
 }
 
-/// Per unit of each parameter.
+/// Per largest plausible size of each parameter.
 std::vector<Eigen::MatrixXd> ArmSubject::columns_of(std::vector<ActingVariant> acting) const {
   ArmColumns columns = problem_.columns;
   const auto before = static_cast<Index>(columns.columns.size());
   std::vector<Index> first{0};
+  std::vector<double> sizes;  // in units of the columns' scale
   for (ActingVariant& one : acting) {
     add_effect(columns, one.variant, std::move(one.actions));
     first.push_back(static_cast<Index>(columns.columns.size()) - before);
+    for (const double size : one.plausible) {
+      sizes.push_back(size /
+                      columns.columns[static_cast<std::size_t>(before) + sizes.size()].scale);
+    }
+    sizes.resize(static_cast<std::size_t>(first.back()), kPlausible);
   }
   std::vector<int> wanted(static_cast<std::size_t>(first.back()));
   std::iota(wanted.begin(), wanted.end(), static_cast<int>(before));
@@ -218,11 +240,10 @@ std::vector<Eigen::MatrixXd> ArmSubject::columns_of(std::vector<ActingVariant> a
   // is left of it is rounding.
   const double ordinary = kOrdinaryMove / system.noise().position * std::sqrt(double(m_.rows()));
   for (Index c = 0; c < all.cols(); ++c) {
-    const double scale = columns.columns[static_cast<std::size_t>(before + c)].scale;
     if (all.col(c).norm() < kRounding * ordinary) {
       all.col(c).setZero();
     } else {
-      all.col(c) /= scale;
+      all.col(c) *= sizes[static_cast<std::size_t>(c)];
     }
   }
   std::vector<Eigen::MatrixXd> out;

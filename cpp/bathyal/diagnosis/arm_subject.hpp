@@ -62,6 +62,7 @@ class ArmSubject final : public Subject {
   struct ActingVariant {
     EffectVariant variant;
     std::vector<std::vector<Action>> actions;
+    std::vector<double> plausible;  ///< largest size of each parameter; empty: by its scale
   };
   void free_what_is_seen();
   void fit(const std::vector<int>& forms);
@@ -71,14 +72,14 @@ class ArmSubject final : public Subject {
   void gather_forms(const Effects& effects);
   void gather_noise_forms();
   std::vector<std::vector<Action>> actions_of(int form) const;
+  std::vector<double> plausible(int form) const;
   std::vector<Eigen::MatrixXd> columns_of(std::vector<ActingVariant> acting) const;
   Eigen::MatrixXd by_scanned() const;
   Eigen::VectorXd nearest_minimum(Eigen::VectorXd x) const;
   Eigen::VectorXd without_size_draw(Eigen::VectorXd x);
-  Eigen::VectorXd step_of(const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& residuals) const;
+  Eigen::VectorXd step_of(const Eigen::MatrixXd& square) const;
   Eigen::MatrixXd derivatives(const Eigen::VectorXd& x) const;
-  Eigen::MatrixXd moves(const Eigen::MatrixXd& free) const;
-  Eigen::VectorXd unmoved(const Eigen::VectorXd& along) const;
+  Eigen::MatrixXd moves() const;
   void stand_at(const Eigen::VectorXd& x);
   bool update_noise();
   /// (3, N) by the model. (A field over what was measured would explain its errors by itself.)

@@ -37,8 +37,12 @@ void ArmSubject::settle(const std::vector<int>& forms) {
 bool ArmSubject::move_orders() {
   const Eigen::MatrixXd by_order = by_scanned();
   if (by_order.cols() == 0) return false;
-  const Eigen::MatrixXd basis = orthonormal(moves(derivatives(x_)), kSwallowed);
-  const Eigen::MatrixXd beside = by_order - basis * (basis.transpose() * by_order);
+  Eigen::MatrixXd basis = derivatives(x_) * moves();
+  scale_to_length_1(basis);
+  Eigen::MatrixXd square = basis.transpose() * basis;
+  square.diagonal().array() += kSwallowed * kSwallowed;
+  const Eigen::MatrixXd beside =
+      by_order - basis * square.llt().solve(basis.transpose() * by_order);
   Eigen::VectorXd residuals(problem_.system->rows());
   problem_.system->evaluate(problem_.system->scaled(x_).data(), residuals.data(), nullptr);
   const Eigen::VectorXd change =
@@ -78,7 +82,11 @@ void ArmSubject::fit(const std::vector<int>& forms) {
   for (const int form : forms) {
     const int begin = add_effect(problem_.columns, sources_[form].variant, actions_of(form));
     const auto end = static_cast<int>(problem_.columns.columns.size());
-    for (int c = begin; c < end; ++c) free.push_back(c);
+    const std::vector<double> sizes = plausible(form);
+    for (int c = begin; c < end; ++c) {
+      free.push_back(c);
+      problem_.columns.columns[c].prior_std = sizes[c - begin];
+    }
     x.conservativeResize(end);
     x.tail(end - begin).setZero();
     if (known.contains(form)) x.tail(end - begin) = known[form];
@@ -114,7 +122,9 @@ Eigen::VectorXd ArmSubject::without_size_draw(Eigen::VectorXd x) {
     exact_ = exact_joints(system, x);
     const Eigen::VectorXd y = system.scaled(x);
     system.evaluate(y.data(), residuals.data(), nullptr);
-    const Eigen::VectorXd move = step_of(derivatives(x), residuals);
+    Eigen::MatrixXd both(system.rows(), system.columns() + 1);
+    both << derivatives(x), residuals;
+    const Eigen::VectorXd move = step_of(both.transpose() * both);
     if (!(move.norm() < last)) return step < 2 ? least : x;
     last = move.norm();
     x = system.values(y + move);
@@ -123,39 +133,29 @@ Eigen::VectorXd ArmSubject::without_size_draw(Eigen::VectorXd x) {
   return x;
 }
 
-/// The step that Gauss and Newton would take, by the singular values of columns of length 1: what
-/// hardly moves the residuals by itself (a curve over a quarter of a turn has such parts) stays
-/// where it is, and nothing runs off.
-Eigen::VectorXd ArmSubject::step_of(const Eigen::MatrixXd& jacobian,
-                                    const Eigen::VectorXd& residuals) const {
-  Eigen::MatrixXd both(residuals.size(), held_.cols() + jacobian.cols() - held_.rows() + 1);
-  both.leftCols(both.cols() - 1) = moves(jacobian);
-  both.rightCols(1) = residuals;
-  Eigen::VectorXd scale(both.cols() - 1);
-  for (Index c = 0; c < scale.size(); ++c) {
-    const double length = both.col(c).norm();
-    scale[c] = length > 0.0 ? 1.0 / length : 0.0;
-    both.col(c) *= scale[c];
-  }
-  const Eigen::MatrixXd triangle = triangle_of(both, problem_.system->num_threads());
-  Eigen::BDCSVD<Eigen::MatrixXd> svd(triangle.topLeftCorner(scale.size(), scale.size()),
-                                     Eigen::ComputeFullU | Eigen::ComputeFullV);
-  svd.setThreshold(kSwallowed);
-  const Eigen::VectorXd along =
-      -svd.solve(Eigen::VectorXd(triangle.col(scale.size()).head(scale.size())));
-  return unmoved(scale.asDiagonal() * along);
+/// The step that Gauss and Newton would take, from [J r]ᵀ[J r]. What hardly moves the residuals by
+/// itself is damped, and nothing runs off.
+Eigen::VectorXd ArmSubject::step_of(const Eigen::MatrixXd& square) const {
+  const Index wide = square.cols() - 1;
+  const Eigen::MatrixXd to_free = moves();
+  Eigen::MatrixXd own = to_free.transpose() * square.topLeftCorner(wide, wide) * to_free;
+  const Eigen::VectorXd scale = own.diagonal().unaryExpr(
+      [](double value) { return value > 0.0 ? 1.0 / std::sqrt(value) : 0.0; });
+  own = scale.asDiagonal() * own * scale.asDiagonal();
+  own.diagonal().array() += kSwallowed * kSwallowed;
+  const Eigen::VectorXd against =
+      scale.asDiagonal() * (to_free.transpose() * square.col(wide).head(wide));
+  return to_free * (scale.asDiagonal() * own.ldlt().solve(-against));
 }
 
 /// A step that makes things worse is halved.
 Eigen::VectorXd ArmSubject::nearest_minimum(Eigen::VectorXd x) const {
   const ArmSystem& system = *problem_.system;
   Eigen::VectorXd y = system.scaled(x);
-  Eigen::VectorXd residuals(system.rows());
-  Eigen::MatrixXd jacobian(system.rows(), system.columns());
   for (int step = 0; step < kMostSteps; ++step) {
-    system.evaluate(y.data(), residuals.data(), jacobian.data());
-    const Eigen::VectorXd full = step_of(jacobian, residuals);
-    const double before = residuals.squaredNorm();
+    const Eigen::MatrixXd square = system.square(y.data());
+    const Eigen::VectorXd full = step_of(square);
+    const double before = square(square.rows() - 1, square.cols() - 1);
     double share = 1.0;
     double after = system.cost(Eigen::VectorXd(y + full).data());
     while (!(after <= before) && share > 1e-3) {
@@ -169,20 +169,13 @@ Eigen::VectorXd ArmSubject::nearest_minimum(Eigen::VectorXd x) const {
   return system.values(y);
 }
 
-/// Columns of the free unknowns, those of the base model along the directions that data or priors
-/// hold.
-Eigen::MatrixXd ArmSubject::moves(const Eigen::MatrixXd& free) const {
-  const Index base = held_.rows();
-  Eigen::MatrixXd out(free.rows(), held_.cols() + free.cols() - base);
-  out << free.leftCols(base) * held_, free.rightCols(free.cols() - base);
-  return out;
-}
-
-/// What steps along `moves` are for the free unknowns.
-Eigen::VectorXd ArmSubject::unmoved(const Eigen::VectorXd& along) const {
-  const Index effects = along.size() - held_.cols();
-  Eigen::VectorXd out(held_.rows() + effects);
-  out << held_ * along.head(held_.cols()), along.tail(effects);
+/// (free, k): what may change of the free unknowns. Those of the base model move along the
+/// directions that data or priors hold, effects one by one.
+Eigen::MatrixXd ArmSubject::moves() const {
+  const Index effects = problem_.system->columns() - held_.rows();
+  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(held_.rows() + effects, held_.cols() + effects);
+  out.topLeftCorner(held_.rows(), held_.cols()) = held_;
+  out.bottomRightCorner(effects, effects).setIdentity();
   return out;
 }
 
@@ -205,7 +198,8 @@ void ArmSubject::stand_at(const Eigen::VectorXd& x) {
   linearization_.base = Eigen::MatrixXd::Zero(rows, seen + 3 * points);
   linearization_.base.leftCols(seen) = jacobian.leftCols(wide) * held_;
   linearization_.unit.assign(static_cast<std::size_t>(rows), -1);
-  linearization_.lost = 0.0;
+  // Rows that hold effects to what is plausible measure nothing.
+  linearization_.lost = static_cast<double>(system.columns() - wide);
   linearization_.noise_rows = system.position_rows();
   for (Index i = 0; i < m_.rows(); ++i) {
     const bool plane = !m_.tracked && m_.plane[i] >= 0;
@@ -295,7 +289,7 @@ Eigen::MatrixXd ArmSubject::covariance() const {
   const Index effects = jacobian.cols() - held_.rows();
   const Eigen::MatrixXd scanned = by_scanned();
   Eigen::MatrixXd all(jacobian.rows(), held_.cols() + effects + scanned.cols());
-  all << moves(jacobian), scanned;
+  all << jacobian * moves(), scanned;
   Eigen::VectorXd scale(all.cols());
   for (Index c = 0; c < scale.size(); ++c) {
     const double length = all.col(c).norm();
@@ -322,7 +316,9 @@ Eigen::MatrixXd ArmSubject::by_scanned() const {
   for (const int form : standing_) {
     const EffectVariant& here = sources_[form].variant;
     const auto wide = static_cast<Index>(here.parameters.size());
-    const Eigen::VectorXd values = x_.segment(at, wide);
+    const std::vector<double> sizes = plausible(form);
+    const Eigen::VectorXd values =
+        x_.segment(at, wide).cwiseQuotient(Eigen::VectorXd::Map(sizes.data(), wide));
     at += wide;
     const auto order = here.settings.find("order");
     if (order == here.settings.end() || has_whole_order(here)) continue;
@@ -330,7 +326,8 @@ Eigen::MatrixXd ArmSubject::by_scanned() const {
       EffectVariant other = here;
       other.settings["order"] += change;
       auto actions = bathyal::actions_of(*sources_[form].effect, other, data_);
-      return Eigen::VectorXd(columns_of({{std::move(other), std::move(actions)}})[0] * values);
+      return Eigen::VectorXd(columns_of({{std::move(other), std::move(actions), sizes}})[0] *
+                             values);
     };
     const double change = kOrderStep * order->second;
     out.push_back((moved(change) - moved(-change)) / (2.0 * change));

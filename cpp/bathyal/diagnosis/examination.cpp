@@ -5,7 +5,9 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <optional>
 #include <set>
+#include <utility>
 
 #include "bathyal/diagnosis/hold_out.hpp"
 #include "bathyal/diagnosis/orthonormal.hpp"
@@ -16,7 +18,7 @@ namespace bathyal {
 namespace {
 
 constexpr int kMostPasses = 4;  ///< of naming and standing at what was named
-constexpr int kMostScans = 4;   ///< in one pass
+constexpr int kMostScans = 4;   ///< in the first of them; later ones start where it ended
 constexpr int kPeaks = 4;       ///< of each scan that are looked at closely
 constexpr int kMostProbes = 6;  ///< that are asked at once
 constexpr int kFinerRounds = 3;
@@ -55,7 +57,14 @@ class Examiner {
   }
   bool is_probe(int form) const { return subject_.forms()[form].probe; }
 
-  Ground ground(const std::vector<int>& forms) const;
+  /// Fits and stands there. What was looked at from the last place is forgotten.
+  void settle(const std::vector<int>& forms) {
+    bare_.reset();
+    last_.reset();
+    subject_.settle(forms);
+  }
+  /// Stays until the next call with other forms; that of no forms until the next `settle`.
+  const Ground& ground(const std::vector<int>& forms) const;
   Pool pool_of(const Ground& base, const std::vector<int>& forms) const;
   std::vector<int> forms_of(const Pool& pool, const std::vector<int>& set) const;
   std::vector<int> sharpened(std::vector<int> forms);
@@ -64,7 +73,7 @@ class Examiner {
   void remember(int form);
   void add_peaks(const Ground& beside);
   std::vector<int> members_of(const Pool& pool, const std::vector<int>& forms) const;
-  std::vector<int> best_forms(std::vector<int> start);
+  std::vector<int> best_forms(std::vector<int> start, int scans);
   Explanation explain(Eigen::VectorXd trust);
   double score_of(const std::vector<int>& forms, const Eigen::VectorXd& trust) const;
   void choose_explanation();
@@ -72,6 +81,7 @@ class Examiner {
 
   std::vector<Dependence> dependences(const Ground& beside) const;
   void look_beyond_names();
+  void drop_what_is_not_needed();
   void drop_what_foretells_nothing();
   void tell_evidence();
   void tell_rivals();
@@ -80,24 +90,30 @@ class Examiner {
   Subject& subject_;
   const ExaminationOptions& options_;
   const Progress& progress_;
-  std::vector<int> candidates_;  ///< library forms worth a pool
-  std::set<int> is_sharp_;       ///< forms of scans that were looked at closely
+  mutable std::optional<Ground> bare_;  ///< where the subject stands, without forms
+  mutable std::optional<std::pair<std::vector<int>, Ground>> last_;  ///< and with those last asked
+  std::vector<int> candidates_;                                      ///< library forms worth a pool
+  std::set<int> is_sharp_;  ///< forms of scans that were looked at closely
   std::vector<int> names_;
   std::vector<int> probes_;
   Eigen::VectorXd trust_;
   Examination out_;
 };
 
-Examiner::Ground Examiner::ground(const std::vector<int>& forms) const {
+const Examiner::Ground& Examiner::ground(const std::vector<int>& forms) const {
   const Linearization& at = subject_.linearization();
-  Ground out;
-  out.basis = orthonormal(at.base);
-  for (const Eigen::MatrixXd& columns : subject_.columns(forms)) {
-    const Eigen::MatrixXd more = orthonormal_beside(out.basis, columns);
-    append(out.basis, more);
+  const auto with = [&](Eigen::MatrixXd basis) {
+    const auto freedom = static_cast<double>(at.misfit.size() - basis.cols()) - at.lost;
+    return Ground{std::move(basis), freedom};
+  };
+  if (!bare_) bare_ = with(orthonormal(at.base));
+  if (forms.empty()) return *bare_;
+  if (!last_ || last_->first != forms) {
+    Eigen::MatrixXd basis = bare_->basis;
+    append(basis, orthonormal_beside(bare_->basis, side_by_side(subject_.columns(forms))).columns);
+    last_.emplace(forms, with(std::move(basis)));
   }
-  out.freedom = static_cast<double>(at.misfit.size() - out.basis.cols()) - at.lost;
-  return out;
+  return last_->second;
 }
 
 Pool Examiner::pool_of(const Ground& base, const std::vector<int>& forms) const {
@@ -150,7 +166,7 @@ std::vector<int> Examiner::sharpened(std::vector<int> forms) {
       if (near.empty()) break;
       std::vector<int> others = forms;
       std::erase(others, form);
-      const Ground beside = ground(others);
+      const Ground& beside = ground(others);
       near.push_back(form);
       const std::vector<ScannedForm> scanned =
           scan(subject_, near, beside.basis, subject_.linearization().misfit, beside.freedom,
@@ -180,10 +196,10 @@ std::vector<int> Examiner::members_of(const Pool& pool, const std::vector<int>& 
 }
 
 /// The best set where the subject stands, from `start` on; scans look again beside it.
-std::vector<int> Examiner::best_forms(std::vector<int> start) {
-  const Ground base = ground({});
+std::vector<int> Examiner::best_forms(std::vector<int> start, int scans) {
+  const Ground& base = ground({});
   std::vector<int> forms = std::move(start);
-  for (int round = 0; round < kMostScans; ++round) {
+  for (int round = 0; round < scans; ++round) {
     const Pool pool = pool_of(base, candidates_);
     const std::vector<int> set =
         forms.empty() ? find_best_set(pool) : improve_set(pool, members_of(pool, forms));
@@ -198,7 +214,7 @@ std::vector<int> Examiner::best_forms(std::vector<int> start) {
 }
 
 double Examiner::score_of(const std::vector<int>& forms, const Eigen::VectorXd& trust) const {
-  const Ground base = ground({});
+  const Ground& base = ground({});
   const Pool pool = pool_of(base, forms);
   std::vector<int> all(static_cast<std::size_t>(pool.size()));
   std::iota(all.begin(), all.end(), 0);
@@ -206,7 +222,7 @@ double Examiner::score_of(const std::vector<int>& forms, const Eigen::VectorXd& 
   if (!fit) return -std::numeric_limits<double>::infinity();
   // Units left out count as rows that a column of their own explains.
   double odd = 0.0, cost = 0.0;
-  const Ground whole = ground(forms);
+  const Ground& whole = ground(forms);
   const std::vector<UnitTest> tests =
       test_units(subject_.linearization(), whole.basis, trust, whole.freedom);
   for (Index i = 0; i < trust.size(); ++i) {
@@ -225,11 +241,11 @@ double Examiner::score_of(const std::vector<int>& forms, const Eigen::VectorXd& 
 Examiner::Explanation Examiner::explain(Eigen::VectorXd trust) {
   Explanation out{{}, trust, 0.0};
   subject_.set_trust(trust);
-  subject_.settle({});
+  settle({});
   for (int pass = 0; pass < kMostPasses; ++pass) {
-    const std::vector<int> forms = best_forms(out.forms);
-    subject_.settle(forms);
-    const Ground whole = ground(forms);
+    const std::vector<int> forms = best_forms(out.forms, pass == 0 ? kMostScans : 1);
+    settle(forms);
+    const Ground& whole = ground(forms);
     const Eigen::VectorXd next =
         leave_out_odd(subject_.linearization(), whole.basis, out.trust, whole.freedom);
     const bool same = next == out.trust;
@@ -238,7 +254,7 @@ Examiner::Explanation Examiner::explain(Eigen::VectorXd trust) {
     out.trust = next;
     if (!same) {
       subject_.set_trust(next);
-      subject_.settle(forms);
+      settle(forms);
     }
     if (settled) break;
   }
@@ -251,9 +267,9 @@ void Examiner::choose_explanation() {
   const auto units = subject_.units().count();
   const Eigen::VectorXd all = Eigen::VectorXd::Ones(units);
   subject_.set_trust(all);
-  subject_.settle({});
+  settle({});
   gather_candidates();
-  const Ground base = ground({});
+  const Ground& base = ground({});
   out_.shown = dependences(base);
   out_.base_noise = subject_.noise();
   tell(0.2, "looking for causes");
@@ -266,13 +282,13 @@ void Examiner::choose_explanation() {
     if (other.score > best.score) best = std::move(other);
   }
   subject_.set_trust(best.trust);
-  subject_.settle(best.forms);
+  settle(best.forms);
   names_ = best.forms;
   trust_ = best.trust;
 }
 
 void Examiner::weigh_noise() {
-  const Ground whole = ground(names_);
+  const Ground& whole = ground(names_);
   for (int f = 0; f < static_cast<int>(subject_.noise_forms().size()); ++f) {
     const NoiseForm& form = subject_.noise_forms()[f];
     NoiseFit fit = fit_noise(form, subject_.linearization(), whole.basis, trust_, subject_.noise(),
@@ -341,67 +357,85 @@ void Examiner::look_beyond_names() {
       (is_probe(form) ? probes : names).push_back(form);
     }
     if (names == names_ && probes == probes_) return;
-    if (names != names_) subject_.settle(names);
+    if (names != names_) settle(names);
     names_ = names;
     probes_ = probes;
+  }
+}
+
+/// Where the search looked, a name may have been worth it that is not where the fit ended.
+void Examiner::drop_what_is_not_needed() {
+  for (;;) {
+    const Pool pool = pool_of(ground({}), names_);
+    std::vector<int> all(static_cast<std::size_t>(pool.size()));
+    std::iota(all.begin(), all.end(), 0);
+    const std::vector<int> needed = forms_of(pool, improve_set(pool, all));
+    if (needed == names_) return;
+    names_ = needed;
+    settle(names_);
   }
 }
 
 /// A name must foretell what it has not seen.
 void Examiner::drop_what_foretells_nothing() {
   for (;;) {
+    drop_what_is_not_needed();
     const Linearization& at = subject_.linearization();
-    const Ground base = ground({});
+    const Ground& base = ground({});
     const Pool pool = pool_of(base, names_);
     Eigen::MatrixXd columns = base.basis;
     std::vector<Index> basis(static_cast<std::size_t>(base.basis.cols()));
     std::iota(basis.begin(), basis.end(), Index{0});
+    std::vector<int> kept;
     std::vector<std::vector<Index>> own;
     for (int m = 0; m < pool.size(); ++m) {
       const Index old = columns.cols();
       append(columns, pool.columns(m));
       own.emplace_back(static_cast<std::size_t>(pool.width(m)));
       std::iota(own.back().begin(), own.back().end(), old);
+      kept.push_back(pool.form(m));
     }
-    const auto all_but = [&](int without) {
-      std::vector<Index> which = basis;
-      for (int m = 0; m < pool.size(); ++m) {
-        if (m != without) which.insert(which.end(), own[m].begin(), own[m].end());
+    Eigen::VectorXd held_by = Eigen::VectorXd::Zero(columns.cols());
+    held_by.tail(pool.held_by().size()) = pool.held_by();
+    const HoldOut held(at.misfit, columns, held_by, at.unit, out_.blocks, options_.num_threads);
+    const HeldOutErrors before = held.errors(basis);
+    for (;;) {
+      std::vector<Index> all = basis;
+      for (const std::vector<Index>& one : own) all.insert(all.end(), one.begin(), one.end());
+      const double with = held.squares(all).sum();
+      const Eigen::VectorXd gain =
+          held.squares_without(all, own).colwise().sum().transpose().array() - with;
+      Index worst = 0;
+      // Two that only make up for each other gain nothing together.
+      const bool all_gain = gain.size() == 0 || gain.minCoeff(&worst) > 0.0;
+      if (!all_gain || (gain.size() > 0 && with >= before.of_block.sum())) {
+        kept.erase(kept.begin() + worst);
+        own.erase(own.begin() + worst);
+        continue;
       }
-      return which;
-    };
-    const HoldOut held(at.misfit, columns, at.unit, out_.blocks, options_.num_threads);
-    const double with = held.squares(all_but(-1)).sum() / held.rows();
-    out_.names.clear();
-    int worst = -1;
-    double least = 0.0;
-    for (int m = 0; m < pool.size(); ++m) {
-      Chosen chosen;
-      chosen.form = pool.form(m);
-      chosen.held_out_with = with;
-      chosen.held_out_without = held.squares(all_but(m)).sum() / held.rows();
-      const double gain = chosen.held_out_without - with;
-      if (gain <= least) {
-        worst = chosen.form;
-        least = gain;
+      if (static_cast<int>(kept.size()) < pool.size()) break;
+      out_.names.clear();
+      for (std::size_t i = 0; i < kept.size(); ++i) {
+        Chosen chosen;
+        chosen.form = kept[i];
+        chosen.held_out_with = with / held.rows();
+        chosen.held_out_without = (with + gain[static_cast<Index>(i)]) / held.rows();
+        out_.names.push_back(chosen);
       }
-      out_.names.push_back(chosen);
-    }
-    if (worst < 0) {
-      const HeldOutErrors before = held.errors(basis);
-      const HeldOutErrors after = held.errors(all_but(-1));
+      const HeldOutErrors after = held.errors(all);
       out_.error_before = before.error;
       out_.error_after = after.error;
       out_.luck = sign_flip_p(before.of_block - after.of_block);
       return;
     }
-    std::erase(names_, worst);
-    subject_.settle(names_);
+    names_ = kept;
+    std::sort(names_.begin(), names_.end());
+    settle(names_);
   }
 }
 
 void Examiner::tell_evidence() {
-  const Ground base = ground({});
+  const Ground& base = ground({});
   std::vector<int> all = names_;
   all.insert(all.end(), probes_.begin(), probes_.end());
   const Pool pool = pool_of(base, all);
@@ -479,10 +513,10 @@ Examination Examiner::run() {
   choose_explanation();
   tell_detectable();
   out_.trust = trust_;
-  const Ground whole = ground(names_);
+  const Ground& whole = ground(names_);
   out_.held_out = out_.blocks.count >= kLeastBlocks && whole.freedom >= kLeastFreedom;
   if (!out_.held_out) {
-    subject_.settle({});
+    settle({});
     names_.clear();
     return std::move(out_);
   }
@@ -491,9 +525,9 @@ Examination Examiner::run() {
     // Rows count by their own noise from here on, and what was named is asked again.
     for (const NoiseFit& fit : out_.noise) out_.trust.array() /= fit.factor.array();
     subject_.set_trust(out_.trust);
-    subject_.settle(names_);
-    names_ = best_forms(names_);
-    subject_.settle(names_);
+    settle(names_);
+    names_ = best_forms(names_, 1);
+    settle(names_);
   }
   tell(0.6, "looking for what is left");
   look_beyond_names();

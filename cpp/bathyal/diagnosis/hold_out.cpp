@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bathyal/diagnosis/hold_out.hpp"
 
+#include <map>
+
 #include "bathyal/base/parallel.hpp"
 #include "bathyal/base/random.hpp"
 
@@ -13,7 +15,8 @@ constexpr double kRidge = 1e-8;
 }  // namespace
 
 HoldOut::HoldOut(const Eigen::VectorXd& misfit, const Eigen::MatrixXd& columns,
-                 const std::vector<int>& unit, const Blocks& blocks, int num_threads)
+                 const Eigen::VectorXd& held_by, const std::vector<int>& unit, const Blocks& blocks,
+                 int num_threads)
     : misfit_(misfit),
       columns_(columns),
       num_threads_(num_threads),
@@ -32,29 +35,63 @@ HoldOut::HoldOut(const Eigen::VectorXd& misfit, const Eigen::MatrixXd& columns,
     for (std::size_t b = begin; b < end; ++b) squares_[b] = square_of(rows_[b]);
   });
   square_ = square_of(known);
+  square_.diagonal().head(held_by.size()) += held_by;
   for (std::size_t b = 0; b < squares_.size(); ++b) {
     square_ += squares_[b];
     held_ += static_cast<double>(rows_[b].size());
   }
 }
 
-Eigen::VectorXd HoldOut::values(const std::vector<Index>& which, std::size_t block) const {
+HoldOut::Others HoldOut::others(const std::vector<Index>& which, std::size_t block) const {
   const Index last = columns_.cols();
-  Eigen::MatrixXd others = square_(which, which) - squares_[block](which, which);
-  others.diagonal().array() += kRidge;
-  const Eigen::VectorXd against = square_(which, last) - squares_[block](which, last);
-  return others.llt().solve(against);
+  Eigen::MatrixXd square = square_(which, which) - squares_[block](which, which);
+  square.diagonal().array() += kRidge;
+  Others out{Eigen::LLT<Eigen::MatrixXd>(square), square_(which, last)};
+  out.values -= squares_[block](which, last);
+  out.root.solveInPlace(out.values);
+  return out;
+}
+
+/// `own`: squares_[block](which, which).
+double HoldOut::squares_of(const std::vector<Index>& which, const Eigen::MatrixXd& own,
+                           const Eigen::VectorXd& values, std::size_t block) const {
+  const Index last = columns_.cols();
+  const Eigen::VectorXd against = squares_[block](which, last);
+  return squares_[block](last, last) - 2.0 * values.dot(against) + values.dot(own * values);
 }
 
 Eigen::VectorXd HoldOut::squares(const std::vector<Index>& which) const {
-  const Index last = columns_.cols();
   Eigen::VectorXd out(static_cast<Index>(squares_.size()));
   parallel_for(squares_.size(), 1, num_threads_, [&](std::size_t begin, std::size_t end) {
     for (std::size_t b = begin; b < end; ++b) {
-      const Eigen::VectorXd v = values(which, b);
+      out[static_cast<Index>(b)] =
+          squares_of(which, squares_[b](which, which), others(which, b).values, b);
+    }
+  });
+  return out;
+}
+
+Eigen::MatrixXd HoldOut::squares_without(const std::vector<Index>& which,
+                                         const std::vector<std::vector<Index>>& groups) const {
+  std::map<Index, Index> place;
+  for (const Index column : which) place.emplace(column, static_cast<Index>(place.size()));
+  const auto wide = static_cast<Index>(which.size());
+  Eigen::MatrixXd out(static_cast<Index>(squares_.size()), static_cast<Index>(groups.size()));
+  parallel_for(squares_.size(), 1, num_threads_, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t b = begin; b < end; ++b) {
+      const Others whole = others(which, b);
+      const Eigen::MatrixXd inverse = whole.root.solve(Eigen::MatrixXd::Identity(wide, wide));
       const Eigen::MatrixXd own = squares_[b](which, which);
-      const Eigen::VectorXd against = squares_[b](which, last);
-      out[static_cast<Index>(b)] = squares_[b](last, last) - 2.0 * v.dot(against) + v.dot(own * v);
+      for (std::size_t g = 0; g < groups.size(); ++g) {
+        std::vector<Index> at;
+        for (const Index column : groups[g]) at.push_back(place.at(column));
+        // The values that the others take when those of the group are 0.
+        const Eigen::MatrixXd spread = inverse(at, at);
+        const Eigen::VectorXd moved = spread.llt().solve(Eigen::VectorXd(whole.values(at)));
+        Eigen::VectorXd values = whole.values - inverse(Eigen::all, at) * moved;
+        values(at).setZero();
+        out(static_cast<Index>(b), static_cast<Index>(g)) = squares_of(which, own, values, b);
+      }
     }
   });
   return out;
@@ -64,7 +101,8 @@ HeldOutErrors HoldOut::errors(const std::vector<Index>& which) const {
   HeldOutErrors out{Eigen::VectorXd::Zero(misfit_.size()),
                     Eigen::VectorXd::Zero(static_cast<Index>(squares_.size()))};
   for (std::size_t b = 0; b < rows_.size(); ++b) {
-    const Eigen::VectorXd error = misfit_(rows_[b]) - columns_(rows_[b], which) * values(which, b);
+    const Eigen::VectorXd error =
+        misfit_(rows_[b]) - columns_(rows_[b], which) * others(which, b).values;
     out.error(rows_[b]) = error;
     out.of_block[static_cast<Index>(b)] = error.squaredNorm();
   }

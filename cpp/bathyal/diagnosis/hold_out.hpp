@@ -20,18 +20,30 @@ struct HeldOutErrors {
 /// about (a touched point), a block that holds all of them is foretold as it is.
 class HoldOut {
  public:
-  /// All must outlive it. \pre columns are of length 1
+  /// All but `held_by` must outlive it: (columns,) 1 / variance of values before the data.
+  /// \pre columns are of length 1
   HoldOut(const Eigen::VectorXd& misfit, const Eigen::MatrixXd& columns,
-          const std::vector<int>& unit, const Blocks& blocks, int num_threads);
+          const Eigen::VectorXd& held_by, const std::vector<int>& unit, const Blocks& blocks,
+          int num_threads);
 
   /// (blocks,) sums of squared errors by the columns `which`.
   Eigen::VectorXd squares(const std::vector<Index>& which) const;
+  /// (blocks, groups): the same without each of `groups` of them in turn.
+  Eigen::MatrixXd squares_without(const std::vector<Index>& which,
+                                  const std::vector<std::vector<Index>>& groups) const;
   /// The errors themselves.
   HeldOutErrors errors(const std::vector<Index>& which) const;
   double rows() const { return held_; }
 
  private:
-  Eigen::VectorXd values(const std::vector<Index>& which, std::size_t block) const;
+  /// Inner products of all blocks but one.
+  struct Others {
+    Eigen::LLT<Eigen::MatrixXd> root;
+    Eigen::VectorXd values;
+  };
+  Others others(const std::vector<Index>& which, std::size_t block) const;
+  double squares_of(const std::vector<Index>& which, const Eigen::MatrixXd& own,
+                    const Eigen::VectorXd& values, std::size_t block) const;
 
   const Eigen::VectorXd& misfit_;
   const Eigen::MatrixXd& columns_;

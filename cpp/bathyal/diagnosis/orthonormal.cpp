@@ -1,8 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bathyal/diagnosis/orthonormal.hpp"
 
+#include <algorithm>
+#include <utility>
+
 namespace bathyal {
-namespace {
+
+Eigen::MatrixXd side_by_side(const std::vector<Eigen::MatrixXd>& columns) {
+  Index wide = 0;
+  for (const Eigen::MatrixXd& some : columns) wide += some.cols();
+  Eigen::MatrixXd out(columns.empty() ? 0 : columns.front().rows(), wide);
+  wide = 0;
+  for (const Eigen::MatrixXd& some : columns) {
+    out.middleCols(wide, some.cols()) = some;
+    wide += some.cols();
+  }
+  return out;
+}
 
 void scale_to_length_1(Eigen::MatrixXd& columns) {
   for (Index c = 0; c < columns.cols(); ++c) {
@@ -11,22 +25,6 @@ void scale_to_length_1(Eigen::MatrixXd& columns) {
   }
 }
 
-/// The directions of `columns` that are longer than `least`. From the square of the columns, twice:
-/// what the first time leaves askew the second sets right.
-Eigen::MatrixXd directions(const Eigen::MatrixXd& columns, double least) {
-  if (columns.cols() == 0) return columns;
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(columns.transpose() * columns);
-  const Eigen::VectorXd& squares = eigen.eigenvalues();
-  Index none = 0;
-  while (none < squares.size() && !(squares[none] > least * least)) ++none;
-  const Index kept = squares.size() - none;
-  Eigen::MatrixXd out = columns * (eigen.eigenvectors().rightCols(kept) *
-                                   squares.tail(kept).cwiseSqrt().cwiseInverse().asDiagonal());
-  return out;
-}
-
-}  // namespace
-
 Eigen::MatrixXd orthonormal(Eigen::MatrixXd columns, double tolerance) {
   scale_to_length_1(columns);
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(columns);
@@ -34,13 +32,28 @@ Eigen::MatrixXd orthonormal(Eigen::MatrixXd columns, double tolerance) {
   return qr.householderQ() * Eigen::MatrixXd::Identity(columns.rows(), qr.rank());
 }
 
-Eigen::MatrixXd orthonormal_beside(const Eigen::MatrixXd& basis, Eigen::MatrixXd columns) {
-  scale_to_length_1(columns);
+Beside orthonormal_beside(const Eigen::MatrixXd& basis, Eigen::MatrixXd columns) {
+  if (columns.cols() == 0) return {std::move(columns), {}};
+  const double longest = columns.colwise().norm().maxCoeff();
+  const double least = std::max(1.0, kSwallowed * longest);
   columns -= basis * (basis.transpose() * columns);
-  Eigen::MatrixXd out = directions(columns, kSwallowed);
-  // What rounding has left of the basis and of one another.
-  out -= basis * (basis.transpose() * out);
-  return directions(out, 0.5);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(columns.transpose() * columns);
+  const Eigen::VectorXd& squares = eigen.eigenvalues();
+  Index none = 0;
+  while (none < squares.size() && !(squares[none] > least * least)) ++none;
+  const Index kept = squares.size() - none;
+  Beside out;
+  out.length = squares.tail(kept).cwiseSqrt();
+  out.columns =
+      columns * (eigen.eigenvectors().rightCols(kept) * out.length.cwiseInverse().asDiagonal());
+  // What rounding has left of the basis and of one another; nothing is turned by that.
+  if (kept > 0) {
+    out.columns -= basis * (basis.transpose() * out.columns);
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> skew(out.columns.transpose() *
+                                                              out.columns);
+    out.columns *= skew.operatorInverseSqrt();
+  }
+  return out;
 }
 
 }  // namespace bathyal

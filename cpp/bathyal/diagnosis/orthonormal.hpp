@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <vector>
 
 // Orthonormal columns. For use inside the room.
 
@@ -13,13 +14,28 @@ using Eigen::Index;
 /// telling: the columns before it can do the same.
 inline constexpr double kSwallowed = 1e-4;
 
+/// All columns in one.
+Eigen::MatrixXd side_by_side(const std::vector<Eigen::MatrixXd>& columns);
+
+/// Columns of 0 stay.
+void scale_to_length_1(Eigen::MatrixXd& columns);
+
 /// Orthonormal columns that span `columns` as far as they are independent: of each scaled to length
 /// 1, what is shorter than `tolerance` beside the others is left out.
 /// \pre no entry is NaN
 Eigen::MatrixXd orthonormal(Eigen::MatrixXd columns, double tolerance = 1e-10);
 
-/// The part of `columns` that is orthogonal to `basis`, orthonormalised; a direction of it is left
-/// out where that part is less than kSwallowed of the whole. May have no columns.
-Eigen::MatrixXd orthonormal_beside(const Eigen::MatrixXd& basis, Eigen::MatrixXd columns);
+/// Orthonormal columns beside a basis, and what they are of the columns that they were made from.
+struct Beside {
+  Eigen::MatrixXd columns;  ///< (M, k); may have none
+  /// (k,) length of each before it was made 1. Values of the columns that were given, each of
+  /// variance 1, are values along these of variance length², independent of one another.
+  Eigen::VectorXd length;
+};
+
+/// The part of `columns` that is orthogonal to `basis`. A direction of it is left out where it is
+/// shorter than 1, or than kSwallowed of the longest column: with columns per largest plausible
+/// size, it could not move the misfit by one standard deviation of the noise.
+Beside orthonormal_beside(const Eigen::MatrixXd& basis, Eigen::MatrixXd columns);
 
 }  // namespace bathyal

@@ -18,6 +18,13 @@ constexpr double kIndependent = 1e-8;
 /// The same of a member of its own cause: with less it is made of the other.
 constexpr double kAnother = 0.1;
 
+/// Whether each column of a square keeps `least` beside those before it.
+bool is_independent(const Eigen::LLT<Eigen::MatrixXd>& root, double least) {
+  if (root.info() != Eigen::Success) return false;
+  const auto diagonal = root.matrixLLT().diagonal();
+  return diagonal.size() == 0 || diagonal.cwiseAbs2().minCoeff() > least;
+}
+
 }  // namespace
 
 double cost_of_freedom(double width, double f) {
@@ -33,7 +40,7 @@ Pool::Pool(const Eigen::MatrixXd& basis, const Eigen::VectorXd& misfit, double f
 
 int Pool::add(std::span<const int> forms, std::span<const Form> all,
               const std::vector<Eigen::MatrixXd>& columns, int num_threads) {
-  std::vector<Eigen::MatrixXd> beside(columns.size());
+  std::vector<Beside> beside(columns.size());
   parallel_for(columns.size(), 1, num_threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) beside[i] = orthonormal_beside(basis_, columns[i]);
   });
@@ -41,18 +48,22 @@ int Pool::add(std::span<const int> forms, std::span<const Form> all,
   Index wide = old;
   int taken = 0;
   for (std::size_t i = 0; i < beside.size(); ++i) {
-    if (beside[i].cols() == 0) continue;
+    if (beside[i].length.size() == 0) continue;
     const Form& about = all[static_cast<std::size_t>(forms[i])];
-    members_.push_back(
-        {forms[i], &about, wide, beside[i].cols(), std::log(about.trials) + kNameCost});
-    wide += beside[i].cols();
+    const int cause = causes_.emplace(about.cause, static_cast<int>(causes_.size())).first->second;
+    members_.push_back({forms[i], &about, wide, beside[i].length.size(),
+                        std::log(about.trials) + kNameCost, cause});
+    wide += beside[i].length.size();
     ++taken;
   }
   stack_.conservativeResize(Eigen::NoChange, wide);
+  held_by_.conservativeResize(wide);
   for (std::size_t i = 0, m = members_.size() - static_cast<std::size_t>(taken); i < beside.size();
        ++i) {
-    if (beside[i].cols() == 0) continue;
-    stack_.middleCols(members_[m].first, members_[m].width) = beside[i];
+    if (beside[i].length.size() == 0) continue;
+    stack_.middleCols(members_[m].first, members_[m].width) = beside[i].columns;
+    held_by_.segment(members_[m].first, members_[m].width) =
+        beside[i].length.cwiseAbs2().cwiseInverse();
     ++m;
   }
   // The new columns against all, a strip of the square by each thread.
@@ -68,6 +79,7 @@ int Pool::add(std::span<const int> forms, std::span<const Form> all,
                      stack_.transpose() * stack_.middleCols(first, count);
                });
   square.bottomLeftCorner(fresh, old) = square.topRightCorner(old, fresh).transpose();
+  square.diagonal().tail(fresh) += held_by_.tail(fresh);
   square_ = std::move(square);
   against_ = stack_.transpose() * misfit_;
   return taken;
@@ -83,31 +95,52 @@ std::vector<Index> Pool::columns_of(std::span<const int> members) const {
 
 std::optional<SetFit> Pool::judge(std::span<const int> members) const {
   const std::vector<Index> which = columns_of(members);
-  const auto wide = static_cast<double>(which.size());
+  const auto wide = static_cast<Index>(which.size());
   SetFit out;
-  out.freedom = freedom_ - wide;
+  out.freedom = freedom_ - static_cast<double>(wide);
   if (!(out.freedom > 0.0)) return std::nullopt;
-  const Eigen::MatrixXd square = square_(which, which);
+  const Eigen::LLT<Eigen::MatrixXd> root(Eigen::MatrixXd(square_(which, which)));
+  if (!is_independent(root, kIndependent)) return std::nullopt;
   const Eigen::VectorXd against = against_(which);
-  const Eigen::LDLT<Eigen::MatrixXd> solver(square);
-  if (wide > 0.0 && !(solver.vectorD().minCoeff() > kIndependent)) return std::nullopt;
-  const Eigen::VectorXd values = solver.solve(against);
-  out.left = std::max(total_ - against.dot(values), 1e-12 * total_);
+  const Eigen::VectorXd values = root.solve(against);
+  // Of the misfit itself, without what holds the values.
+  const double gained = against.dot(values) + values.dot(held_by_(which).cwiseProduct(values));
+  out.left = std::max(total_ - gained, 1e-12 * total_);
   out.score = -0.5 * freedom_ * std::log(out.left);
-  const Eigen::MatrixXd inverse =
-      solver.solve(Eigen::MatrixXd::Identity(square.rows(), square.cols()));
+  const Eigen::MatrixXd inverse = root.matrixL().solve(Eigen::MatrixXd::Identity(wide, wide));
   Index at = 0;
   for (const int m : members) {
     const Index k = members_[m].width;
     const Eigen::VectorXd own = values.segment(at, k);
-    const Eigen::MatrixXd spread = inverse.block(at, at, k, k);
-    const double wald = own.dot(spread.ldlt().solve(own));
+    const Eigen::MatrixXd spread =
+        inverse.middleCols(at, k).transpose() * inverse.middleCols(at, k);
+    const double wald = own.dot(spread.llt().solve(own));
     out.f.push_back(wald / static_cast<double>(k) / out.noise());
     out.width.push_back(static_cast<int>(k));
     out.score -= cost_of_freedom(static_cast<double>(k), out.f.back()) + members_[m].cost;
     at += k;
   }
   return out;
+}
+
+double Pool::score_with(int member, std::span<const int> others, const SetFit& base,
+                        const Eigen::MatrixXd& square, const Eigen::VectorXd& against) const {
+  const Member& own = members_[member];
+  bool kin = false;
+  for (const int other : others) {
+    if (members_[other].cause != own.cause) continue;
+    if (!(members_[other].about->shares && own.about->shares)) return kNever;
+    kin = true;
+  }
+  const auto k = static_cast<double>(own.width);
+  if (!(base.freedom > k + 1.0)) return kNever;
+  const Eigen::LLT<Eigen::MatrixXd> root(square);
+  if (!is_independent(root, kin ? kAnother : kIndependent)) return kNever;
+  const double explained = root.matrixL().solve(against).squaredNorm();
+  const double left = std::max(base.left - explained, 1e-12 * total_);
+  const double f = explained / k / (left / (base.freedom - k));
+  return base.score + 0.5 * freedom_ * std::log(base.left / left) - cost_of_freedom(k, f) -
+         own.cost;
 }
 
 Eigen::VectorXd Pool::scores_beside(std::span<const int> members) const {
@@ -122,27 +155,55 @@ Eigen::VectorXd Pool::scores_beside(std::span<const int> members) const {
   const Eigen::VectorXd against =
       against_ - taken.transpose() * root.matrixL().solve(Eigen::VectorXd(against_(which)));
   for (int m = 0; m < size(); ++m) {
-    const Member& member = members_[m];
-    const bool kin = std::any_of(members.begin(), members.end(), [&](int other) {
-      return members_[other].about->cause == member.about->cause;
-    });
-    const bool stands_alone = std::any_of(members.begin(), members.end(), [&](int other) {
-      return members_[other].about->cause == member.about->cause &&
-             !(members_[other].about->shares && member.about->shares);
-    });
-    if (stands_alone || !(now->freedom > static_cast<double>(member.width) + 1.0)) continue;
-    const auto taken_here = taken.middleCols(member.first, member.width);
-    const Eigen::LDLT<Eigen::MatrixXd> solver(
-        square_.block(member.first, member.first, member.width, member.width) -
-        taken_here.transpose() * taken_here);
-    if (!(solver.vectorD().minCoeff() > (kin ? kAnother : kIndependent))) continue;
-    const Eigen::VectorXd own = against.segment(member.first, member.width);
-    const double explained = own.dot(solver.solve(own));
-    const double left = std::max(now->left - explained, 1e-12 * total_);
-    const double k = static_cast<double>(member.width);
-    const double f = explained / k / (left / (now->freedom - k));
-    scores[m] = now->score + 0.5 * freedom_ * std::log(now->left / left) - cost_of_freedom(k, f) -
-                member.cost;
+    const auto [first, k] = std::pair(members_[m].first, members_[m].width);
+    scores[m] = score_with(m, members, *now,
+                           square_.block(first, first, k, k) -
+                               taken.middleCols(first, k).transpose() * taken.middleCols(first, k),
+                           against.segment(first, k));
+  }
+  return scores;
+}
+
+Eigen::MatrixXd Pool::scores_instead(std::span<const int> members) const {
+  Eigen::MatrixXd scores =
+      Eigen::MatrixXd::Constant(static_cast<Index>(members.size()), size(), kNever);
+  const std::optional<SetFit> now = judge(members);
+  if (!now || members.empty()) return scores;
+  const std::vector<Index> which = columns_of(members);
+  const auto wide = static_cast<Index>(which.size());
+  const Eigen::LLT<Eigen::MatrixXd> root(Eigen::MatrixXd(square_(which, which)));
+  const Eigen::MatrixXd taken = root.matrixL().solve(Eigen::MatrixXd(square_(which, Eigen::all)));
+  const Eigen::VectorXd explained = root.matrixL().solve(Eigen::VectorXd(against_(which)));
+  const Eigen::VectorXd against = against_ - taken.transpose() * explained;
+  const Eigen::MatrixXd inverse = root.matrixL().solve(Eigen::MatrixXd::Identity(wide, wide));
+  Index at = 0;
+  for (std::size_t i = 0; i < members.size(); ++i) {
+    const Index k = members_[members[i]].width;
+    // Without member i, what it took of others comes back to them: by its part of their regression
+    // on the set, times what the set's other members leave of it.
+    const Eigen::MatrixXd own = inverse.middleCols(at, k);
+    const Eigen::LLT<Eigen::MatrixXd> spread(own.transpose() * own);
+    const Eigen::MatrixXd back = spread.matrixL().solve(own.transpose() * taken);
+    const Eigen::VectorXd value = spread.matrixL().solve(own.transpose() * explained);
+    at += k;
+    SetFit rest = *now;
+    rest.freedom += static_cast<double>(k);
+    rest.left += value.squaredNorm();
+    rest.score += 0.5 * freedom_ * std::log(now->left / rest.left) +
+                  cost_of_freedom(static_cast<double>(k), now->f[i]) + members_[members[i]].cost;
+    std::vector<int> others(members.begin(), members.end());
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
+    for (int m = 0; m < size(); ++m) {
+      if (m == members[i]) continue;
+      const auto [first, w] = std::pair(members_[m].first, members_[m].width);
+      const auto taken_here = taken.middleCols(first, w);
+      const auto back_here = back.middleCols(first, w);
+      scores(static_cast<Index>(i), m) =
+          score_with(m, others, rest,
+                     square_.block(first, first, w, w) - taken_here.transpose() * taken_here +
+                         back_here.transpose() * back_here,
+                     against.segment(first, w) + back_here.transpose() * value);
+    }
   }
   return scores;
 }

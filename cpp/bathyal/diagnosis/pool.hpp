@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <map>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "bathyal/diagnosis/subject.hpp"
@@ -50,10 +52,15 @@ class Pool {
   auto columns(int member) const {
     return stack_.middleCols(members_[member].first, members_[member].width);
   }
+  /// (W,) of all members' columns in turn: the prior's part of their squares.
+  const Eigen::VectorXd& held_by() const { return held_by_; }
   double total() const { return total_; }      ///< sum of squares beside the base model
   double freedom() const { return freedom_; }  ///< of it
 
   /// The set, fitted; nothing when its members are not independent.
+  ///
+  /// Values are held to what is plausible (Beside::length), or weak directions of several members
+  /// would send each other to values at which columns mean nothing.
   ///
   /// The score is -(ν/2) ln(left) - Σ [ (k/2) ln(1 + F) + ln(trials) + kNameCost ]: the likelihood
   /// with the noise integrated out, less what a candidate's freedom costs. The cost of k columns is
@@ -65,6 +72,10 @@ class Pool {
   /// others' costs change); -inf for those of a cause that the set has, and dependent ones.
   Eigen::VectorXd scores_beside(std::span<const int> members) const;
 
+  /// (members, size()): the same beside the set without each of its members in turn. One look at
+  /// the whole set tells all of it, since what a member takes of the others follows from there.
+  Eigen::MatrixXd scores_instead(std::span<const int> members) const;
+
  private:
   struct Member {
     int form;
@@ -72,16 +83,23 @@ class Pool {
     Index first;
     Index width;
     double cost;  ///< ln(trials) + kNameCost
+    int cause;    ///< number of about->cause
   };
   std::vector<Index> columns_of(std::span<const int> members) const;
+  /// The quick score of `member` beside `others`, whose fit is `base` and which leave `square` and
+  /// `against` of its columns; kNever where it cannot stand there.
+  double score_with(int member, std::span<const int> others, const SetFit& base,
+                    const Eigen::MatrixXd& square, const Eigen::VectorXd& against) const;
 
   const Eigen::MatrixXd& basis_;
   Eigen::VectorXd misfit_;
   double total_;
   double freedom_;
   std::vector<Member> members_;
+  std::map<std::string, int> causes_;
   Eigen::MatrixXd stack_;    ///< (M, W) all candidates' columns
-  Eigen::MatrixXd square_;   ///< (W, W) stackᵀ stack
+  Eigen::VectorXd held_by_;  ///< (W,) 1 / variance of the columns' values before the data
+  Eigen::MatrixXd square_;   ///< (W, W) stackᵀ stack, and held_by on the diagonal
   Eigen::VectorXd against_;  ///< (W,) stackᵀ misfit
 };
 

@@ -25,22 +25,26 @@ std::vector<ScannedForm> scan(const Subject& subject, const std::vector<int>& fo
   parallel_for(forms.size(), kFormsAtOnce, num_threads, [&](std::size_t begin, std::size_t end) {
     const std::vector<Eigen::MatrixXd> columns =
         subject.columns(std::span(forms).subspan(begin, end - begin));
+    // All at once: a product with a few columns costs as much as one with many.
+    const Eigen::MatrixXd all = side_by_side(columns);
+    const Eigen::MatrixXd all_shared = basis.transpose() * all;
+    const Eigen::VectorXd all_against = all.transpose() * left;
+    Index first = 0;
     for (std::size_t i = begin; i < end; ++i) {
-      Eigen::MatrixXd own = columns[i - begin];
-      const Eigen::RowVectorXd lengths = own.colwise().norm();
-      for (Index c = 0; c < own.cols(); ++c) {
-        if (lengths[c] > 0.0) own.col(c) /= lengths[c];
-      }
-      const Eigen::MatrixXd shared = basis.transpose() * own;
+      const auto own = all.middleCols(first, columns[i - begin].cols());
+      const auto shared = all_shared.middleCols(first, own.cols());
+      const auto against = all_against.segment(first, own.cols());
+      first += own.cols();
+      const double longest = own.cols() > 0 ? own.colwise().norm().maxCoeff() : 0.0;
+      const double least = std::max(1.0, kSwallowed * longest);
       const Eigen::MatrixXd square = own.transpose() * own - shared.transpose() * shared;
-      const Eigen::VectorXd against = own.transpose() * left;
       const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(square);
       Eigen::VectorXd inverse = eigen.eigenvalues();
       double width = 0.0;
       for (double& value : inverse) {
-        const bool seen = value > kSwallowed * kSwallowed;
+        const bool seen = value > least * least;
         width += seen ? 1.0 : 0.0;
-        value = seen ? 1.0 / value : 0.0;
+        value = seen ? 1.0 / (1.0 + value) : 0.0;
       }
       const Eigen::VectorXd along = eigen.eigenvectors().transpose() * against;
       out[i] = {forms[i], -std::numeric_limits<double>::infinity(), 0.0, width};

@@ -69,6 +69,7 @@ std::vector<Scored> grown(const Pool& pool, const std::vector<Scored>& beam,
 
 /// Rivals less likely than e to minus this are not told.
 constexpr double kLeastOdds = 20.0;
+constexpr int kAskedOfCause = 3;  ///< forms of one cause that are judged in a member's place
 
 /// What a quick score may lack of the true one: others' costs change with a member.
 constexpr double kQuickScoreLacks = 6.0;
@@ -86,6 +87,28 @@ Scored better_of(const Pool& pool, const std::vector<int>& base, Scored best,
   return best;
 }
 
+/// The best exchange of one member for another, where one is better than `best`.
+Scored exchanged(const Pool& pool, const std::vector<int>& members, Scored best,
+                 const SetSearchOptions& options) {
+  const Eigen::MatrixXd scores = pool.scores_instead(members);
+  const double promising = best.score - kQuickScoreLacks;
+  std::vector<std::pair<double, std::vector<int>>> worth;
+  for (std::size_t i = 0; i < members.size(); ++i) {
+    const Eigen::VectorXd own = scores.row(static_cast<Index>(i));
+    for (const int m : best_of(own, options.extensions)) {
+      if (own[m] < promising) break;
+      worth.emplace_back(-own[m], with(without(members, i), m));
+    }
+  }
+  std::stable_sort(worth.begin(), worth.end());
+  if (worth.size() > options.exchanges) worth.resize(options.exchanges);
+  for (auto& [quick, exchange] : worth) {
+    const auto fit = pool.judge(exchange);
+    if (fit && fit->score > best.score) best = {std::move(exchange), fit->score};
+  }
+  return best;
+}
+
 /// The best set that differs by one member: added, where that helps; else dropped or exchanged.
 Scored improved(const Pool& pool, const Scored& now, const SetSearchOptions& options) {
   if (static_cast<int>(now.members.size()) < options.most) {
@@ -93,18 +116,20 @@ Scored improved(const Pool& pool, const Scored& now, const SetSearchOptions& opt
     if (larger.score > now.score) return larger;
   }
   Scored best = now;
+  std::map<std::string, int> causes;
   for (std::size_t i = 0; i < now.members.size(); ++i) {
-    const std::vector<int> rest = without(now.members, i);
+    std::vector<int> rest = without(now.members, i);
     const auto fit = pool.judge(rest);
-    if (fit && fit->score > best.score) best = {rest, fit->score};
-    best = better_of(pool, rest, std::move(best), options);
-    // One wide member may be all that several of its cause are, and fits none of them beside it.
+    if (fit && fit->score > best.score) best = {std::move(rest), fit->score};
+    ++causes[pool.about(now.members[i]).cause];
+  }
+  best = exchanged(pool, now.members, std::move(best), options);
+  // One wide member may be all that several of its cause are, and fits none of them beside it.
+  for (const auto& [cause, count] : causes) {
+    if (count < 2) continue;
     std::vector<int> without_kin = now.members;
-    std::erase_if(without_kin,
-                  [&](int m) { return pool.about(m).cause == pool.about(now.members[i]).cause; });
-    if (without_kin.size() + 1 < now.members.size()) {
-      best = better_of(pool, without_kin, std::move(best), options);
-    }
+    std::erase_if(without_kin, [&](int m) { return pool.about(m).cause == cause; });
+    best = better_of(pool, without_kin, std::move(best), options);
   }
   return best;
 }
@@ -141,16 +166,18 @@ std::vector<int> find_best_set(const Pool& pool, const SetSearchOptions& options
 std::vector<Rival> find_rivals(const Pool& pool, const std::vector<int>& set) {
   std::vector<Rival> out;
   const auto all = pool.judge(set);
+  const Eigen::MatrixXd quick = pool.scores_instead(set);
   const auto trials = [&](int m) { return std::log(pool.about(m).trials); };
   for (std::size_t i = 0; i < set.size(); ++i) {
     const std::vector<int> rest = without(set, i);
     const double own = all->score + trials(set[i]);
     std::map<std::string, Rival> best_of_cause;
-    const Eigen::VectorXd scores = pool.scores_beside(rest);
+    const Eigen::VectorXd scores = quick.row(static_cast<Index>(i));
+    std::map<std::string, int> asked;
     for (const int m : best_of(scores, pool.size())) {
       if (scores[m] + trials(m) < own - kLeastOdds) continue;
       const std::string& cause = pool.about(m).cause;
-      if (cause == pool.about(set[i]).cause) continue;
+      if (cause == pool.about(set[i]).cause || ++asked[cause] > kAskedOfCause) continue;
       const auto fit = pool.judge(with(rest, m));
       if (!fit) continue;
       // What helps as much beside the member as in its place stands for something else.

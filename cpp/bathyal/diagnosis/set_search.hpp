@@ -15,8 +15,9 @@ struct Rival {
 };
 
 struct SetSearchOptions {
-  int extensions = 12;  ///< of a set, by their quick score, that are judged
-  int most = 48;        ///< members
+  int extensions = 12;         ///< of a set, by their quick score, that are judged
+  std::size_t exchanges = 48;  ///< of a set, the same
+  int most = 48;               ///< members
 };
 
 /// The best set of a pool's candidates by Pool::judge: sets grow by one, the best of each size are

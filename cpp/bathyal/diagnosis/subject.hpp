@@ -73,8 +73,9 @@ class Subject {
   /// empty where there is nothing between.
   virtual std::vector<int> finer(int form) = 0;
 
-  /// (M, k) of each of `forms`: d modelled / d parameters where the model stands. Safe to call from
-  /// several threads.
+  /// (M, k) of each of `forms`: d modelled / d parameters where the model stands, each parameter in
+  /// units of the largest size that is plausible of it: that is the standard deviation of what is
+  /// thought of it before the data. Safe to call from several threads.
   virtual std::vector<Eigen::MatrixXd> columns(std::span<const int> forms) const = 0;
   virtual const Linearization& linearization() const = 0;
 

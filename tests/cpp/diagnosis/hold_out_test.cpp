@@ -39,11 +39,14 @@ TEST(HoldOut, ForetellsAsAFitToTheOthersDoes) {
   Blocks blocks;
   blocks.count = 4;
   for (int u = 0; u < 20; ++u) blocks.of.push_back(u % 4);
-  const HoldOut held(misfit, columns, unit, blocks, 2);
+  const HoldOut held(misfit, columns, Eigen::VectorXd::Zero(columns.cols()), unit, blocks, 2);
   const HeldOutErrors found = held.errors({0, 1, 3});
   EXPECT_EQ(held.rows(), kRows - 3.0);
   EXPECT_TRUE(found.error.head(3).isZero());
   EXPECT_TRUE(held.squares({0, 1, 3}).isApprox(found.of_block, 1e-9));
+  const Eigen::MatrixXd without = held.squares_without({0, 1, 3}, {{1}, {0, 3}});
+  EXPECT_TRUE(without.col(0).isApprox(held.squares({0, 3}), 1e-9));
+  EXPECT_TRUE(without.col(1).isApprox(held.squares({1}), 1e-9));
   for (int b = 0; b < 4; ++b) {
     std::vector<Index> own, others;
     for (Index r = 0; r < kRows; ++r) {
@@ -63,7 +66,7 @@ TEST(HoldOut, AColumnThatOneBlockAloneTellsStaysAtZero) {
   const Eigen::VectorXd misfit = Eigen::VectorXd::Constant(9, 2.0);
   const std::vector<int> unit{0, 0, 0, 1, 1, 1, 2, 2, 2};
   const Blocks blocks{{0, 1, 2}, 3, ""};
-  const HoldOut held(misfit, columns, unit, blocks, 1);
+  const HoldOut held(misfit, columns, Eigen::VectorXd::Zero(columns.cols()), unit, blocks, 1);
   EXPECT_NEAR(held.errors({0}).error[0], 2.0, 1e-9);
 }
 

@@ -27,6 +27,8 @@ Form named(const std::string& effect, int joint) {
   return {effect, joint, effect + std::to_string(joint), effect, 4.0};
 }
 
+constexpr double kPlausible = 1e6;  ///< so large that it holds nothing
+
 /// Three base columns, six candidates of two columns each; the misfit is made of the second and the
 /// fifth one, some of the base, and noise of size 1.
 class PoolTest : public ::testing::Test {
@@ -35,10 +37,11 @@ class PoolTest : public ::testing::Test {
     for (int f = 0; f < 6; ++f) {
       forms_.push_back(named("effect", f));
       ids_.push_back(f);
-      columns_.push_back(random_columns(static_cast<std::uint64_t>(10 + f), 2));
+      columns_.push_back(kPlausible * random_columns(static_cast<std::uint64_t>(10 + f), 2));
     }
-    misfit_ = base_ * Eigen::Vector3d(5.0, -3.0, 2.0) + columns_[1] * Eigen::Vector2d(1.0, 0.5) +
-              columns_[4] * Eigen::Vector2d(-0.7, 0.4) + random_columns(99, 1);
+    misfit_ = base_ * Eigen::Vector3d(5.0, -3.0, 2.0) +
+              columns_[1] * Eigen::Vector2d(1.0, 0.5) / kPlausible +
+              columns_[4] * Eigen::Vector2d(-0.7, 0.4) / kPlausible + random_columns(99, 1);
   }
   Pool pool() const {
     Pool out(basis_, misfit_, kRows - 3.0);
@@ -80,6 +83,37 @@ TEST_F(PoolTest, QuickScoresAreTheTrueOnesForTheFirstMember) {
     const std::vector<int> alone{m};
     EXPECT_NEAR(quick[m], p.judge(alone)->score, 1e-9);
   }
+}
+
+TEST_F(PoolTest, ScoresInsteadAreThoseBesideTheRest) {
+  // But for what the others' costs change when a member goes, which is the same for all.
+  const Pool p = pool();
+  const std::vector<int> both{1, 4}, rest{4};
+  const Eigen::VectorXd beside = p.scores_beside(rest);
+  const Eigen::MatrixXd instead = p.scores_instead(both);
+  const double change = instead(0, 0) - beside[0];
+  EXPECT_LT(std::abs(change), 3.0);
+  for (const int m : {2, 3, 5}) EXPECT_NEAR(instead(0, m), beside[m] + change, 1e-9) << m;
+  EXPECT_TRUE(std::isinf(instead(0, 1)) && std::isinf(instead(0, 4)));
+}
+
+TEST_F(PoolTest, ValuesAreHeldToWhatIsPlausible) {
+  // Two candidates that all but oppose each other: free, they would fit noise by huge values.
+  misfit_ = random_columns(98, 1);
+  const Eigen::MatrixXd common = random_columns(97, 1);
+  const double length = common.norm();
+  columns_[0] = 10.0 * common / length;
+  columns_[1] = columns_[0] + 0.01 * random_columns(96, 1) / length;
+  for (auto& columns : columns_) columns.conservativeResize(kRows, 1);
+  Pool p(basis_, misfit_, kRows - 3.0);
+  p.add(ids_, forms_, columns_, 1);
+  const std::vector<int> both{0, 1}, one{0};
+  EXPECT_NEAR(p.judge(both)->left, p.judge(one)->left, 0.02);
+}
+
+TEST_F(PoolTest, WhatCouldNotBeSeenAtItsLargestIsNoCandidate) {
+  columns_[2] = 0.9 * random_columns(95, 1) / random_columns(95, 1).norm();
+  EXPECT_EQ(pool().size(), 5);
 }
 
 TEST_F(PoolTest, TheSearchFindsTheSetAndNothingBesideIt) {
