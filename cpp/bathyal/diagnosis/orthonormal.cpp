@@ -35,7 +35,7 @@ Eigen::MatrixXd orthonormal(Eigen::MatrixXd columns, double tolerance) {
 Beside orthonormal_beside(const Eigen::MatrixXd& basis, Eigen::MatrixXd columns) {
   if (columns.cols() == 0) return {std::move(columns), {}};
   const double longest = columns.colwise().norm().maxCoeff();
-  const double least = std::max(1.0, kSwallowed * longest);
+  const double least = std::max(kLeastSeen, kSwallowed * longest);
   columns -= basis * (basis.transpose() * columns);
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(columns.transpose() * columns);
   const Eigen::VectorXd& squares = eigen.eigenvalues();

@@ -14,6 +14,10 @@ using Eigen::Index;
 /// telling: the columns before it can do the same.
 inline constexpr double kSwallowed = 1e-4;
 
+/// Of a direction's length at the largest plausible size, in standard deviations of the noise: what
+/// moves the misfit less by all rows together could not be seen.
+inline constexpr double kLeastSeen = 2.0;
+
 /// All columns in one.
 Eigen::MatrixXd side_by_side(const std::vector<Eigen::MatrixXd>& columns);
 
@@ -33,9 +37,8 @@ struct Beside {
   Eigen::VectorXd length;
 };
 
-/// The part of `columns` that is orthogonal to `basis`. A direction of it is left out where it is
-/// shorter than 1, or than kSwallowed of the longest column: with columns per largest plausible
-/// size, it could not move the misfit by one standard deviation of the noise.
+/// The part of `columns` (per largest plausible size) that is orthogonal to `basis`. A direction of
+/// it is left out where it is shorter than kLeastSeen, or than kSwallowed of the longest column.
 Beside orthonormal_beside(const Eigen::MatrixXd& basis, Eigen::MatrixXd columns);
 
 }  // namespace bathyal

@@ -98,17 +98,24 @@ TEST_F(PoolTest, ScoresInsteadAreThoseBesideTheRest) {
 }
 
 TEST_F(PoolTest, ValuesAreHeldToWhatIsPlausible) {
-  // Two candidates that all but oppose each other: free, they would fit noise by huge values.
-  misfit_ = random_columns(98, 1);
-  const Eigen::MatrixXd common = random_columns(97, 1);
-  const double length = common.norm();
-  columns_[0] = 10.0 * common / length;
-  columns_[1] = columns_[0] + 0.01 * random_columns(96, 1) / length;
-  for (auto& columns : columns_) columns.conservativeResize(kRows, 1);
-  Pool p(basis_, misfit_, kRows - 3.0);
-  p.add(ids_, forms_, columns_, 1);
-  const std::vector<int> both{0, 1}, one{0};
-  EXPECT_NEAR(p.judge(both)->left, p.judge(one)->left, 0.02);
+  // One standard deviation of noise at the largest plausible size, three times over: the value that
+  // noise alone asks for is shrunk by 1 + 1 / 9.
+  columns_[0] = random_columns(97, 1);
+  columns_[0] -= basis_ * (basis_.transpose() * columns_[0]);
+  columns_[0] *= 3.0 / columns_[0].norm();
+  misfit_ = 2.0 * columns_[0];
+  const Pool p = pool();
+  const std::vector<int> one{0};
+  const double unexplained = 1.0 - 1.0 / (1.0 + 1.0 / 9.0);
+  EXPECT_NEAR(p.judge(one)->left, 36.0 * unexplained * unexplained, 1e-9);
+}
+
+TEST_F(PoolTest, TwoWordsForOneThingAreNotNamedTogether) {
+  for (auto& columns : columns_) columns /= kPlausible;
+  columns_[2] = columns_[1];
+  const Pool p = pool();
+  const std::vector<int> both{1, 2};
+  EXPECT_FALSE(p.judge(both));
 }
 
 TEST_F(PoolTest, WhatCouldNotBeSeenAtItsLargestIsNoCandidate) {
