@@ -106,11 +106,15 @@ Blocks cut(const Units& units, int wanted, bool by_point) {
   }
   const auto blocks = std::min(static_cast<std::size_t>(wanted), n);
   std::map<int, int> block_of_key;
+  std::size_t dealt = 0;
   for (const int i : order) {
     if (block_of_key.contains(key[i])) continue;
     std::size_t& place = before[units.session[i]];
     const std::size_t size = size_in_session[units.session[i]];
-    block_of_key[key[i]] = static_cast<int>(std::min(place * blocks / size, blocks - 1));
+    // A session of fewer units than blocks has none for some: the next one goes on there.
+    const std::size_t block =
+        size < blocks ? dealt++ % blocks : std::min(place * blocks / size, blocks - 1);
+    block_of_key[key[i]] = static_cast<int>(block);
     place += size_of_key[key[i]];
   }
   std::vector<int> raw(n);

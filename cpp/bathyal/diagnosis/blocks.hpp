@@ -8,6 +8,8 @@
 
 namespace bathyal {
 
+inline constexpr int kLeastBlocks = 3;  ///< fewer hold nothing out
+
 /// Which units are held out together: (units,) block numbers 0 … count - 1.
 struct Blocks {
   std::vector<int> of;

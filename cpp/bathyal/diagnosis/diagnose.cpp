@@ -8,6 +8,7 @@
 
 #include "bathyal/base/check.hpp"
 #include "bathyal/diagnosis/arm_subject.hpp"
+#include "bathyal/diagnosis/doubts_of_record.hpp"
 #include "bathyal/diagnosis/examination.hpp"
 #include "bathyal/diagnosis/next_poses.hpp"
 #include "bathyal/identify/f_distribution.hpp"
@@ -43,13 +44,12 @@ class Reporter {
     out_.residuals_before = subject_.bare_deviations();
     out_.residuals_after = subject_.deviations();
     tell_noise();
-    out_.detectable = found_.detectable * unit();
     tell_shown();
     if (!found_.held_out) {
-      out_.warnings.push_back(
-          "Too few data to hold any out: what is shown is all that can be said.");
+      tell_why_nothing_is_held_out();
       return std::move(out_);
     }
+    out_.detectable = found_.detectable * unit();
     tell_held_out();
     tell_effects();
     tell_leftover();
@@ -95,6 +95,18 @@ class Reporter {
       out_.shown.push_back(
           {form(d.form).effect, form(d.form).words, d.size * found_.base_noise, d.share, d.p});
     }
+  }
+
+  void tell_why_nothing_is_held_out() {
+    constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
+    HeldOut& out = out_.held_out;
+    out.how =
+        counted(m_.rows(), m_.tracked ? "pose" : "touch", m_.tracked ? "poses" : "touches") +
+        (found_.blocks.count < kLeastBlocks ? " are near-twins of too few to make three blocks"
+                                            : " leave hardly more equations than unknowns");
+    out.noise = std::sqrt(3.0) * out_.noise;
+    out.rms_before = out.rms_after = out_.gain = out_.detectable = kNothing;
+    out_.warnings.push_back("Too few data to hold any out: what is shown is all that can be said.");
   }
 
   void tell_held_out() {
@@ -286,10 +298,16 @@ Diagnosis run(const Arm& arm, const Measurement& measurement, const Covariates& 
   identify.parametrization = options.parametrization;
   identify.fixed = options.fixed;
   identify.num_threads = options.num_threads;
+  // Bad covariates are refused before anything takes its time.
+  make_effect_data(arm, measurement.q, covariates, measurement.has_rotation());
   ArmSubject subject(arm, measurement, covariates, identify, effects);
   const ExaminationOptions asked{options.num_threads, options.blocks};
   const Examination found = examine(subject, asked, progress);
   Diagnosis out = Reporter(subject, measurement, arm, found, options).report();
+  for (const auto& sentences : {subject.geometry_doubts(), subject.untried(),
+                                doubt_record(measurement, subject.data(), effects)}) {
+    out.warnings.insert(out.warnings.end(), sentences.begin(), sentences.end());
+  }
   if (out.verdict == Verdict::kAmbiguous) {
     out.next_poses = next_poses(subject, found, options.rival_odds, options.num_next_poses);
   }

@@ -23,7 +23,6 @@ constexpr int kFinerRounds = 3;
 constexpr double kPlainBonus =
     3.0;  ///< log evidence: two and a half standard deviations of an order
 constexpr double kLeastFreedom = 10.0;
-constexpr int kLeastBlocks = 3;
 
 void append(Eigen::MatrixXd& columns, const Eigen::MatrixXd& more) {
   columns.conservativeResize(Eigen::NoChange, columns.cols() + more.cols());
