@@ -8,6 +8,7 @@
 
 #include "bathyal/base/check.hpp"
 #include "bathyal/diagnosis/arm_subject.hpp"
+#include "bathyal/diagnosis/copies.hpp"
 #include "bathyal/diagnosis/doubts_of_record.hpp"
 #include "bathyal/diagnosis/examination.hpp"
 #include "bathyal/diagnosis/next_poses.hpp"
@@ -289,6 +290,11 @@ void check_effects(const std::vector<std::shared_ptr<const Effect>>& effects) {
   }
 }
 
+void check_positions_differ(const RowMatrix& position) {
+  if ((position.rowwise() - position.row(0)).cwiseAbs().maxCoeff() > 0.0) return;
+  throw_argument("position", "positions that differ", "the same in all rows");
+}
+
 Diagnosis run(const Arm& arm, const Measurement& measurement, const Covariates& covariates,
               const DiagnoseOptions& options,
               const std::vector<std::shared_ptr<const Effect>>& effects,
@@ -304,8 +310,8 @@ Diagnosis run(const Arm& arm, const Measurement& measurement, const Covariates& 
   const ExaminationOptions asked{options.num_threads, options.blocks};
   const Examination found = examine(subject, asked, progress);
   Diagnosis out = Reporter(subject, measurement, arm, found, options).report();
-  for (const auto& sentences : {subject.geometry_doubts(), subject.untried(),
-                                doubt_record(measurement, subject.data(), effects)}) {
+  for (const auto& sentences :
+       {subject.geometry_doubts(), subject.untried(), doubt_record(subject.data(), effects)}) {
     out.warnings.insert(out.warnings.end(), sentences.begin(), sentences.end());
   }
   if (out.verdict == Verdict::kAmbiguous) {
@@ -334,7 +340,13 @@ Diagnosis diagnose(const Arm& arm, const Tracked& tracked, const DiagnoseOptions
                    const std::vector<std::shared_ptr<const Effect>>& effects,
                    const DiagnosisProgress& progress) {
   options.check();
-  return run(arm, to_measurement(arm, tracked), tracked.covariates, options, effects, progress);
+  tracked.check();
+  check_positions_differ(tracked.position);
+  const std::vector<int> of = find_copies(tracked);
+  const Tracked once = without_copies(tracked, of);
+  Diagnosis out = run(arm, to_measurement(arm, once), once.covariates, options, effects, progress);
+  spread_over_copies(of, out);
+  return out;
 }
 
 }  // namespace bathyal

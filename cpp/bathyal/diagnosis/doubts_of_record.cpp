@@ -126,27 +126,6 @@ void doubt_sessions(const EffectData& data, Sentences& out) {
                 " fewer than three rows: whether base or tool moved there cannot be seen.");
 }
 
-/// Touches are joint values alone, which an encoder may well repeat to the last digit.
-void doubt_copies(const Measurement& m, Sentences& out) {
-  if (!m.tracked) return;
-  const auto numbers = [&](int i) {
-    std::vector<double> all(m.q.row(i).begin(), m.q.row(i).end());
-    all.insert(all.end(), m.position.col(i).begin(), m.position.col(i).end());
-    return all;
-  };
-  std::set<std::vector<double>> known;
-  std::vector<int> copies;
-  for (int i = 0; i < static_cast<int>(m.rows()); ++i) {
-    if (!known.insert(numbers(i)).second) copies.push_back(i);
-  }
-  if (copies.empty()) return;
-  out.push_back((copies.size() == 1 ? "One row is a copy"
-                                    : std::to_string(copies.size()) + " rows are copies") +
-                std::string(" of others to the last digit (row ") + listed(copies, 3) +
-                ", counted from 0): each counts as a measurement of its own, and what is found "
-                "looks surer than it is. Hand in each measurement once.");
-}
-
 void doubt_own_effects(const EffectData& data, const Effects& effects, Sentences& out) {
   std::set<std::string> library;
   for (const auto& effect : library_effects()) library.insert(effect->info().name);
@@ -163,10 +142,8 @@ void doubt_own_effects(const EffectData& data, const Effects& effects, Sentences
 
 }  // namespace
 
-std::vector<std::string> doubt_record(const Measurement& measurement, const EffectData& data,
-                                      const Effects& effects) {
+std::vector<std::string> doubt_record(const EffectData& data, const Effects& effects) {
   Sentences out;
-  doubt_copies(measurement, out);
   doubt_missing(data, effects, out);
   doubt_constant(data, out);
   doubt_time(data, out);

@@ -6,15 +6,13 @@
 #include <vector>
 
 #include "bathyal/identify/effect.hpp"
-#include "bathyal/identify/measurement.hpp"
 
 namespace bathyal {
 
 /// What a person should know of what was recorded beside the poses, in sentences: covariates that
-/// are missing in parts or never change, times that run backwards, sessions too short to tell, rows
-/// that are copies, effects of the user's own that want what was not recorded. For use inside the
-/// room.
-std::vector<std::string> doubt_record(const Measurement& measurement, const EffectData& data,
+/// are missing in parts or never change, times that run backwards, sessions too short to tell,
+/// effects of the user's own that want what was not recorded. For use inside the room.
+std::vector<std::string> doubt_record(const EffectData& data,
                                       const std::vector<std::shared_ptr<const Effect>>& effects);
 
 }  // namespace bathyal

@@ -49,8 +49,14 @@ class Examiner {
     double score = -std::numeric_limits<double>::infinity();
   };
 
-  void tell(double done, const std::string& stage) const {
-    if (progress_) progress_(done, stage);
+  void tell(double done, const std::string& stage) {
+    done_ = done;
+    stage_ = stage;
+    tell_again();
+  }
+  /// Within a long stage: whoever listens may want to stop.
+  void tell_again() const {
+    if (progress_) progress_(done_, stage_);
   }
   bool is_probe(int form) const { return subject_.forms()[form].probe; }
 
@@ -85,6 +91,8 @@ class Examiner {
   std::vector<int> probes_;
   Eigen::VectorXd trust_;
   Examination out_;
+  double done_ = 0.0;
+  std::string stage_;
 };
 
 Examiner::Ground Examiner::ground(const std::vector<int>& forms) const {
@@ -133,6 +141,7 @@ void Examiner::remember(int form) {
 void Examiner::add_peaks(const Ground& beside) {
   for (const std::vector<int>& family : subject_.scans()) {
     if (is_probe(family.front())) continue;
+    tell_again();
     const std::vector<ScannedForm> scanned =
         scan(subject_, family, beside.basis, subject_.linearization().misfit, beside.freedom,
              options_.num_threads);
@@ -183,6 +192,7 @@ std::vector<int> Examiner::best_forms(std::vector<int> start) {
   const Ground base = ground({});
   std::vector<int> forms = std::move(start);
   for (int round = 0; round < kMostScans; ++round) {
+    tell_again();
     const Pool pool = pool_of(base, candidates_);
     const std::vector<int> set =
         forms.empty() ? find_best_set(pool) : improve_set(pool, members_of(pool, forms));
@@ -226,6 +236,7 @@ Examiner::Explanation Examiner::explain(Eigen::VectorXd trust) {
   subject_.set_trust(trust);
   subject_.settle({});
   for (int pass = 0; pass < kMostPasses; ++pass) {
+    tell_again();
     const std::vector<int> forms = best_forms(out.forms);
     subject_.settle(forms);
     const Ground whole = ground(forms);
@@ -321,6 +332,7 @@ std::vector<Dependence> Examiner::dependences(const Ground& beside) const {
 /// only the nearest thing to what it is.
 void Examiner::look_beyond_names() {
   for (int round = 0; round < kMostPasses; ++round) {
+    tell_again();
     std::vector<int> standing = names_;
     standing.insert(standing.end(), probes_.begin(), probes_.end());
     const std::vector<Dependence> beyond = dependences(ground(standing));

@@ -103,10 +103,6 @@ void check_positions(const RowMatrix& position) {
       }
     }
   }
-  if ((position.rowwise() - position.row(0)).cwiseAbs().maxCoeff() == 0.0) {
-    throw_argument("position", "positions that differ",
-                   rows_text(static_cast<std::size_t>(position.rows())) + " that are all equal");
-  }
 }
 
 void check_planes(const Touches& touches) {

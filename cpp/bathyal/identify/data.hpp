@@ -67,7 +67,7 @@ struct Tracked {
   std::vector<int> station;     ///< (N,) where the base, or the tracker, stood; empty: one place
   Covariates covariates;        ///< each (N, k)
 
-  /// \throw std::invalid_argument as Touches::check, and for positions that are all equal
+  /// \throw std::invalid_argument as Touches::check
   void check() const;
 };
 
