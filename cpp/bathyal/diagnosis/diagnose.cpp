@@ -103,7 +103,7 @@ class Reporter {
     HeldOut& out = out_.held_out;
     out.how =
         counted(m_.rows(), m_.tracked ? "pose" : "touch", m_.tracked ? "poses" : "touches") +
-        (found_.blocks.count < kLeastBlocks ? " are near-twins of too few to make three blocks"
+        (found_.blocks.count < kLeastBlocks ? " make fewer than three blocks of poses that differ"
                                             : " leave hardly more equations than unknowns");
     out.noise = std::sqrt(3.0) * out_.noise;
     out.rms_before = out.rms_after = out_.gain = out_.detectable = kNothing;

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <set>
@@ -54,6 +55,16 @@ TEST(HoldOut, ForetellsAsAFitToTheOthersDoes) {
         Eigen::MatrixXd(columns(others, which)).colPivHouseholderQr().solve(misfit(others));
     const Eigen::VectorXd error = misfit(own) - columns(own, which) * values;
     EXPECT_TRUE(error.isApprox(found.error(own), 1e-6)) << b;
+  }
+}
+
+TEST(Blocks, SessionsOfFewRowsShareThem) {
+  Units units = units_of(90);
+  for (const int rows : {1, 2, 3}) {
+    for (int u = 0; u < 90; ++u) units.session[static_cast<std::size_t>(u)] = u / rows;
+    const Blocks blocks = make_blocks(units, 10);
+    ASSERT_EQ(blocks.count, 10) << rows;
+    for (int b = 0; b < 10; ++b) EXPECT_EQ(std::count(blocks.of.begin(), blocks.of.end(), b), 9);
   }
 }
 
