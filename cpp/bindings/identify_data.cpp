@@ -48,8 +48,9 @@ std::vector<int> numbers_argument(std::string_view name, const py::object& objec
   std::vector<int> numbers;
   for (Index i = 0; i < values.rows(); ++i) {
     const double value = values.data()[i];
-    if (!(std::abs(value) <= 2147483647.0) || value != std::floor(value)) {
-      throw_argument(name, "whole numbers of 32 bits",
+    const bool whole = value == std::floor(value);
+    if (!whole || !(std::abs(value) <= 2147483647.0)) {
+      throw_argument(name, whole ? "whole numbers of 32 bits" : "whole numbers",
                      to_text(value) + " at row " + std::to_string(i));
     }
     numbers.push_back(static_cast<int>(value));

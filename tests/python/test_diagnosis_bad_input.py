@@ -17,6 +17,7 @@ import bathyal
 from bathyal import Tracked
 from bathyal.effects import Effect
 from diagnosis_record import ARM, NAN, TIME, N, P, Q, diagnosed, is_right, record, refuses, some
+from touch_cases import drawn, touched
 
 # What is recorded beside --------------------------------------------------------------------------
 
@@ -155,6 +156,21 @@ def test_copies_of_rows_count_once() -> None:
         assert rows.shape == (3, N + 3)
     assert np.array_equal(report.residuals_after, plain.residuals_after[:, twice])
     assert np.array_equal(report.held_out.after, plain.held_out.after[twice])
+
+
+def test_a_table_of_touches_handed_in_twice_counts_once() -> None:
+    touches, arm = touched(3, 25).touches(), drawn()
+    q, point = touches.q, touches.point
+    plain = bathyal.diagnose(arm, touches)
+    report = bathyal.diagnose(arm, bathyal.Touches(np.r_[q, q], np.r_[point, point]))
+    assert (report.verdict, report.gain) == (plain.verdict, plain.gain)
+    assert report.warnings[-1].startswith("75 rows are copies of others to the last digit")
+    assert report.residuals_after.shape == (3, 150)
+
+
+def test_repeats_with_another_load_are_no_copies() -> None:
+    report = diagnosed(np.r_[Q, Q], np.r_[P, P], covariates={"payload": np.repeat([0.0, 2.0], N)})
+    assert report.warnings == []
 
 
 def test_outliers_are_named_by_their_rows_among_copies() -> None:

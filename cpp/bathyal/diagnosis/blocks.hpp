@@ -22,7 +22,8 @@ struct Blocks {
 std::vector<int> find_twins(const Eigen::Ref<const Eigen::MatrixXd>& q, double near);
 
 /// `wanted` blocks of units that follow one another in time, cut inside each session alike, twins
-/// always in one block; by points, where units have them and there are enough. Fewer blocks where
+/// always in one block; by points, where units have them and there are enough. Sessions of fewer
+/// units than blocks are dealt out over them one after another. Fewer blocks where
 /// there are few units; one, which cannot be held out, where twins chain everything together.
 Blocks make_blocks(const Units& units, int wanted = 10);
 

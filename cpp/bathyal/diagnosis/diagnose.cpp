@@ -320,6 +320,17 @@ Diagnosis run(const Arm& arm, const Measurement& measurement, const Covariates& 
   return out;
 }
 
+template <class Data>
+Diagnosis run_without_copies(const Arm& arm, const Data& data, const DiagnoseOptions& options,
+                             const std::vector<std::shared_ptr<const Effect>>& effects,
+                             const DiagnosisProgress& progress) {
+  const std::vector<int> of = find_copies(data);
+  const Data once = without_copies(data, of);
+  Diagnosis out = run(arm, to_measurement(arm, once), once.covariates, options, effects, progress);
+  spread_over_copies(of, out);
+  return out;
+}
+
 }  // namespace
 
 void DiagnoseOptions::check() const {
@@ -333,7 +344,8 @@ Diagnosis diagnose(const Arm& arm, const Touches& touches, const DiagnoseOptions
                    const std::vector<std::shared_ptr<const Effect>>& effects,
                    const DiagnosisProgress& progress) {
   options.check();
-  return run(arm, to_measurement(arm, touches), touches.covariates, options, effects, progress);
+  touches.check();
+  return run_without_copies(arm, touches, options, effects, progress);
 }
 
 Diagnosis diagnose(const Arm& arm, const Tracked& tracked, const DiagnoseOptions& options,
@@ -342,11 +354,7 @@ Diagnosis diagnose(const Arm& arm, const Tracked& tracked, const DiagnoseOptions
   options.check();
   tracked.check();
   check_positions_differ(tracked.position);
-  const std::vector<int> of = find_copies(tracked);
-  const Tracked once = without_copies(tracked, of);
-  Diagnosis out = run(arm, to_measurement(arm, once), once.covariates, options, effects, progress);
-  spread_over_copies(of, out);
-  return out;
+  return run_without_copies(arm, tracked, options, effects, progress);
 }
 
 }  // namespace bathyal
