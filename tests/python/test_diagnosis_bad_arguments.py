@@ -165,6 +165,14 @@ def test_a_signal_stops_the_engine_before_its_stage_is_over(alarm: Any) -> None:
     assert max(told) < 0.5
 
 
+def test_progress_is_asked_often_within_the_search_so_that_it_can_be_stopped() -> None:
+    told: list[tuple[float, str]] = []
+    diagnosed(options={"progress": lambda done, stage: told.append((done, stage))})
+    assert told == sorted(told, key=lambda one: one[0])
+    assert told.count((0.2, "looking for causes")) > 5
+    assert told[-1] == (1.0, "done")
+
+
 def test_an_interrupted_command_leaves_nothing(
     alarm: Any, tmp_path: Path, capsys: Any, monkeypatch: Any
 ) -> None:
