@@ -185,6 +185,8 @@ def test_outliers_are_named_by_their_rows_among_copies() -> None:
 def test_exact_data_are_clean() -> None:
     report = diagnosed(*record(noise=0.0, size=0.0))
     assert (report.verdict, report.effects) == ("clean", [])
+    assert report.warnings[0].startswith("Noise of 1e-06 mm per axis is less than any instrument")
+    is_right(diagnosed(*record(noise=1e-6)))
 
 
 @pytest.mark.parametrize("noise", [1.0, 1e3])

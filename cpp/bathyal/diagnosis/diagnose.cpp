@@ -85,6 +85,13 @@ class Reporter {
       out_.noise = unit();
       out_.noise_source = "what the model leaves";
     }
+    constexpr double kComputed = 1e-7;  // [m] at which steps of the search come to be seen
+    if (found_.held_out && out_.noise < kComputed) {
+      out_.warnings.push_back(
+          "Noise of " + millimetres(out_.noise) +
+          " per axis is less than any instrument has: these data look computed, and what the "
+          "search rounds off passes for structure. Give them the noise of an instrument.");
+    }
   }
 
   void tell_shown() {
