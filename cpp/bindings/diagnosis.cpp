@@ -184,26 +184,40 @@ void bind_result(py::module_& module) {
       });
 }
 
+std::string type_of(const py::handle& object) {
+  return py::str(py::type::of(object).attr("__name__")).cast<std::string>();
+}
+
 std::vector<std::shared_ptr<const Effect>> effects_argument(const py::object& effects) {
+  const char* expected = "a list of effects, as bathyal.effects.list()";
   if (effects.is_none()) return library_effects();
+  if (py::isinstance<py::str>(effects) || !py::isinstance<py::iterable>(effects)) {
+    throw_argument("effects", expected, type_of(effects));
+  }
   std::vector<std::shared_ptr<const Effect>> out;
   for (const py::handle effect : effects) {
     if (!py::isinstance<Effect>(effect)) {
-      throw_argument("effects", "effects, as in bathyal.effects.list()",
-                     py::repr(effect).cast<std::string>());
+      throw_argument("effects", expected, py::repr(effect).cast<std::string>() + " in it");
     }
     out.push_back(effect.cast<std::shared_ptr<Effect>>());
   }
   return out;
 }
 
+const Arm& arm_argument(const py::object& arm) {
+  if (py::isinstance<Arm>(arm)) return arm.cast<const Arm&>();
+  throw_argument("arm", "an Arm; of a corrected one its rigid part, `.arm`", type_of(arm));
+}
+
 void bind_function(py::module_& module) {
   const DiagnoseOptions defaults;
   module.def(
       "diagnose",
-      [](const Arm& arm, const py::object& data, const py::object& effects,
+      [](const py::typing::Union<Arm>& told, const py::typing::Union<Touches, Tracked>& data,
+         const py::typing::Optional<py::typing::Iterable<Effect>>& effects,
          std::vector<std::string> fixed, int blocks, double rival_odds, double leftover,
          int num_next_poses, const py::object& progress, int num_threads) {
+        const Arm& arm = arm_argument(told);
         const DiagnoseOptions options{.fixed = std::move(fixed),
                                       .blocks = blocks,
                                       .rival_odds = rival_odds,
@@ -211,6 +225,10 @@ void bind_function(py::module_& module) {
                                       .num_next_poses = num_next_poses,
                                       .num_threads = num_threads};
         const auto asked = effects_argument(effects);
+        if (!progress.is_none() && PyCallable_Check(progress.ptr()) == 0) {
+          throw_argument("progress", "a function of (share done, what comes next)",
+                         type_of(progress));
+        }
         const DiagnosisProgress tell = [&](double done, const std::string& stage) {
           const py::gil_scoped_acquire acquire;
           if (PyErr_CheckSignals() != 0) throw py::error_already_set();
@@ -227,8 +245,7 @@ void bind_function(py::module_& module) {
         };
         if (py::isinstance<Touches>(data)) return run(data.cast<const Touches&>());
         if (py::isinstance<Tracked>(data)) return run(data.cast<const Tracked&>());
-        throw_argument("data", "Touches or Tracked",
-                       std::string(py::str(py::type::of(data).attr("__name__"))));
+        throw_argument("data", "Touches or Tracked", type_of(data));
       },
       py::arg("arm"), py::arg("data"), py::kw_only(), py::arg("effects") = py::none(),
       py::arg("fixed") = defaults.fixed, py::arg("blocks") = defaults.blocks,

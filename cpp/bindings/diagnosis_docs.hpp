@@ -42,7 +42,8 @@ arm : Arm
 data : Touches or Tracked
     With any of the covariates `temperature` (N,) [°C], `time` (N,) [s], `payload` (N,) [kg at the
     tool centre point], `direction` (N, n) -1, 0 or 1, `gravity` (N, 3) [m/s², base frame] and
-    `session` (N,); others are looked at for structure.
+    `session` (N,); others are looked at for structure. One that is missing (nan) in some rows is
+    not used, and a warning says so. Rows that repeat another to the last digit count once.
 effects : list of Effect, optional
     What may be named; `bathyal.effects.list()` unless given.
 fixed : list of str
@@ -57,7 +58,7 @@ leftover : float
 num_next_poses : int
     How many poses to propose where causes cannot be told apart.
 progress : callable, optional
-    Called with (share done, what comes next).
+    Called with (share done, what comes next), often within a stage; what it raises ends the run.
 num_threads : int
     0 = all; the same bytes for any number.
 
@@ -68,9 +69,10 @@ Diagnosis
 Raises
 ------
 ValueError
-    For bad data, covariates or options, another number of joints, an effect given twice.
+    For bad data, covariates or options, another number of joints, an effect given twice, one of
+    the user's own that gives another shape, numbers that are not finite, or others when asked again.
 bathyal.Error
-    For an effect of the user's own that fails.
+    For an effect of the user's own that raises.
 
 Examples
 --------

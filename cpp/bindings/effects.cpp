@@ -3,6 +3,7 @@
 
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <limits>
 #include <utility>
 
@@ -69,6 +70,11 @@ std::shared_ptr<Effect> make_effect(std::string name, py::function function,
     const double scale = told_or(scales, parameter, kOrdinarySize);
     told.info.ranges.push_back({parameter, unit, 0.0, std::numeric_limits<double>::infinity()});
     told.parameters.push_back({std::move(parameter), std::move(unit), scale});
+  }
+  for (const auto& [parameter, scale] : scales) {
+    const bool known = std::any_of(told.parameters.begin(), told.parameters.end(),
+                                   [&](const EffectParameter& p) { return p.name == parameter; });
+    if (!known) throw_argument("scales", "names of parameters", "\"" + parameter + "\"");
   }
   if (py::isinstance<py::str>(joints)) {
     const auto word = joints.cast<std::string>();

@@ -48,8 +48,10 @@ std::vector<int> numbers_argument(std::string_view name, const py::object& objec
   std::vector<int> numbers;
   for (Index i = 0; i < values.rows(); ++i) {
     const double value = values.data()[i];
-    if (!(std::abs(value) <= 2147483647.0) || value != std::floor(value)) {
-      throw_argument(name, "whole numbers", to_text(value) + " at row " + std::to_string(i));
+    const bool whole = value == std::floor(value);
+    if (!whole || !(std::abs(value) <= 2147483647.0)) {
+      throw_argument(name, whole ? "whole numbers of 32 bits" : "whole numbers",
+                     to_text(value) + " at row " + std::to_string(i));
     }
     numbers.push_back(static_cast<int>(value));
   }
@@ -76,9 +78,11 @@ Covariates covariates_argument(const py::object& covariates, const py::object& s
       if (array.ndim() == 1) {
         const Values values = values_argument("covariates " + name, object);
         out[name] = values.view();
+      } else if (array.ndim() == 2) {
+        out[name] = table_argument("covariates " + name, object, array.shape(1));
       } else {
-        out[name] =
-            table_argument("covariates " + name, object, array.ndim() == 2 ? array.shape(1) : 1);
+        throw_argument("covariates " + name, "real numbers of shape (N,) or (N, k)",
+                       std::to_string(array.ndim()) + " dimensions");
       }
     }
   }

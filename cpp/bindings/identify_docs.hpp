@@ -34,6 +34,7 @@ tool, station : (N,) int array
     Which tool touched, and where the base stood, each counted from 0.
 covariates : dict
     {name: (N,) or (N, k) array} recorded beside: temperature, time, payload, direction, gravity …
+    nan in rows where it was not recorded.
 session : (N,) int array
     Short for the covariate ``session``.
 names : dict
@@ -71,6 +72,7 @@ tool, station : (N,) int array
     Which target on the tool was seen, and where base and instrument stood, each counted from 0.
 covariates : dict
     {name: (N,) or (N, k) array} recorded beside: temperature, time, payload, direction, gravity …
+    nan in rows where it was not recorded.
 session : (N,) int array
     Short for the covariate ``session``.
 

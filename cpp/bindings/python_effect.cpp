@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "arrays.hpp"
@@ -108,6 +109,12 @@ class PythonEffect final : public Effect {
     const Index parameters = static_cast<Index>(told_.parameters.size());
     const Index width = is_frame() ? 6 : 1;
     const RowMatrix numbers = call(variant, data, parameters, width);
+    if (!asked_twice_) {
+      asked_twice_ = true;
+      if (call(variant, data, parameters, width) != numbers) {
+        throw_argument(name(), "the same numbers whenever it is asked", "others the second time");
+      }
+    }
     std::vector<std::vector<Action>> actions;
     for (Index p = 0; p < parameters; ++p) {
       actions.push_back({site_of(variant, *data.arm)});
@@ -182,16 +189,18 @@ class PythonEffect final : public Effect {
     }
     const auto numbers = py::array_t<double, py::array::c_style | py::array::forcecast>(array);
     RowMatrix table = Eigen::Map<const RowMatrix>(numbers.data(), rows, parameters * width);
-    if (!table.allFinite()) {
-      Index row = 0;
-      while (table.row(row).allFinite()) ++row;
-      throw_argument(name(), "finite numbers", "others in row " + std::to_string(row));
+    for (Index i = 0; i < table.size(); ++i) {
+      const double value = table.data()[i];
+      if (std::abs(value) <= kMostAction) continue;
+      throw_argument(name(), "finite numbers within " + to_text(kMostAction),
+                     to_text(value) + " in row " + std::to_string(i / table.cols()));
     }
     return table;
   }
 
   UserEffect told_;
   Function function_;
+  mutable bool asked_twice_ = false;  ///< under the GIL
 };
 
 void check(const UserEffect& told) {
@@ -206,8 +215,13 @@ void check(const UserEffect& told) {
     throw_argument(name, "`joints` where its site is \"joint\", and there alone",
                    joints ? "joints of another site" : "none");
   }
-  for (const int joint : told.joints) {
+  for (std::size_t i = 0; i < told.joints.size(); ++i) {
+    const int joint = told.joints[i];
     if (joint < 0) throw_argument(name, "joints from 0", std::to_string(joint));
+    const auto end = told.joints.begin() + static_cast<std::ptrdiff_t>(i);
+    if (std::find(told.joints.begin(), end, joint) != end) {
+      throw_argument(name, "each joint once", std::to_string(joint) + " twice");
+    }
   }
 }
 

@@ -1599,6 +1599,7 @@ class Touches:
         Which tool touched, and where the base stood, each counted from 0.
     covariates : dict
         {name: (N,) or (N, k) array} recorded beside: temperature, time, payload, direction, gravity …
+        nan in rows where it was not recorded.
     session : (N,) int array
         Short for the covariate ``session``.
     names : dict
@@ -1696,6 +1697,7 @@ class Tracked:
         Which target on the tool was seen, and where base and instrument stood, each counted from 0.
     covariates : dict
         {name: (N,) or (N, k) array} recorded beside: temperature, time, payload, direction, gravity …
+        nan in rows where it was not recorded.
     session : (N,) int array
         Short for the covariate ``session``.
     
@@ -3143,7 +3145,7 @@ def cover_polygon(surface: typing.Any, polygon: typing.Any, spacing: typing.Supp
     >>> aims[:, :3].tolist()
     [[0.0, 0.5, -4.0], [4.0, 0.5, -4.0], [4.0, 1.5, -4.0], [0.0, 1.5, -4.0]]
     """
-def diagnose(arm: Arm, data: typing.Any, *, effects: typing.Any = None, fixed: collections.abc.Sequence[str] = [], blocks: typing.SupportsInt | typing.SupportsIndex = 10, rival_odds: typing.SupportsFloat | typing.SupportsIndex = 0.05, leftover: typing.SupportsFloat | typing.SupportsIndex = 0.25, num_next_poses: typing.SupportsInt | typing.SupportsIndex = 8, progress: typing.Any = None, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> typing.Any:
+def diagnose(arm: Arm, data: Touches | Tracked, *, effects: collections.abc.Iterable[Effect] | None = None, fixed: collections.abc.Sequence[str] = [], blocks: typing.SupportsInt | typing.SupportsIndex = 10, rival_odds: typing.SupportsFloat | typing.SupportsIndex = 0.05, leftover: typing.SupportsFloat | typing.SupportsIndex = 0.25, num_next_poses: typing.SupportsInt | typing.SupportsIndex = 8, progress: typing.Any = None, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> typing.Any:
     """
     Show what the best rigid model of an arm gets wrong, name the cause, measure the gain.
     
@@ -3159,7 +3161,8 @@ def diagnose(arm: Arm, data: typing.Any, *, effects: typing.Any = None, fixed: c
     data : Touches or Tracked
         With any of the covariates `temperature` (N,) [°C], `time` (N,) [s], `payload` (N,) [kg at the
         tool centre point], `direction` (N, n) -1, 0 or 1, `gravity` (N, 3) [m/s², base frame] and
-        `session` (N,); others are looked at for structure.
+        `session` (N,); others are looked at for structure. One that is missing (nan) in some rows is
+        not used, and a warning says so. Rows that repeat another to the last digit count once.
     effects : list of Effect, optional
         What may be named; `bathyal.effects.list()` unless given.
     fixed : list of str
@@ -3174,7 +3177,7 @@ def diagnose(arm: Arm, data: typing.Any, *, effects: typing.Any = None, fixed: c
     num_next_poses : int
         How many poses to propose where causes cannot be told apart.
     progress : callable, optional
-        Called with (share done, what comes next).
+        Called with (share done, what comes next), often within a stage; what it raises ends the run.
     num_threads : int
         0 = all; the same bytes for any number.
     
@@ -3185,9 +3188,10 @@ def diagnose(arm: Arm, data: typing.Any, *, effects: typing.Any = None, fixed: c
     Raises
     ------
     ValueError
-        For bad data, covariates or options, another number of joints, an effect given twice.
+        For bad data, covariates or options, another number of joints, an effect given twice, one of
+        the user's own that gives another shape, numbers that are not finite, or others when asked again.
     bathyal.Error
-        For an effect of the user's own that fails.
+        For an effect of the user's own that raises.
     
     Examples
     --------

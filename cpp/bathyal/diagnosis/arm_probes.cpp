@@ -251,6 +251,7 @@ class ProbeMaker {
     const int n = static_cast<int>(data_.q.cols());
     for (const auto& [name, table] : data_.covariates) {
       if (name == "time" || name == "gravity") continue;
+      if (!data_.has(name)) continue;
       if (name == "session") {
         of_sessions(table.col(0));
         continue;

@@ -11,7 +11,9 @@
 #include "bathyal/diagnosis/words.hpp"
 #include "bathyal/identify/arm_report.hpp"
 #include "bathyal/identify/effect_columns.hpp"
+#include "bathyal/identify/examine.hpp"
 #include "bathyal/identify/tip_walk.hpp"
+#include "bathyal/identify/wording.hpp"
 
 namespace bathyal {
 namespace {
@@ -22,6 +24,9 @@ constexpr double kSeenDirection = 1e-5;  ///< of the largest singular value, per
 constexpr double kOrdinaryMove = 1e-3;   ///< [m]
 constexpr double kRounding = 1e-7;
 constexpr double kPlausible = 100.0;  ///< of a parameter's scale, where nobody told
+/// Of the equations more than unknowns, that one effect may use up: beyond a third, freedom that
+/// explains nothing costs less than it seems to gain.
+constexpr double kMostOfFreedom = 0.25;
 
 std::vector<int> numbered(const Eigen::VectorXd& values) {
   std::map<double, int> known;
@@ -45,6 +50,7 @@ ArmSubject::ArmSubject(const Arm& arm, const Measurement& measurement, const Cov
   if (problem_.drop_size_prior(seen_.unseen)) seen_ = observe(*problem_.system, problem_.start);
   start_ = search(problem_, seen_);
   fit_ = report(problem_, seen_, start_);
+  geometry_doubts_ = examine(measurement, *problem_.system, arm, fit_);
   geometry_ = problem_.columns.columns.size();
   free_what_is_seen();
   gather_data(covariates);
@@ -79,6 +85,7 @@ void ArmSubject::gather_data(const Covariates& covariates) {
 
 void ArmSubject::gather_units() {
   units_.order = data_.order;
+  units_.timed = data_.has("time");
   units_.twin = find_twins(m_.q, kTwins);
   units_.session = m_.station;
   if (data_.has("session")) units_.session = numbered(data_.covariate("session").col(0));
@@ -87,8 +94,14 @@ void ArmSubject::gather_units() {
 
 void ArmSubject::gather_noise_forms() {
   if (m_.tracked) {
-    noise_forms_.push_back({"range_noise", "noise that grows with the range", "rate", "1", 1.0,
-                            m_.position.colwise().squaredNorm().transpose()});
+    // Where the model has the tip: what was measured holds the very errors that are looked at.
+    Eigen::VectorXd range(m_.rows());
+    const std::vector<Vec3> world = tips();
+    for (Index i = 0; i < m_.rows(); ++i) {
+      range[i] = world[static_cast<std::size_t>(i)].squaredNorm();
+    }
+    noise_forms_.push_back(
+        {"range_noise", "noise that grows with the range", "rate", "1", 1.0, std::move(range)});
   }
   const double step = logged_step(m_.q, nominal_);
   if (!(step > 0.0)) return;
@@ -109,6 +122,7 @@ void ArmSubject::gather_noise_forms() {
 void ArmSubject::gather_forms(const Effects& effects) {
   for (const auto& effect : effects) {
     std::vector<EffectVariant> variants = effect->variants(data_);
+    std::erase_if(variants, [this](const EffectVariant& variant) { return is_too_wide(variant); });
     std::map<std::pair<int, std::string>, std::vector<int>> by_cause;
     for (EffectVariant& variant : variants) {
       by_cause[{variant.joint, variant.cause}].push_back(static_cast<int>(forms_.size()));
@@ -137,6 +151,20 @@ void ArmSubject::gather_forms(const Effects& effects) {
     sources_.push_back({nullptr, {}, p});
   }
   for (auto& [number, family] : families) scans_.push_back(std::move(family));
+}
+
+bool ArmSubject::is_too_wide(const EffectVariant& variant) {
+  const auto wide = static_cast<double>(variant.parameters.size());
+  if (wide <= kMostOfFreedom * fit_.degrees_of_freedom) return false;
+  const long left = std::max(0L, std::lround(fit_.degrees_of_freedom));
+  const std::string text = variant.effect + " was not tried with " +
+                           counted(static_cast<long>(variant.parameters.size()), "number") +
+                           ": these data have " + counted(left, "equation") +
+                           " more than unknowns, and it may use a quarter of them.";
+  if (std::find(untried_.begin(), untried_.end(), text) == untried_.end()) {
+    untried_.push_back(text);
+  }
+  return true;
 }
 
 std::vector<int> ArmSubject::finer(int form) {
@@ -253,16 +281,25 @@ std::vector<Eigen::MatrixXd> ArmSubject::columns_of(std::vector<ActingVariant> a
   return out;
 }
 
-Eigen::Matrix3Xd ArmSubject::tips_from_base() const {
-  Eigen::Matrix3Xd tips(3, m_.rows());
+std::vector<Vec3> ArmSubject::tips() const {
+  std::vector<Vec3> tips;
   const TipWalk walk(problem_.columns, x_, {});
   WalkFrames frames;
   for (Index i = 0; i < m_.rows(); ++i) {
-    const Pose tip =
-        walk.tip(m_.q.row(i).data(), i, m_.tool[i], m_.station[i], frames, nullptr, nullptr, 0);
-    tips.col(i) = fit_.bases[m_.station[i]].inverse() * tip.translation();
+    tips.push_back(
+        walk.tip(m_.q.row(i).data(), i, m_.tool[i], m_.station[i], frames, nullptr, nullptr, 0)
+            .translation());
   }
   return tips;
+}
+
+Eigen::Matrix3Xd ArmSubject::tips_from_base() const {
+  const std::vector<Vec3> world = tips();
+  Eigen::Matrix3Xd out(3, m_.rows());
+  for (Index i = 0; i < m_.rows(); ++i) {
+    out.col(i) = fit_.bases[m_.station[i]].inverse() * world[static_cast<std::size_t>(i)];
+  }
+  return out;
 }
 
 }  // namespace bathyal

@@ -41,6 +41,10 @@ class ArmSubject final : public Subject {
   /// Probes have none.
   const Effect* effect(int form) const { return sources_[form].effect.get(); }
   const EffectVariant& variant(int form) const { return sources_[form].variant; }
+  /// Sentences on what no effect answers: another machine, another size, poses too alike.
+  const std::vector<std::string>& geometry_doubts() const { return geometry_doubts_; }
+  /// Sentences on forms that have too many numbers for these data.
+  const std::vector<std::string>& untried() const { return untried_; }
   /// Effects of the last `settle`, with their values.
   std::vector<FoundEffect> found() const;
   /// Covariance of all values of the last `settle`'s effects, in their units and order, and the
@@ -71,6 +75,7 @@ class ArmSubject final : public Subject {
   void gather_units();
   void gather_forms(const Effects& effects);
   void gather_noise_forms();
+  bool is_too_wide(const EffectVariant& variant);
   std::vector<std::vector<Action>> actions_of(int form) const;
   std::vector<double> plausible(int form) const;
   std::vector<Eigen::MatrixXd> columns_of(std::vector<ActingVariant> acting) const;
@@ -82,7 +87,9 @@ class ArmSubject final : public Subject {
   Eigen::MatrixXd moves() const;
   void stand_at(const Eigen::VectorXd& x);
   bool update_noise();
-  /// (3, N) by the model. (A field over what was measured would explain its errors by itself.)
+  /// (N,) by the model, world.
+  std::vector<Vec3> tips() const;
+  /// (3, N) of them. (A field over what was measured would explain its errors by itself.)
   Eigen::Matrix3Xd tips_from_base() const;
 
   const Arm& nominal_;
@@ -99,6 +106,8 @@ class ArmSubject final : public Subject {
   std::vector<std::vector<int>> scans_;
   std::map<int, std::pair<int, int>> neighbours_;  ///< of forms of a scan: below and above, or -1
   std::vector<NoiseForm> noise_forms_;
+  std::vector<std::string> geometry_doubts_;
+  std::vector<std::string> untried_;
   std::size_t geometry_ = 0;    ///< columns that are not effects'
   std::vector<int> base_free_;  ///< of them, those that are fitted
   Eigen::MatrixXd held_;        ///< (free, k) orthonormal: changes of them that anything holds

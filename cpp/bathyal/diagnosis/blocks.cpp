@@ -11,6 +11,9 @@ namespace {
 
 /// Fewer points than this, and to hold one out would hold out too much.
 constexpr int kLeastPoints = 6;
+/// Of each block, where only the order of a list is known: a list is often a sweep, one block of
+/// which would hold out a region that no other row comes near.
+constexpr std::size_t kPieces = 8;
 
 class Unions {
  public:
@@ -106,11 +109,17 @@ Blocks cut(const Units& units, int wanted, bool by_point) {
   }
   const auto blocks = std::min(static_cast<std::size_t>(wanted), n);
   std::map<int, int> block_of_key;
+  std::size_t dealt = 0;
   for (const int i : order) {
     if (block_of_key.contains(key[i])) continue;
     std::size_t& place = before[units.session[i]];
     const std::size_t size = size_in_session[units.session[i]];
-    block_of_key[key[i]] = static_cast<int>(std::min(place * blocks / size, blocks - 1));
+    // A session of fewer units than blocks has none for some: the next one goes on there.
+    const std::size_t pieces = units.timed ? 1 : std::clamp(size / blocks, std::size_t{1}, kPieces);
+    const std::size_t block =
+        size < blocks ? dealt++ % blocks
+                      : std::min(place * blocks * pieces / size, blocks * pieces - 1) % blocks;
+    block_of_key[key[i]] = static_cast<int>(block);
     place += size_of_key[key[i]];
   }
   std::vector<int> raw(n);
@@ -119,7 +128,9 @@ Blocks cut(const Units& units, int wanted, bool by_point) {
   out.count = count_of(out.of);
   if (out.how.empty()) {
     out.how = std::to_string(out.count) +
-              " blocks of poses that follow one another were held out in turn" +
+              (units.timed ? " blocks of poses that follow one another"
+                           : " blocks of short runs of poses") +
+              " were held out in turn" +
               (size_in_session.size() > 1 ? ", each with its share of every session" : "");
   }
   return out;

@@ -8,6 +8,8 @@
 
 namespace bathyal {
 
+inline constexpr int kLeastBlocks = 3;  ///< fewer hold nothing out
+
 /// Which units are held out together: (units,) block numbers 0 … count - 1.
 struct Blocks {
   std::vector<int> of;
@@ -19,9 +21,11 @@ struct Blocks {
 /// near-twins share; twins of twins are twins.
 std::vector<int> find_twins(const Eigen::Ref<const Eigen::MatrixXd>& q, double near);
 
-/// `wanted` blocks of units that follow one another in time, cut inside each session alike, twins
-/// always in one block; by points, where units have them and there are enough. Fewer blocks where
-/// there are few units; one, which cannot be held out, where twins chain everything together.
+/// `wanted` blocks of units that follow one another in time, or of runs of units from all over a
+/// list without times, cut inside each session alike, twins always in one block; by points, where
+/// units have them and there are enough. Sessions of fewer units than blocks are dealt out over
+/// them one after another. Fewer blocks where there are few units; one, which cannot be held out,
+/// where twins chain everything together.
 Blocks make_blocks(const Units& units, int wanted = 10);
 
 }  // namespace bathyal

@@ -8,6 +8,8 @@
 
 #include "bathyal/base/check.hpp"
 #include "bathyal/diagnosis/arm_subject.hpp"
+#include "bathyal/diagnosis/copies.hpp"
+#include "bathyal/diagnosis/doubts_of_record.hpp"
 #include "bathyal/diagnosis/examination.hpp"
 #include "bathyal/diagnosis/next_poses.hpp"
 #include "bathyal/identify/f_distribution.hpp"
@@ -43,13 +45,12 @@ class Reporter {
     out_.residuals_before = subject_.bare_deviations();
     out_.residuals_after = subject_.deviations();
     tell_noise();
-    out_.detectable = found_.detectable * unit();
     tell_shown();
     if (!found_.held_out) {
-      out_.warnings.push_back(
-          "Too few data to hold any out: what is shown is all that can be said.");
+      tell_why_nothing_is_held_out();
       return std::move(out_);
     }
+    out_.detectable = found_.detectable * unit();
     tell_held_out();
     tell_effects();
     tell_leftover();
@@ -84,6 +85,13 @@ class Reporter {
       out_.noise = unit();
       out_.noise_source = "what the model leaves";
     }
+    constexpr double kComputed = 1e-7;  // [m] at which steps of the search come to be seen
+    if (found_.held_out && out_.noise < kComputed) {
+      out_.warnings.push_back(
+          "Noise of " + millimetres(out_.noise) +
+          " per axis is less than any instrument has: these data look computed, and what the "
+          "search rounds off passes for structure. Give them the noise of an instrument.");
+    }
   }
 
   void tell_shown() {
@@ -95,6 +103,18 @@ class Reporter {
       out_.shown.push_back(
           {form(d.form).effect, form(d.form).words, d.size * found_.base_noise, d.share, d.p});
     }
+  }
+
+  void tell_why_nothing_is_held_out() {
+    constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
+    HeldOut& out = out_.held_out;
+    out.how =
+        counted(m_.rows(), m_.tracked ? "pose" : "touch", m_.tracked ? "poses" : "touches") +
+        (found_.blocks.count < kLeastBlocks ? " make fewer than three blocks of poses that differ"
+                                            : " leave hardly more equations than unknowns");
+    out.noise = std::sqrt(3.0) * out_.noise;
+    out.rms_before = out.rms_after = out_.gain = out_.detectable = kNothing;
+    out_.warnings.push_back("Too few data to hold any out: what is shown is all that can be said.");
   }
 
   void tell_held_out() {
@@ -277,6 +297,11 @@ void check_effects(const std::vector<std::shared_ptr<const Effect>>& effects) {
   }
 }
 
+void check_positions_differ(const RowMatrix& position) {
+  if ((position.rowwise() - position.row(0)).cwiseAbs().maxCoeff() > 0.0) return;
+  throw_argument("position", "positions that differ", "the same in all rows");
+}
+
 Diagnosis run(const Arm& arm, const Measurement& measurement, const Covariates& covariates,
               const DiagnoseOptions& options,
               const std::vector<std::shared_ptr<const Effect>>& effects,
@@ -286,13 +311,30 @@ Diagnosis run(const Arm& arm, const Measurement& measurement, const Covariates& 
   identify.parametrization = options.parametrization;
   identify.fixed = options.fixed;
   identify.num_threads = options.num_threads;
+  // Bad covariates are refused before anything takes its time.
+  make_effect_data(arm, measurement.q, covariates, measurement.has_rotation());
   ArmSubject subject(arm, measurement, covariates, identify, effects);
   const ExaminationOptions asked{options.num_threads, options.blocks};
   const Examination found = examine(subject, asked, progress);
   Diagnosis out = Reporter(subject, measurement, arm, found, options).report();
+  for (const auto& sentences :
+       {subject.geometry_doubts(), subject.untried(), doubt_record(subject.data(), effects)}) {
+    out.warnings.insert(out.warnings.end(), sentences.begin(), sentences.end());
+  }
   if (out.verdict == Verdict::kAmbiguous) {
     out.next_poses = next_poses(subject, found, options.rival_odds, options.num_next_poses);
   }
+  return out;
+}
+
+template <class Data>
+Diagnosis run_without_copies(const Arm& arm, const Data& data, const DiagnoseOptions& options,
+                             const std::vector<std::shared_ptr<const Effect>>& effects,
+                             const DiagnosisProgress& progress) {
+  const std::vector<int> of = find_copies(data);
+  const Data once = without_copies(data, of);
+  Diagnosis out = run(arm, to_measurement(arm, once), once.covariates, options, effects, progress);
+  spread_over_copies(of, out);
   return out;
 }
 
@@ -309,14 +351,17 @@ Diagnosis diagnose(const Arm& arm, const Touches& touches, const DiagnoseOptions
                    const std::vector<std::shared_ptr<const Effect>>& effects,
                    const DiagnosisProgress& progress) {
   options.check();
-  return run(arm, to_measurement(arm, touches), touches.covariates, options, effects, progress);
+  touches.check();
+  return run_without_copies(arm, touches, options, effects, progress);
 }
 
 Diagnosis diagnose(const Arm& arm, const Tracked& tracked, const DiagnoseOptions& options,
                    const std::vector<std::shared_ptr<const Effect>>& effects,
                    const DiagnosisProgress& progress) {
   options.check();
-  return run(arm, to_measurement(arm, tracked), tracked.covariates, options, effects, progress);
+  tracked.check();
+  check_positions_differ(tracked.position);
+  return run_without_copies(arm, tracked, options, effects, progress);
 }
 
 }  // namespace bathyal

@@ -29,7 +29,8 @@ struct DiagnoseOptions {
   void check() const;
 };
 
-/// Called with the share of the work that is done, 0 … 1, and what comes next; may throw to stop.
+/// Called with the share of the work that is done, 0 … 1, and what comes next, also within a long
+/// stage; may throw to stop.
 using DiagnosisProgress = std::function<void(double done, const std::string& stage)>;
 
 /// What the model of an arm gets wrong, by its measurements.
@@ -58,6 +59,8 @@ struct Diagnosis {
 
 /// Shows what the best rigid model of the arm gets wrong, names the cause, and measures the gain on
 /// data that it did not use. See docs/how_it_diagnoses.md for how each step decides.
+/// A covariate that is missing (NaN) in some rows is not used; rows that repeat another to the last
+/// digit count once; warnings say so.
 /// \throw std::invalid_argument for bad data or options, another number of joints, an effect that
 ///        is given twice
 Diagnosis diagnose(const Arm& arm, const Touches& touches, const DiagnoseOptions& options = {},

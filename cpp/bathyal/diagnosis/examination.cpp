@@ -25,7 +25,6 @@ constexpr int kFinerRounds = 3;
 constexpr double kPlainBonus =
     3.0;  ///< log evidence: two and a half standard deviations of an order
 constexpr double kLeastFreedom = 10.0;
-constexpr int kLeastBlocks = 3;
 
 void append(Eigen::MatrixXd& columns, const Eigen::MatrixXd& more) {
   columns.conservativeResize(Eigen::NoChange, columns.cols() + more.cols());
@@ -52,8 +51,14 @@ class Examiner {
     double score = -std::numeric_limits<double>::infinity();
   };
 
-  void tell(double done, const std::string& stage) const {
-    if (progress_) progress_(done, stage);
+  void tell(double done, const std::string& stage) {
+    done_ = done;
+    stage_ = stage;
+    tell_again();
+  }
+  /// Within a long stage: whoever listens may want to stop.
+  void tell_again() const {
+    if (progress_) progress_(done_, stage_);
   }
   bool is_probe(int form) const { return subject_.forms()[form].probe; }
 
@@ -98,6 +103,8 @@ class Examiner {
   std::vector<int> probes_;
   Eigen::VectorXd trust_;
   Examination out_;
+  double done_ = 0.0;
+  std::string stage_;
 };
 
 const Examiner::Ground& Examiner::ground(const std::vector<int>& forms) const {
@@ -150,6 +157,7 @@ void Examiner::remember(int form) {
 void Examiner::add_peaks(const Ground& beside) {
   for (const std::vector<int>& family : subject_.scans()) {
     if (is_probe(family.front())) continue;
+    tell_again();
     const std::vector<ScannedForm> scanned =
         scan(subject_, family, beside.basis, subject_.linearization().misfit, beside.freedom,
              options_.num_threads);
@@ -200,6 +208,7 @@ std::vector<int> Examiner::best_forms(std::vector<int> start, int scans) {
   const Ground& base = ground({});
   std::vector<int> forms = std::move(start);
   for (int round = 0; round < scans; ++round) {
+    tell_again();
     const Pool pool = pool_of(base, candidates_);
     const std::vector<int> set =
         forms.empty() ? find_best_set(pool) : improve_set(pool, members_of(pool, forms));
@@ -243,6 +252,7 @@ Examiner::Explanation Examiner::explain(Eigen::VectorXd trust) {
   subject_.set_trust(trust);
   settle({});
   for (int pass = 0; pass < kMostPasses; ++pass) {
+    tell_again();
     const std::vector<int> forms = best_forms(out.forms, pass == 0 ? kMostScans : 1);
     settle(forms);
     const Ground& whole = ground(forms);
@@ -338,6 +348,7 @@ std::vector<Dependence> Examiner::dependences(const Ground& beside) const {
 /// only the nearest thing to what it is.
 void Examiner::look_beyond_names() {
   for (int round = 0; round < kMostPasses; ++round) {
+    tell_again();
     std::vector<int> standing = names_;
     standing.insert(standing.end(), probes_.begin(), probes_.end());
     const std::vector<Dependence> beyond = dependences(ground(standing));
@@ -399,18 +410,30 @@ void Examiner::drop_what_foretells_nothing() {
     held_by.tail(pool.held_by().size()) = pool.held_by();
     const HoldOut held(at.misfit, columns, held_by, at.unit, out_.blocks, options_.num_threads);
     const HeldOutErrors before = held.errors(basis);
+    const auto all_but = [&](std::size_t without) {
+      std::vector<Index> which = basis;
+      for (std::size_t i = 0; i < own.size(); ++i) {
+        if (i != without) which.insert(which.end(), own[i].begin(), own[i].end());
+      }
+      return which;
+    };
+    std::size_t worst = own.size();
     for (;;) {
-      std::vector<Index> all = basis;
-      for (const std::vector<Index>& one : own) all.insert(all.end(), one.begin(), one.end());
-      const double with = held.squares(all).sum();
-      const Eigen::VectorXd gain =
-          held.squares_without(all, own).colwise().sum().transpose().array() - with;
-      Index worst = 0;
-      // Two that only make up for each other gain nothing together.
-      const bool all_gain = gain.size() == 0 || gain.minCoeff(&worst) > 0.0;
-      if (!all_gain || (gain.size() > 0 && with >= before.of_block.sum())) {
-        kept.erase(kept.begin() + worst);
-        own.erase(own.begin() + worst);
+      const std::vector<Index> all = all_but(own.size());
+      const double with = held.density(all);
+      double least = std::numeric_limits<double>::infinity();
+      for (std::size_t i = 0; i < own.size(); ++i) {
+        const double gain = with - held.density(all_but(i));
+        if (gain < least) {
+          least = gain;
+          worst = i;
+        }
+      }
+      const double squares = held.squares(all).sum();
+      // Some that only make up for each other may each be needed, and together gain nothing.
+      if (!own.empty() && (!(least > 0.0) || squares >= before.of_block.sum())) {
+        kept.erase(kept.begin() + static_cast<std::ptrdiff_t>(worst));
+        own.erase(own.begin() + static_cast<std::ptrdiff_t>(worst));
         continue;
       }
       if (static_cast<int>(kept.size()) < pool.size()) break;
@@ -418,8 +441,8 @@ void Examiner::drop_what_foretells_nothing() {
       for (std::size_t i = 0; i < kept.size(); ++i) {
         Chosen chosen;
         chosen.form = kept[i];
-        chosen.held_out_with = with / held.rows();
-        chosen.held_out_without = (with + gain[static_cast<Index>(i)]) / held.rows();
+        chosen.held_out_with = squares / held.rows();
+        chosen.held_out_without = held.squares(all_but(i)).sum() / held.rows();
         out_.names.push_back(chosen);
       }
       const HeldOutErrors after = held.errors(all);

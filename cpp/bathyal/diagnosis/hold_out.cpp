@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bathyal/diagnosis/hold_out.hpp"
 
-#include <map>
-
 #include "bathyal/base/parallel.hpp"
 #include "bathyal/base/random.hpp"
 
@@ -52,49 +50,47 @@ HoldOut::Others HoldOut::others(const std::vector<Index>& which, std::size_t blo
   return out;
 }
 
-/// `own`: squares_[block](which, which).
-double HoldOut::squares_of(const std::vector<Index>& which, const Eigen::MatrixXd& own,
-                           const Eigen::VectorXd& values, std::size_t block) const {
+double HoldOut::squares_of(const std::vector<Index>& which, const Eigen::VectorXd& values,
+                           std::size_t block) const {
   const Index last = columns_.cols();
   const Eigen::VectorXd against = squares_[block](which, last);
-  return squares_[block](last, last) - 2.0 * values.dot(against) + values.dot(own * values);
+  return squares_[block](last, last) - 2.0 * values.dot(against) +
+         values.dot(squares_[block](which, which) * values);
 }
 
 Eigen::VectorXd HoldOut::squares(const std::vector<Index>& which) const {
   Eigen::VectorXd out(static_cast<Index>(squares_.size()));
   parallel_for(squares_.size(), 1, num_threads_, [&](std::size_t begin, std::size_t end) {
     for (std::size_t b = begin; b < end; ++b) {
-      out[static_cast<Index>(b)] =
-          squares_of(which, squares_[b](which, which), others(which, b).values, b);
+      out[static_cast<Index>(b)] = squares_of(which, others(which, b).values, b);
     }
   });
   return out;
 }
 
-Eigen::MatrixXd HoldOut::squares_without(const std::vector<Index>& which,
-                                         const std::vector<std::vector<Index>>& groups) const {
-  std::map<Index, Index> place;
-  for (const Index column : which) place.emplace(column, static_cast<Index>(place.size()));
-  const auto wide = static_cast<Index>(which.size());
-  Eigen::MatrixXd out(static_cast<Index>(squares_.size()), static_cast<Index>(groups.size()));
+double HoldOut::density(const std::vector<Index>& which) const {
+  const Index last = columns_.cols();
+  Eigen::MatrixXd square = square_(which, which);
+  square.diagonal().array() += kRidge;
+  const Eigen::LLT<Eigen::MatrixXd> all(square);
+  const auto half_log_determinant = [](const Eigen::LLT<Eigen::MatrixXd>& root) {
+    return root.matrixLLT().diagonal().array().log().sum();
+  };
+  Eigen::VectorXd out(static_cast<Index>(squares_.size()));
   parallel_for(squares_.size(), 1, num_threads_, [&](std::size_t begin, std::size_t end) {
     for (std::size_t b = begin; b < end; ++b) {
-      const Others whole = others(which, b);
-      const Eigen::MatrixXd inverse = whole.root.solve(Eigen::MatrixXd::Identity(wide, wide));
-      const Eigen::MatrixXd own = squares_[b](which, which);
-      for (std::size_t g = 0; g < groups.size(); ++g) {
-        std::vector<Index> at;
-        for (const Index column : groups[g]) at.push_back(place.at(column));
-        // The values that the others take when those of the group are 0.
-        const Eigen::MatrixXd spread = inverse(at, at);
-        const Eigen::VectorXd moved = spread.llt().solve(Eigen::VectorXd(whole.values(at)));
-        Eigen::VectorXd values = whole.values - inverse(Eigen::all, at) * moved;
-        values(at).setZero();
-        out(static_cast<Index>(b), static_cast<Index>(g)) = squares_of(which, own, values, b);
-      }
+      // Errors e = misfit - X v of a block have covariance 1 + X A⁻¹ Xᵀ, A being the square of the
+      // others: by Woodbury and Sylvester, all of it follows from inner products.
+      const Others known = others(which, b);
+      const Eigen::VectorXd along =
+          squares_[b](which, last) - squares_[b](which, which) * known.values;
+      const double distance =
+          squares_of(which, known.values, b) - all.matrixL().solve(along).squaredNorm();
+      out[static_cast<Index>(b)] =
+          -0.5 * distance - half_log_determinant(all) + half_log_determinant(known.root);
     }
   });
-  return out;
+  return out.sum();
 }
 
 HeldOutErrors HoldOut::errors(const std::vector<Index>& which) const {

@@ -28,9 +28,10 @@ class HoldOut {
 
   /// (blocks,) sums of squared errors by the columns `which`.
   Eigen::VectorXd squares(const std::vector<Index>& which) const;
-  /// (blocks, groups): the same without each of `groups` of them in turn.
-  Eigen::MatrixXd squares_without(const std::vector<Index>& which,
-                                  const std::vector<std::vector<Index>>& groups) const;
+  /// ln of how likely the blocks are by what the others foretell, noise of 1 and the uncertainty of
+  /// the values counted, but for what all choices of columns have in common. A block beyond what
+  /// the others cover is foretold badly, and is known to be: squares alone would blame the columns.
+  double density(const std::vector<Index>& which) const;
   /// The errors themselves.
   HeldOutErrors errors(const std::vector<Index>& which) const;
   double rows() const { return held_; }
@@ -42,8 +43,8 @@ class HoldOut {
     Eigen::VectorXd values;
   };
   Others others(const std::vector<Index>& which, std::size_t block) const;
-  double squares_of(const std::vector<Index>& which, const Eigen::MatrixXd& own,
-                    const Eigen::VectorXd& values, std::size_t block) const;
+  double squares_of(const std::vector<Index>& which, const Eigen::VectorXd& values,
+                    std::size_t block) const;
 
   const Eigen::VectorXd& misfit_;
   const Eigen::MatrixXd& columns_;

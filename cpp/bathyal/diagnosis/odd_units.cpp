@@ -9,6 +9,8 @@
 namespace bathyal {
 namespace {
 
+/// Variance in units of the noise: what exact data leave lies below, and has no outliers.
+constexpr double kRounding = 1e-6;
 constexpr double kMostOdd = 0.2;  ///< share of units: more are no exception
 
 std::vector<std::vector<Index>> rows_of_units(const Linearization& at, Index units) {
@@ -124,7 +126,7 @@ std::vector<UnitTest> test_units(const Linearization& at, const Eigen::MatrixXd&
     const double others = used ? squares - distance : squares;
     const double free = used ? freedom - width : freedom;
     if (width == 0.0 || !(free > 0.0)) continue;
-    const double variance = std::max(others, 1e-12 * squares) / free;
+    const double variance = std::max({others, 1e-12 * squares, kRounding * free}) / free;
     out[i] = {distance / width / variance, f_tail(distance / width / variance, width, free)};
   }
   return out;

@@ -18,14 +18,18 @@ constexpr double kIndependent = 1e-8;
 /// The same of a member of its own cause: with less it is made of the other.
 constexpr double kAnother = 0.1;
 
-/// Whether each column of a square keeps `least` beside those before it, and more than what holds
-/// its value: of two words for one thing, prior and data would each hold half.
+/// Whether each column of a square keeps `least` beside those before it.
 bool is_independent(const Eigen::LLT<Eigen::MatrixXd>& root,
-                    const Eigen::Ref<const Eigen::VectorXd>& held_by, double least) {
-  constexpr double kHeld = 3.0;  // two are in what another word for a thing keeps
-  if (root.info() != Eigen::Success) return false;
-  return (root.matrixLLT().diagonal().array().square() > (kHeld * held_by).array().max(least))
-      .all();
+                    const Eigen::Ref<const Eigen::ArrayXd>& least) {
+  return root.info() == Eigen::Success &&
+         (root.matrixLLT().diagonal().array().square() > least).all();
+}
+
+/// What a column must keep beside the others: of two words for one thing, prior and data would let
+/// each hold half, at next to no cost of freedom.
+Eigen::ArrayXd least_kept(const Eigen::Ref<const Eigen::VectorXd>& held_by, double least) {
+  constexpr double kHeld = 3.0;
+  return (kHeld * held_by.array()).max(least);
 }
 
 }  // namespace
@@ -103,7 +107,12 @@ std::optional<SetFit> Pool::judge(std::span<const int> members) const {
   out.freedom = freedom_ - static_cast<double>(wide);
   if (!(out.freedom > 0.0)) return std::nullopt;
   const Eigen::LLT<Eigen::MatrixXd> root(Eigen::MatrixXd(square_(which, which)));
-  if (!is_independent(root, held_by_(which), kIndependent)) return std::nullopt;
+  Eigen::MatrixXd by_data = square_(which, which);
+  by_data.diagonal() -= held_by_(which);
+  if (!is_independent(Eigen::LLT<Eigen::MatrixXd>(by_data),
+                      least_kept(held_by_(which), kIndependent))) {
+    return std::nullopt;
+  }
   const Eigen::VectorXd against = against_(which);
   const Eigen::VectorXd values = root.solve(against);
   // Of the misfit itself, without what holds the values.
@@ -138,8 +147,8 @@ double Pool::score_with(int member, std::span<const int> others, const SetFit& b
   const auto k = static_cast<double>(own.width);
   if (!(base.freedom > k + 1.0)) return kNever;
   const Eigen::LLT<Eigen::MatrixXd> root(square);
-  if (!is_independent(root, held_by_.segment(own.first, own.width),
-                      kin ? kAnother : kIndependent)) {
+  if (!is_independent(root, least_kept(held_by_.segment(own.first, own.width),
+                                       kin ? kAnother : kIndependent))) {
     return kNever;
   }
   const double explained = root.matrixL().solve(against).squaredNorm();

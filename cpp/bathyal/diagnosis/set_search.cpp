@@ -134,14 +134,23 @@ Scored improved(const Pool& pool, const Scored& now, const SetSearchOptions& opt
   return best;
 }
 
+/// The members that can stand together: where one is made of those before it, it goes.
+Scored independent_of(const Pool& pool, const std::vector<int>& members) {
+  if (const auto all = pool.judge(members)) return {members, all->score};
+  Scored out{{}, pool.judge({})->score};
+  for (const int m : members) {
+    std::vector<int> longer = with(out.members, m);
+    if (const auto fit = pool.judge(longer)) out = {std::move(longer), fit->score};
+  }
+  return out;
+}
+
 }  // namespace
 
 std::vector<int> improve_set(const Pool& pool, std::vector<int> start,
                              const SetSearchOptions& options) {
   std::sort(start.begin(), start.end());
-  const auto fit = pool.judge(start);
-  const Scored nothing{{}, pool.judge({})->score};
-  Scored best = fit ? Scored{std::move(start), fit->score} : nothing;
+  Scored best = independent_of(pool, start);
   for (;;) {
     Scored next = improved(pool, best, options);
     if (!(next.score > best.score)) return best.members;

@@ -39,6 +39,7 @@ struct NoiseForm {
 /// One measured thing (a pose) and what is known of it beside the model.
 struct Units {
   std::vector<int> order;    ///< place of each in time
+  bool timed = true;         ///< when each was measured is known; else `order` is that of a list
   std::vector<int> twin;     ///< units of one number are near-twins and are held out together
   std::vector<int> session;  ///< 0 …; all 0 when there is but one
   std::vector<int> point;    ///< the touched point, 0 …, or -1

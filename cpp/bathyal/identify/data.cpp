@@ -24,6 +24,11 @@ void check_length(std::string_view name, std::size_t length, Index rows) {
 
 /// Two turns either way: beyond them a number is an angle in degrees, hardly one in radians.
 constexpr double kMostRadians = 4.0 * std::numbers::pi;
+/// [m] From here on a double counts in steps of a tenth of a micrometre and more.
+constexpr double kFarthest = 1e9;
+constexpr double kMostCovariate = 1e100;  ///< what is larger overflows when it is squared
+/// Of the largest weight: a row of less counts for nothing beside rounding.
+constexpr double kLeastWeight = 1e-12;
 
 void check_joints(const RowMatrix& q) {
   if (q.rows() == 0 || q.cols() == 0) {
@@ -52,6 +57,11 @@ void check_weights(const std::vector<double>& weights, Index rows) {
   if (weights.empty()) return;
   check_length("weights", weights.size(), rows);
   for (const double weight : weights) check_positive("weights", weight);
+  const auto [least, most] = std::minmax_element(weights.begin(), weights.end());
+  if (*least < kLeastWeight * *most) {
+    throw_argument("weights", "numbers within a factor of " + to_text(1.0 / kLeastWeight),
+                   to_text(*least) + " beside " + to_text(*most) + "; leave such rows out");
+  }
 }
 
 /// Counted from 0 without a gap, as tools and stations are.
@@ -68,7 +78,30 @@ void check_numbers(std::string_view name, const std::vector<int>& numbers, Index
 
 void check_covariates(const Covariates& covariates, Index rows) {
   for (const auto& [name, values] : covariates) {
-    check_length("covariates " + name, static_cast<std::size_t>(values.rows()), rows);
+    const std::string argument = "covariates " + name;
+    if (values.cols() == 0) throw_argument(argument, "one column or more", "none");
+    check_length(argument, static_cast<std::size_t>(values.rows()), rows);
+    for (Index i = 0; i < values.size(); ++i) {
+      const double value = values.data()[i];
+      if (std::isnan(value) || std::abs(value) <= kMostCovariate) continue;
+      throw_argument(argument, "finite numbers, or nan in rows without one",
+                     to_text(value) + " at row " + std::to_string(i / values.cols()));
+    }
+  }
+}
+
+void check_positions(const RowMatrix& position) {
+  for (Index i = 0; i < position.rows(); ++i) {
+    const std::string place = " at row " + std::to_string(i);
+    for (const double value : position.row(i)) {
+      if (!std::isfinite(value)) {
+        throw_argument("position", "finite numbers", to_text(value) + place);
+      }
+      if (std::abs(value) > kFarthest) {
+        throw_argument("position", "metres within " + to_text(kFarthest) + " of the origin",
+                       to_text(value) + place);
+      }
+    }
   }
 }
 
@@ -131,7 +164,10 @@ void Touches::check() const {
     if (!told.insert(known.label).second) {
       throw_argument("known_points", "each point once", std::to_string(known.label) + " twice");
     }
-    if (!known.position.allFinite()) throw_argument("known_points", "finite numbers", "nan or inf");
+    if (!(known.position.cwiseAbs().maxCoeff() <= kFarthest)) {
+      throw_argument("known_points", "metres within " + to_text(kFarthest) + " of the origin",
+                     "others of point " + std::to_string(known.label));
+    }
   }
   for (const auto& [label, name] : names) {
     if (std::find(point.begin(), point.end(), label) == point.end()) {
@@ -154,7 +190,7 @@ void Tracked::check() const {
     throw_argument("position", "shape (N, 3)", std::to_string(position.cols()) + " columns");
   }
   check_length("position", static_cast<std::size_t>(position.rows()), q.rows());
-  if (!position.allFinite()) throw_argument("position", "finite numbers", "nan or inf");
+  check_positions(position);
   if (!pose.empty()) check_length("pose", pose.size(), q.rows());
   for (std::size_t i = 0; i < pose.size(); ++i) {
     const Eigen::Matrix3d r = pose[i].linear();

@@ -50,9 +50,10 @@ struct Touches {
   Covariates covariates;             ///< each (N, k)
   std::map<int, std::string> names;  ///< of labels, for people to read; a label may have none
 
-  /// \throw std::invalid_argument for lengths that differ, numbers that are not finite, joint
-  ///        values that only degrees can be, no two touches of one point, poses that are all equal,
-  ///        labels that nobody touched.
+  /// \throw std::invalid_argument for lengths that differ, numbers that are not finite (NaN of a
+  ///        covariate is a row without it), joint values that only degrees can be, no two touches
+  ///        of one point, poses that are all equal, labels that nobody touched, points farther than
+  ///        10⁹ m, weights that differ by more than 10¹².
   void check() const;
 };
 

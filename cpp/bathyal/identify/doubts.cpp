@@ -10,4 +10,12 @@ std::vector<std::string> find_doubts(const Case& seen) {
   return warnings;
 }
 
+std::vector<std::string> find_gross_doubts(const Case& seen) {
+  std::vector<std::string> warnings;
+  doubt_arm(seen, warnings);
+  doubt_lengths(seen, warnings);
+  doubt_data(seen, warnings);
+  return warnings;
+}
+
 }  // namespace bathyal

@@ -28,6 +28,9 @@ std::string joint_words(const Arm& arm, Index coordinate);
 /// A warning or more each: what it means and what to do next. The gravest first.
 std::vector<std::string> find_doubts(const Case& seen);
 
+/// Those of them that no effect beside geometry answers: of the machine, its size and the poses.
+std::vector<std::string> find_gross_doubts(const Case& seen);
+
 /// Whether the fit is of another machine, or of an arm that no one would build.
 bool is_unusable(const Case& seen);
 
@@ -38,6 +41,9 @@ bool is_swamped(const Case& seen);
 /// Those that the fit gives: it belongs to another machine, rows contradict each other, it leaves
 /// too much.
 void doubt_fit(const Case& seen, std::vector<std::string>& warnings);
+
+/// Of these: it belongs to another machine, or to an arm that no one would build.
+void doubt_arm(const Case& seen, std::vector<std::string>& warnings);
 
 /// Those about lengths: nothing measured tells the arm's size, or touches contradict what was told.
 void doubt_lengths(const Case& seen, std::vector<std::string>& warnings);

@@ -200,10 +200,14 @@ bool is_swamped(const Case& seen) {
   return far > 0.5 * seen.fit.residuals.squaredNorm();
 }
 
-void doubt_fit(const Case& seen, Warnings& warnings) {
-  doubt_search(seen, warnings);
+void doubt_arm(const Case& seen, Warnings& warnings) {
   doubt_machine(seen, warnings);
   doubt_fold(seen, warnings);
+}
+
+void doubt_fit(const Case& seen, Warnings& warnings) {
+  doubt_search(seen, warnings);
+  doubt_arm(seen, warnings);
   doubt_rows(seen, warnings);
   doubt_lengths(seen, warnings);
   doubt_geometry(seen, warnings);

@@ -29,7 +29,8 @@ void check_each(const std::string& name, const RowMatrix& values, const char* ex
   for (Index i = 0; i < values.size(); ++i) {
     const double value = values.data()[i];
     if (std::isnan(value) || good(value)) continue;
-    throw_argument("covariates " + name, expected, to_text(value));
+    throw_argument("covariates " + name, expected,
+                   to_text(value) + " at row " + std::to_string(i / values.cols()));
   }
 }
 
@@ -69,7 +70,9 @@ void check_action(const std::string& name, const Action& action, const EffectDat
         name, "values of shape (" + std::to_string(data.rows()) + ", " + std::to_string(wide) + ")",
         shape_of(action.values));
   }
-  if (!action.values.allFinite()) throw_argument(name, "finite numbers", "nan or inf");
+  if (!(action.values.array().abs() <= kMostAction).all()) {
+    throw_argument(name, "numbers within " + to_text(kMostAction), "larger ones, nan or inf");
+  }
   const auto rows = static_cast<int>(data.arm->joints().size());
   const int last = action.site == Site::kJoint   ? static_cast<int>(data.arm->size()) - 1
                    : action.site == Site::kFrame ? rows + 1

@@ -25,6 +25,8 @@ enum class Site {
   kLength,  ///< a and d of every row, as a share of them
 };
 
+inline constexpr double kMostAction = 1e100;  ///< per unit of a parameter: squares of more overflow
+
 /// What one parameter of an effect does: its site moves by the parameter times `values`.
 struct Action {
   Site site = Site::kJoint;

@@ -7,14 +7,16 @@
 
 namespace bathyal {
 
-void examine(const Measurement& measurement, const ArmSystem& system, const Arm& nominal,
-             ArmFit& fit) {
+std::vector<std::string> examine(const Measurement& measurement, const ArmSystem& system,
+                                 const Arm& nominal, ArmFit& fit) {
   const OutlierSearch search = find_outliers(system, fit.values);
   const JointStructure structure =
       search.hopeless ? JointStructure{} : find_structure(system, search.x, search.trust);
   fit.outliers = search.outliers;
   fit.structure_p = structure.p;
-  fit.warnings = find_doubts({measurement, system, nominal, fit, structure, search});
+  const Case seen{measurement, system, nominal, fit, structure, search};
+  fit.warnings = find_doubts(seen);
+  return find_gross_doubts(seen);
 }
 
 }  // namespace bathyal

@@ -7,7 +7,8 @@ namespace bathyal {
 
 /// Looks at a fit as a doubting reader would, and writes what is wrong with it into its `outliers`,
 /// `structure_p` and `warnings`. For use inside the room.
-void examine(const Measurement& measurement, const ArmSystem& system, const Arm& nominal,
-             ArmFit& fit);
+/// \return those of the warnings that stand whatever else than geometry may be wrong
+std::vector<std::string> examine(const Measurement& measurement, const ArmSystem& system,
+                                 const Arm& nominal, ArmFit& fit);
 
 }  // namespace bathyal

@@ -12,8 +12,6 @@ from bathyal.cli import options as opt
 from bathyal.cli import touch_options as own
 from bathyal.cli.talk import Talk
 
-_MOST_NAMES = 3  # of tables, in a title
-
 
 def diagnose(
     *,
@@ -25,22 +23,7 @@ def diagnose(
             "--tracked a table of measured poses, or one for each session.",
         ),
     ],
-    arm: Annotated[
-        str,
-        typer.Option(help="The simulation: a name such as ur10e, or a .urdf or .json file."),
-    ],
-    out: Annotated[
-        Path, typer.Option("--out", "-o", help="Folder for the results; made if missing.")
-    ],
-    tip: Annotated[
-        str | None, typer.Option(help="Of a .urdf with several ends: the link that is the tip.")
-    ] = None,
-    tracked: Annotated[
-        bool,
-        typer.Option(
-            "--tracked", help="The table holds positions that an instrument measured: x_mm …"
-        ),
-    ] = False,
+    job: own.Job,
     reading: own.TouchColumns,
     beside: own.Beside,
     known: own.Known,
@@ -62,26 +45,21 @@ def diagnose(
       bathyal diagnose monday.csv tuesday.csv --tracked --arm ur10 --temperature T_arm_C
       --covariate pressure=P_bar -o diagnosis
     """
-    from bathyal.arm_files import find_arm
     from bathyal.diagnose_report import diagnose_files
 
     talk = Talk(json=json, quiet=quiet)
-    nominal = find_arm(arm, **({} if tip is None else {"tip": tip}))
+    nominal = job.nominal()
     read = {**reading.keywords(), **beside.keywords(), **known.keywords()}
     with talk.progress() as progress:
-        found = diagnose_files(data, nominal, tracked=tracked, read=read, step=progress)
-        names = [file.name for file in data]
-        tables = ", ".join(names) if len(names) <= _MOST_NAMES else f"{len(names)} tables"
-        files = found.write(
-            out, title=f"{nominal.name or Path(arm).stem} from {tables}", step=progress
-        )
+        found = diagnose_files(data, nominal, tracked=job.tracked, read=read, step=progress)
+        files = found.write(job.out, title=job.title(nominal, data), step=progress)
     facts = {name: value for name, value in found.facts.items() if name != "made by"}
     rows = {
         "verdict": facts.pop("verdict"),
         "found": found.words,
         "next": " ".join(found.next),
         **facts,
-        "folder": str(out),
+        "folder": str(job.out),
         "files": " ".join(file.name for file in files),
     }
     talk.warn(found.warnings)

@@ -12,8 +12,6 @@ from bathyal.cli import options as opt
 from bathyal.cli import touch_options as own
 from bathyal.cli.talk import Talk
 
-_MOST_NAMES = 3  # of tables, in a title
-
 
 def identify(
     *,
@@ -25,22 +23,7 @@ def identify(
             "and a column point that names what was touched; or a table for each point.",
         ),
     ],
-    arm: Annotated[
-        str,
-        typer.Option(help="The drawing: a name such as ur10e, or a .urdf or .json file."),
-    ],
-    out: Annotated[
-        Path, typer.Option("--out", "-o", help="Folder for the results; made if missing.")
-    ],
-    tip: Annotated[
-        str | None, typer.Option(help="Of a .urdf with several ends: the link that is the tip.")
-    ] = None,
-    tracked: Annotated[
-        bool,
-        typer.Option(
-            "--tracked", help="The table holds positions that an instrument measured: x_mm …"
-        ),
-    ] = False,
+    job: own.Job,
     reading: own.TouchColumns,
     known: own.Known,
     searching: own.Searching,
@@ -71,26 +54,22 @@ def identify(
 
       bathyal identify tracked.csv --tracked --arm ur10 -o found
     """
-    from bathyal.arm_files import find_arm
     from bathyal.identify_report import identify as make_identification
 
     talk = Talk(json=json, quiet=quiet)
-    nominal = find_arm(arm, **({} if tip is None else {"tip": tip}))
+    nominal = job.nominal()
     with talk.progress() as progress:
         found = make_identification(
             touches,
             nominal,
-            tracked=tracked,
+            tracked=job.tracked,
             read={**reading.keywords(), **known.keywords()},
             options=searching.keywords(),
             step=progress,
         )
-        name = nominal.name or Path(arm).stem
-        names = [file.name for file in touches]
-        tables = ", ".join(names) if len(names) <= _MOST_NAMES else f"{len(names)} tables"
         files = found.write(
-            out,
-            title=f"{name} from {tables}",
+            job.out,
+            title=job.title(nominal, touches),
             ros=ros,
             ur_calibration=ur_calibration,
             step=progress,
@@ -100,7 +79,7 @@ def identify(
         "found": found.words,
         "next": " ".join(found.next),
         **found.facts,
-        "folder": str(out),
+        "folder": str(job.out),
         "files": " ".join(file.name for file in files),
     }
     talk.warn(found.warnings)

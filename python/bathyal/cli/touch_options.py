@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from enum import Enum
+from pathlib import Path
 from typing import Annotated, Any
 
 import typer
@@ -30,6 +31,7 @@ _READING = "Reading"
 _BESIDE = "What was recorded beside"
 _KNOWN = "What is known"
 _FIT = "The search"
+_MOST_NAMES = 3  # of tables, in a title
 
 
 class Unit(str, Enum):
@@ -83,6 +85,42 @@ def _default_mm(function: Callable[..., Any], keyword: str) -> str:
 
 
 _TOUCHES = bathyal.Touches.__init__
+
+
+@dataclass(frozen=True)
+class Job:
+    """What is identified or diagnosed, and where the results go."""
+
+    arm: Annotated[
+        str,
+        typer.Option(
+            help="The arm as it is drawn: a name such as ur10e, or a .urdf or .json file."
+        ),
+    ]
+    out: Annotated[
+        Path, typer.Option("--out", "-o", help="Folder for the results; made if missing.")
+    ]
+    tip: Annotated[
+        str | None, typer.Option(help="Of a .urdf with several ends: the link that is the tip.")
+    ] = None
+    tracked: Annotated[
+        bool,
+        typer.Option(
+            "--tracked", help="The table holds positions that an instrument measured: x_mm …"
+        ),
+    ] = False
+
+    def nominal(self) -> bathyal.Arm:
+        """The arm, read."""
+        from bathyal.arm_files import find_arm
+
+        return find_arm(self.arm, **given(tip=self.tip))
+
+    def title(self, nominal: bathyal.Arm, tables: list[Path]) -> str:
+        """ "UR10e from touches.csv"."""
+        names = [table.name for table in tables]
+        told = ", ".join(names) if len(names) <= _MOST_NAMES else f"{len(names)} tables"
+        return f"{nominal.name or Path(self.arm).stem} from {told}"
 
 
 @dataclass(frozen=True)

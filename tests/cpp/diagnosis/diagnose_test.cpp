@@ -44,8 +44,6 @@ Tracked wavy(double size, double noise, Index rows) {
 
 TEST(Diagnose, NamesAnEccentricEncoder) {
   const Diagnosis found = diagnose(six_joints(), wavy(1e-3, 1e-4, 150));
-  for (const auto& e : found.effects)
-    std::printf("%s %d size %g gain %g p %g\n", e.name.c_str(), e.joint, e.size, e.gain, e.p_value);
   ASSERT_EQ(found.verdict, Verdict::kNamed);
   ASSERT_EQ(found.effects.size(), 1u);
   const NamedEffect& wave = found.effects[0];
@@ -81,6 +79,47 @@ TEST(Diagnose, RefusesAnEffectTwice) {
   std::vector<std::shared_ptr<const Effect>> effects = library_effects();
   effects.push_back(effects.front());
   EXPECT_THROW(diagnose(six_joints(), wavy(0.0, 1e-4, 60), {}, effects), std::invalid_argument);
+}
+
+TEST(Diagnose, FarFromTheOriginNothingChanges) {
+  const Tracked data = wavy(1e-3, 1e-4, 150);
+  const Vec3 far(1e6, -1e6, 1e6);
+  Tracked moved = data;
+  moved.position.rowwise() += far.transpose();
+  Arm arm = six_joints();
+  Pose base = Pose::Identity();
+  base.translation() = far;
+  arm.set_base(base);
+  const Diagnosis near = diagnose(six_joints(), data);
+  // A double counts in steps of 1e-10 m out there; the search may stop a hundredth of the noise
+  // from where it stopped before.
+  for (const Diagnosis& found : {diagnose(six_joints(), moved), diagnose(arm, moved)}) {
+    ASSERT_EQ(found.verdict, near.verdict);
+    ASSERT_EQ(found.effects.size(), near.effects.size());
+    EXPECT_LT((found.residuals_after - near.residuals_after).cwiseAbs().maxCoeff(), 1e-6);
+    EXPECT_LT((found.held_out.after - near.held_out.after).cwiseAbs().maxCoeff(), 1e-6);
+    for (std::size_t p = 0; p < near.effects[0].parameters.size(); ++p) {
+      const Estimate& known = near.effects[0].parameters[p];
+      EXPECT_NEAR(found.effects[0].parameters[p].value, known.value,
+                  std::max(0.01 * known.std, known.name == "order" ? 1e-4 : 0.0));
+    }
+  }
+}
+
+TEST(Diagnose, CountsCopiesOfARowOnce) {
+  const Tracked data = wavy(1e-3, 1e-4, 60);
+  Tracked twice = data;
+  twice.q.conservativeResize(120, Eigen::NoChange);
+  twice.position.conservativeResize(120, Eigen::NoChange);
+  twice.q.bottomRows(60) = data.q;
+  twice.position.bottomRows(60) = data.position;
+  const Diagnosis once = diagnose(six_joints(), data);
+  const Diagnosis found = diagnose(six_joints(), twice);
+  EXPECT_EQ(found.gain, once.gain);
+  ASSERT_EQ(found.residuals_after.cols(), 120);
+  EXPECT_EQ(found.residuals_after.leftCols(60), once.residuals_after);
+  EXPECT_EQ(found.residuals_after.rightCols(60), once.residuals_after);
+  EXPECT_EQ(found.warnings.size(), once.warnings.size() + 1);
 }
 
 TEST(Diagnose, CleanDataAreClean) {

@@ -103,6 +103,17 @@ TEST(Touches, EachArgumentIsRefusedByItsName) {
                     "one plane only"));
   EXPECT_TRUE(names(of_touches([](Touches& t) { t.covariates["load"].setZero(3, 1); }),
                     "`covariates load`"));
+  EXPECT_TRUE(names(of_touches([](Touches& t) { t.covariates["load"].resize(5, 0); }),
+                    "`covariates load`: expected one column"));
+  EXPECT_TRUE(
+      names(of_touches([](Touches& t) { t.covariates["load"] = RowMatrix::Constant(5, 1, 1e200); }),
+            "`covariates load`: expected finite"));
+  EXPECT_EQ(of_touches([](Touches& t) { t.covariates["load"] = RowMatrix::Constant(5, 1, kNan); }),
+            "");
+  EXPECT_TRUE(names(of_touches([](Touches& t) {
+                      t.weights = {1.0, 1.0, 1.0, 1.0, 1e-30};
+                    }),
+                    "`weights`: expected numbers within"));
 }
 
 TEST(Touches, APlaneMakesUpForPointsTouchedOnce) {
@@ -119,6 +130,7 @@ TEST(Tracked, EachArgumentIsRefusedByItsName) {
   };
   EXPECT_TRUE(
       names(of([](Tracked& t) { t.position(1, 1) = kNan; }), "`position`: expected finite"));
+  EXPECT_TRUE(names(of([](Tracked& t) { t.position(1, 1) = 2e9; }), "at row 1"));
   EXPECT_TRUE(names(of([](Tracked& t) { t.position.conservativeResize(4, 3); }), "`position`"));
   EXPECT_TRUE(names(of([](Tracked& t) {
                       Pose mirror = Pose::Identity();
