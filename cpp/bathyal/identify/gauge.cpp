@@ -11,6 +11,7 @@ namespace bathyal {
 namespace {
 
 constexpr std::uint64_t kSeed = 1;
+constexpr double kClearly = 1e-3;  ///< share of a column that those before it cannot do
 
 /// Poses all over the joints' range, for each tool and station in turn, as if tracked.
 Measurement random_poses(const Measurement& like, const Arm& arm, Index count) {
@@ -75,6 +76,13 @@ std::vector<int> order_of(const ArmColumns& columns, bool base_known) {
   return order;
 }
 
+/// The columns that were kept, then those that were not.
+std::vector<int> preferred(Selection selection) {
+  std::vector<int> order = std::move(selection.kept);
+  order.insert(order.end(), selection.dependent.begin(), selection.dependent.end());
+  return order;
+}
+
 }  // namespace
 
 std::vector<GaugeColumn> find_gauge(const ArmColumns& columns, const Measurement& measurement,
@@ -92,12 +100,18 @@ std::vector<GaugeColumn> find_gauge(const ArmColumns& columns, const Measurement
   for (const int column : fixed) {
     std::erase(order, find_column(all.columns, columns.columns[column].name));
   }
+  // Where the arm stands, a column can be dark that has light anywhere else (parallel axes, sliding
+  // joints at right angles): held in its stead, one that has light here would be missed. So what
+  // brings something new here comes first, and the clearest of that before what a rounded angle
+  // alone lets through; whatever else is new elsewhere may then be kept beside it.
+  const Eigen::MatrixXd jacobian = jacobian_at(all, poses, all.nominal());
+  order = preferred(select_independent(jacobian, order, kClearly));
+  order = preferred(select_independent(jacobian, order));
   const Selection selection =
       select_independent(jacobian_at(all, poses, without_chance(all)), order);
   if (selection.dependent.empty()) return {};
 
   // What takes a gauge column's part is told for the arm as it is.
-  const Eigen::MatrixXd jacobian = jacobian_at(all, poses, all.nominal());
   Eigen::MatrixXd kept(jacobian.rows(), static_cast<Index>(selection.kept.size()));
   for (Index k = 0; k < kept.cols(); ++k) kept.col(k) = jacobian.col(selection.kept[k]);
   Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decomposition;
