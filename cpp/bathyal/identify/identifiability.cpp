@@ -74,6 +74,18 @@ RankReport reveal_rank(const Eigen::MatrixXd& jacobian, double tolerance) {
   return report;
 }
 
+Eigen::MatrixXd unseen_of(const Eigen::MatrixXd& jacobian) {
+  const Index columns = jacobian.cols();
+  const Eigen::MatrixXd triangle = triangle_of(jacobian);
+  if ((triangle.diagonal().array() != 0.0).all()) {
+    const Eigen::MatrixXd inverse =
+        triangle.triangularView<Eigen::Upper>().solve(Eigen::MatrixXd::Identity(columns, columns));
+    // The Frobenius norm is no less than the largest singular value.
+    if (kRankTolerance * triangle.norm() * inverse.norm() < 1.0) return {columns, 0};
+  }
+  return reveal_rank(triangle).unseen();
+}
+
 std::vector<Eigen::VectorXd> readable_directions(const Eigen::MatrixXd& unseen) {
   // Gauss and Jordan with the largest entry left as the next lead.
   Eigen::MatrixXd rows = unseen.transpose();

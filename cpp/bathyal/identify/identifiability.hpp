@@ -34,6 +34,10 @@ Eigen::MatrixXd triangle_of(const Eigen::MatrixXd& rows, int num_threads = 1);
 /// \pre no entry is NaN
 RankReport reveal_rank(const Eigen::MatrixXd& jacobian, double tolerance = kRankTolerance);
 
+/// The same as reveal_rank(jacobian).unseen(), for less where all is plainly seen.
+/// \pre no entry is NaN
+Eigen::MatrixXd unseen_of(const Eigen::MatrixXd& jacobian);
+
 /// (JᵀJ)⁻¹ from the triangle of J: the covariance of columns when residuals have unit noise.
 /// \pre the columns are independent
 Eigen::MatrixXd inverse_square(const Eigen::MatrixXd& jacobian);
