@@ -40,6 +40,11 @@ Measurement random_poses(const Measurement& like, const Arm& arm, Index count) {
   return m;
 }
 
+/// Three rows each: more of them than there are columns.
+Index enough_poses(const ArmColumns& columns) {
+  return static_cast<Index>(columns.columns.size()) / 2 + 4;
+}
+
 Eigen::MatrixXd jacobian_at(const ArmColumns& columns, const Measurement& poses,
                             const Eigen::VectorXd& x) {
   ArmSystem system(columns, poses, Criterion::kCentroid, false, 1);
@@ -94,8 +99,7 @@ std::vector<GaugeColumn> find_gauge(const ArmColumns& columns, const Measurement
   no_planes.plane_names.clear();
   const ArmColumns all =
       make_columns(columns.arm, no_planes, columns.bases, columns.tools, {}, with_base);
-  const Measurement poses =
-      random_poses(measurement, columns.arm, static_cast<Index>(all.columns.size()));
+  const Measurement poses = random_poses(measurement, columns.arm, enough_poses(all));
   std::vector<int> order = order_of(all, base_known);
   for (const int column : fixed) {
     std::erase(order, find_column(all.columns, columns.columns[column].name));
@@ -105,8 +109,7 @@ std::vector<GaugeColumn> find_gauge(const ArmColumns& columns, const Measurement
   // brings something new here comes first, and the clearest of that before what a rounded angle
   // alone lets through; whatever else is new elsewhere may then be kept beside it.
   const Eigen::MatrixXd jacobian = jacobian_at(all, poses, all.nominal());
-  order = preferred(select_independent(jacobian, order, kClearly));
-  order = preferred(select_independent(jacobian, order));
+  order = preferred(select_independent(jacobian, order, {kClearly, kRankTolerance}));
   const Selection selection =
       select_independent(jacobian_at(all, poses, without_chance(all)), order);
   if (selection.dependent.empty()) return {};

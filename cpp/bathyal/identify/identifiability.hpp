@@ -67,12 +67,14 @@ std::vector<Trade> trades_of(int column, const Eigen::MatrixXd& unseen,
 /// "theta of row 1 +1, d of row 2 -0.5": the columns of a direction, the largest first.
 std::string in_words(const Eigen::VectorXd& direction, const std::vector<Column>& columns);
 
-/// Columns taken in the order given as long as each brings something new.
+/// Columns taken in the order given as long as each brings something new: a share of it, above the
+/// tolerance, that those kept before cannot do. Of several tolerances the first counts for all
+/// columns before the next one is asked of those that are left.
 struct Selection {
   std::vector<int> kept;
   std::vector<int> dependent;  ///< those that the columns kept before them can do as well
 };
 Selection select_independent(const Eigen::MatrixXd& jacobian, const std::vector<int>& order,
-                             double tolerance = kRankTolerance);
+                             const std::vector<double>& tolerances = {kRankTolerance});
 
 }  // namespace bathyal

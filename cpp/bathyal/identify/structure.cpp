@@ -89,24 +89,31 @@ Eigen::MatrixXd joint_moves(const ArmSystem& system, const Eigen::VectorXd& x) {
   return moves;
 }
 
-/// Columns of length 1 at most, by what each adds to those before.
-Eigen::ColPivHouseholderQR<Eigen::MatrixXd> pivoted(const Eigen::MatrixXd& columns, double least) {
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(columns);
-  qr.setThreshold(qr.maxPivot() > 0.0 ? std::min(least / qr.maxPivot(), 1.0) : 1.0);
-  return qr;
-}
-
 struct Explained {
   double squares = 0.0;
   double functions = 0.0;
 };
 
+/// Taken one by one, by what each move still adds to those before. What is asked of a move is far
+/// above what the square of the moves loses.
 Explained explain(const Eigen::MatrixXd& moves, const Eigen::VectorXd& residuals) {
-  const auto qr = pivoted(moves, kBeside);
-  if (qr.maxPivot() < kBeside) return {};
-  Eigen::VectorXd turned = residuals;
-  turned.applyOnTheLeft(qr.householderQ().adjoint());
-  return {turned.head(qr.rank()).squaredNorm(), static_cast<double>(qr.rank())};
+  Eigen::MatrixXd square = Eigen::MatrixXd::Zero(moves.cols(), moves.cols());
+  square.selfadjointView<Eigen::Lower>().rankUpdate(moves.transpose());
+  square.triangularView<Eigen::StrictlyUpper>() = square.transpose();
+  Eigen::VectorXd along = moves.transpose() * residuals;
+  Explained out;
+  for (Index step = 0; step < moves.cols(); ++step) {
+    Index next = 0;
+    const double pivot = square.diagonal().maxCoeff(&next);
+    if (!(pivot > kBeside * kBeside)) break;
+    const Eigen::VectorXd column = square.col(next) / std::sqrt(pivot);
+    const double taken = along[next] / std::sqrt(pivot);
+    out.squares += taken * taken;
+    out.functions += 1.0;
+    square.noalias() -= column * column.transpose();
+    along -= taken * column;
+  }
+  return out;
 }
 
 /// Share of the variance that is gone with the functions.
