@@ -43,12 +43,13 @@ def test_the_noise_is_left_of_tracked_arms(with_turns: bool, digits: int) -> Non
         assert_noise_is_left(bathyal.identify_arm(replace(drawn, **angles).arm(), data), NOISE)
 
 
-# Clean cases of the generator of hidden effects that left up to 3.6 of the noise, and touches.
-@pytest.mark.parametrize("seed", [61, 343, 982, 1063, 1284, 1303, 1620, 1781, 60])
+# Clean cases of the generator of hidden effects: some left up to 3.6 of the noise; of touches, the
+# scatter of some passed for something that follows the sliding joint.
+@pytest.mark.parametrize("seed", [61, 343, 982, 1063, 1284, 1303, 1620, 1781, 60, 121, 1440])
 def test_the_noise_is_left_of_sealed_cases(seed: int) -> None:
     case = draw_case(seed)
     assert case.answer.kind == "clean"
     assert case.arm.sliding.any()
     fit = bathyal.identify_arm(case.bathyal_arm(), case.data())
     assert_noise_is_left(fit, case.answer.noise)
-    assert not [p.name for p in fit.parameters if p.status == "not_identifiable"]
+    assert not [text for text in fit.warnings if "Geometry is not enough" in text]
