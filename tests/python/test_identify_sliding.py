@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Drawn arms with a sliding joint: what identify_arm leaves is the noise, whatever stands square."""
+"""Drawn arms with a sliding joint: identify_arm leaves the noise, whatever stands square."""
 
 from dataclasses import replace
 
@@ -37,9 +37,7 @@ def test_the_noise_is_left_of_tracked_arms(with_turns: bool, digits: int) -> Non
         poses[:, :3, :3] = base @ frames.tool @ turned(NOISE * random.normal(size=(len(q), 3)))
         poses[:, :3, 3] = frames.tip @ base.T + [1, 2, 0.5] + NOISE * random.normal(size=(200, 3))
         angles = {c: np.round(getattr(drawn, c), digits) for c in ("theta", "alpha")}
-        data = (
-            bathyal.Tracked(q, pose=poses) if with_turns else bathyal.Tracked(q, poses[:, :3, 3])
-        )
+        data = bathyal.Tracked(q, pose=poses) if with_turns else bathyal.Tracked(q, poses[:, :3, 3])
         assert_noise_is_left(bathyal.identify_arm(replace(drawn, **angles).arm(), data), NOISE)
 
 
