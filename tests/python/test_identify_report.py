@@ -239,9 +239,10 @@ def test_data_of_another_fit_are_refused(made, told):
 
 
 def test_unseen_motion_is_no_standard_deviation():
-    """A planar arm tells nothing of what stands across its plane."""
+    """An elbow that never moved tells nothing of what stands before and behind it."""
     arm = bathyal.Arm.from_dh(a=[0.5, 0.4], alpha=[0, 0], d=[0, 0], theta=[0, 0])
     q = np.random.default_rng(1).uniform(-2, 2, (40, 2))
+    q[:, 1] = 0.3
     tracked = bathyal.Tracked(q, arm.forward(q)[:, :3, 3])
     fit = bathyal.identify_arm(arm, tracked)
     assert "Everywhere the tip moves by something that nobody told" in fit_words.surely_text(fit)

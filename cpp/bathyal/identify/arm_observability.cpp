@@ -48,11 +48,11 @@ Observability observe(const ArmSystem& system, const Eigen::VectorXd& x) {
   const Eigen::MatrixXd jacobian = triangle_of(data.jacobian(x), system.num_threads());
 
   const std::vector<int>& free = system.free();
-  const Eigen::MatrixXd unseen = reveal_rank(jacobian(Eigen::all, free)).unseen();
+  const Eigen::MatrixXd unseen = unseen_of(jacobian(Eigen::all, free));
 
   // Of what the data do not see, priors hold what moves any of them.
   const Eigen::MatrixXd told = system.linear_jacobian().rowwise().normalized() * unseen;
-  const Eigen::MatrixXd blind = unseen * reveal_rank(told).unseen();
+  const Eigen::MatrixXd blind = unseen * unseen_of(told);
   return {reveal_rank(jacobian), among_all(unseen, free, count), among_all(blind, free, count)};
 }
 

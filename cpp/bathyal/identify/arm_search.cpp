@@ -53,7 +53,8 @@ SearchResult Search::run() {
   system_.set_linear_rows(rows_to_hold(seen_.blind, problem_.columns.columns));
   // Where a loose prior alone holds the size, the noise that it is weighed against is found with a
   // firm one: else both shrink together.
-  const bool loose = !problem_.size_told && *problem_.length_prior > options_.size_prior;
+  const bool loose =
+      !noise_is_told() && !problem_.size_told && *problem_.length_prior > options_.size_prior;
   if (loose) problem_.set_length_prior(options_.size_prior);
   solve_with_noise();
   if (loose) {
@@ -80,7 +81,8 @@ void Search::solve(int max_iterations) {
 /// The first noise is a guess, and what it is weighed into is worth no more than a step: noise and
 /// numbers are found together, a step each, until the noise stands.
 void Search::solve_with_noise() {
-  for (int round = 0; noise_matters() && round < kMostRounds; ++round) {
+  const bool together = noise_matters() && !noise_is_told();
+  for (int round = 0; together && round < kMostRounds; ++round) {
     solve(1);
     if (!update_noise()) break;
   }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <span>
 
 #include "bathyal/base/parallel.hpp"
 #include "bathyal/identify/rotation_vector.hpp"
@@ -25,15 +26,33 @@ ArmSystem::ArmSystem(const ArmColumns& columns, const Measurement& measurement, 
       criterion_(criterion),
       pair_weights_(pair_weights),
       num_threads_(num_threads),
-      q_(measurement.q),
       free_(columns.columns.size()),
       trust_(static_cast<std::size_t>(measurement.rows()), 1.0) {
+  set_joints(measurement.q);
   std::iota(free_.begin(), free_.end(), 0);
   for (int i = 0; i < static_cast<int>(m_.rows()); ++i) {
     if (m_.plane[i] >= 0) plane_rows_.push_back(i);
   }
   set_criterion(criterion, pair_weights);
   set_noise(noise_, columns.nominal());
+}
+
+void ArmSystem::set_joints(const RowMatrix& q) {
+  const std::vector<Joint>& chain = columns_.arm.joints();
+  auto joints = std::make_shared<Joints>(Joints{q, {}});
+  joints->motions.resize(static_cast<std::size_t>(q.rows()) * chain.size());
+  parallel_for(static_cast<std::size_t>(q.rows()), kPosesPerChunk, num_threads_,
+               [&](std::size_t begin, std::size_t end) {
+                 for (std::size_t i = begin; i < end; ++i) {
+                   const std::span<const double> pose(q.row(static_cast<Index>(i)).data(),
+                                                      static_cast<std::size_t>(q.cols()));
+                   for (std::size_t k = 0; k < chain.size(); ++k) {
+                     joints->motions[i * chain.size() + k] =
+                         motion_of(chain[k], joint_value(chain[k], pose));
+                   }
+                 }
+               });
+  joints_ = std::move(joints);
 }
 
 void ArmSystem::set_criterion(Criterion criterion, bool pair_weights) {
@@ -144,12 +163,15 @@ void ArmSystem::fill_tips(const TipWalk& walk, const TipRows& out) const {
 
 void ArmSystem::fill_tips(const TipWalk& walk, Index begin, Index end, const TipRows& out) const {
   WalkFrames frames;
+  const std::size_t chain = columns_.arm.joints().size();
   for (Index i = begin; i < end; ++i) {
     const Index row = 3 * (i - begin);
     double* shift = out.jacobian == nullptr ? nullptr : out.jacobian + row;
     double* turn = out.rotation_jacobian == nullptr ? nullptr : out.rotation_jacobian + row;
-    const Pose pose = walk.tip(q_.row(i).data(), m_.action_row(i), m_.tool[i], m_.station[i],
-                               frames, shift, turn, out.stride);
+    const PoseJoints joints(joints_->q.row(i).data(),
+                            joints_->motions.data() + static_cast<std::size_t>(i) * chain);
+    const Pose pose = walk.tip(joints, m_.action_row(i), m_.tool[i], m_.station[i], frames, shift,
+                               turn, out.stride);
     Eigen::Map<Vec3>(out.tips + row) = pose.translation();
     if (out.rotations == nullptr) continue;
     const Vec3 error = vector_of(pose.linear() * m_.rotation[i].transpose());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "bathyal/identify/least_squares.hpp"
@@ -63,7 +64,7 @@ class ArmSystem final : public ResidualModel {
   void set_equal_noise(double unit);
 
   /// The joint values to compute with, when they are not those of the measurement.
-  void set_joints(RowMatrix q) { q_ = std::move(q); }
+  void set_joints(const RowMatrix& q);
 
   Index rows() const override;
   Index columns() const override { return static_cast<Index>(free_.size()); }
@@ -135,7 +136,11 @@ class ArmSystem final : public ResidualModel {
   int num_threads_;
   std::vector<std::pair<int, int>> pairs_;  ///< touches of one point, first < second
   std::vector<int> plane_rows_;
-  RowMatrix q_;
+  struct Joints {
+    RowMatrix q;
+    std::vector<JointMotion> motions;  ///< of each pose, joint after joint
+  };
+  std::shared_ptr<const Joints> joints_;  ///< the copies of a system share them
   std::vector<int> free_;
   std::vector<LinearRow> linear_;
   bool use_priors_ = true;

@@ -52,7 +52,7 @@ class LumpedMoments {
       torques.col(moment) = torque(moment);
       if (varies(torques.col(moment))) order.push_back(moment);
     }
-    std::vector<int> kept = select_independent(torques, order, kTold).kept;
+    std::vector<int> kept = select_independent(torques, order, {kTold}).kept;
     std::erase(kept, count);
     return kept;
   }

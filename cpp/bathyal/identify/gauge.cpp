@@ -11,6 +11,7 @@ namespace bathyal {
 namespace {
 
 constexpr std::uint64_t kSeed = 1;
+constexpr double kClearly = 1e-3;  ///< share of a column that those before it cannot do
 
 /// Poses all over the joints' range, for each tool and station in turn, as if tracked.
 Measurement random_poses(const Measurement& like, const Arm& arm, Index count) {
@@ -37,6 +38,11 @@ Measurement random_poses(const Measurement& like, const Arm& arm, Index count) {
     for (Index j = 0; j < arm.size(); ++j) m.q(i, j) = random.uniform(-reach[j], reach[j]);
   }
   return m;
+}
+
+/// Three rows each: more of them than there are columns.
+Index enough_poses(const ArmColumns& columns) {
+  return static_cast<Index>(columns.columns.size()) / 2 + 4;
 }
 
 Eigen::MatrixXd jacobian_at(const ArmColumns& columns, const Measurement& poses,
@@ -75,6 +81,13 @@ std::vector<int> order_of(const ArmColumns& columns, bool base_known) {
   return order;
 }
 
+/// The columns that were kept, then those that were not.
+std::vector<int> preferred(Selection selection) {
+  std::vector<int> order = std::move(selection.kept);
+  order.insert(order.end(), selection.dependent.begin(), selection.dependent.end());
+  return order;
+}
+
 }  // namespace
 
 std::vector<GaugeColumn> find_gauge(const ArmColumns& columns, const Measurement& measurement,
@@ -86,18 +99,22 @@ std::vector<GaugeColumn> find_gauge(const ArmColumns& columns, const Measurement
   no_planes.plane_names.clear();
   const ArmColumns all =
       make_columns(columns.arm, no_planes, columns.bases, columns.tools, {}, with_base);
-  const Measurement poses =
-      random_poses(measurement, columns.arm, static_cast<Index>(all.columns.size()));
+  const Measurement poses = random_poses(measurement, columns.arm, enough_poses(all));
   std::vector<int> order = order_of(all, base_known);
   for (const int column : fixed) {
     std::erase(order, find_column(all.columns, columns.columns[column].name));
   }
+  // Where the arm stands, a column can be dark that has light anywhere else (parallel axes, sliding
+  // joints at right angles): held in its stead, one that has light here would be missed. So what
+  // brings something new here comes first, and the clearest of that before what a rounded angle
+  // alone lets through; whatever else is new elsewhere may then be kept beside it.
+  const Eigen::MatrixXd jacobian = jacobian_at(all, poses, all.nominal());
+  order = preferred(select_independent(jacobian, order, {kClearly, kRankTolerance}));
   const Selection selection =
       select_independent(jacobian_at(all, poses, without_chance(all)), order);
   if (selection.dependent.empty()) return {};
 
   // What takes a gauge column's part is told for the arm as it is.
-  const Eigen::MatrixXd jacobian = jacobian_at(all, poses, all.nominal());
   Eigen::MatrixXd kept(jacobian.rows(), static_cast<Index>(selection.kept.size()));
   for (Index k = 0; k < kept.cols(); ++k) kept.col(k) = jacobian.col(selection.kept[k]);
   Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decomposition;

@@ -74,6 +74,18 @@ RankReport reveal_rank(const Eigen::MatrixXd& jacobian, double tolerance) {
   return report;
 }
 
+Eigen::MatrixXd unseen_of(const Eigen::MatrixXd& jacobian) {
+  const Index columns = jacobian.cols();
+  const Eigen::MatrixXd triangle = triangle_of(jacobian);
+  if ((triangle.diagonal().array() != 0.0).all()) {
+    const Eigen::MatrixXd inverse =
+        triangle.triangularView<Eigen::Upper>().solve(Eigen::MatrixXd::Identity(columns, columns));
+    // The Frobenius norm is no less than the largest singular value.
+    if (kRankTolerance * triangle.norm() * inverse.norm() < 1.0) return {columns, 0};
+  }
+  return reveal_rank(triangle).unseen();
+}
+
 std::vector<Eigen::VectorXd> readable_directions(const Eigen::MatrixXd& unseen) {
   // Gauss and Jordan with the largest entry left as the next lead.
   Eigen::MatrixXd rows = unseen.transpose();
@@ -122,23 +134,40 @@ std::string in_words(const Eigen::VectorXd& direction, const std::vector<Column>
 }
 
 Selection select_independent(const Eigen::MatrixXd& jacobian, const std::vector<int>& order,
-                             double tolerance) {
+                             const std::vector<double>& tolerances) {
+  // Householder's QR: of the columns that are still left, `rest` has below row `known` what those
+  // that were kept cannot do.
+  Eigen::MatrixXd rest = jacobian(Eigen::all, order);
+  const Eigen::RowVectorXd length = rest.colwise().norm();
+  std::vector<char> is_kept(order.size(), 0);
   Selection selection;
-  Eigen::MatrixXd basis(jacobian.rows(), std::min(jacobian.rows(), jacobian.cols()));
-  for (const int column : order) {
-    const auto count = static_cast<Index>(selection.kept.size());
-    const auto known = basis.leftCols(count);
-    Eigen::VectorXd rest = jacobian.col(column);
-    const double length = rest.norm();
-    for (int pass = 0; pass < 2; ++pass) {  // twice: the first leaves rounding behind
-      rest -= known * (known.transpose() * rest);
+  Index known = 0;
+  const auto keep = [&](std::size_t taken) {
+    const Index below = rest.rows() - known - 1;
+    double tau = 0.0;
+    double beta = 0.0;
+    Eigen::VectorXd reflector(below);
+    rest.col(static_cast<Index>(taken)).tail(below + 1).makeHouseholder(reflector, tau, beta);
+    is_kept[taken] = 1;
+    selection.kept.push_back(order[taken]);
+    for (std::size_t i = 0; i < order.size(); ++i) {
+      if (is_kept[i]) continue;
+      auto column = rest.col(static_cast<Index>(i));
+      const double along = tau * (column[known] + reflector.dot(column.tail(below)));
+      column[known] -= along;
+      column.tail(below) -= along * reflector;
     }
-    if (count < basis.cols() && length > 0.0 && rest.norm() > tolerance * length) {
-      basis.col(count) = rest.normalized();
-      selection.kept.push_back(column);
-    } else {
-      selection.dependent.push_back(column);
+    ++known;
+  };
+  for (const double tolerance : tolerances) {
+    for (std::size_t i = 0; i < order.size(); ++i) {
+      const auto column = static_cast<Index>(i);
+      const double left = rest.col(column).tail(rest.rows() - known).norm();
+      if (!is_kept[i] && left > tolerance * length[column]) keep(i);
     }
+  }
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    if (!is_kept[i]) selection.dependent.push_back(order[i]);
   }
   return selection;
 }

@@ -34,6 +34,10 @@ Eigen::MatrixXd triangle_of(const Eigen::MatrixXd& rows, int num_threads = 1);
 /// \pre no entry is NaN
 RankReport reveal_rank(const Eigen::MatrixXd& jacobian, double tolerance = kRankTolerance);
 
+/// The same as reveal_rank(jacobian).unseen(), for less where all is plainly seen.
+/// \pre no entry is NaN
+Eigen::MatrixXd unseen_of(const Eigen::MatrixXd& jacobian);
+
 /// (JᵀJ)⁻¹ from the triangle of J: the covariance of columns when residuals have unit noise.
 /// \pre the columns are independent
 Eigen::MatrixXd inverse_square(const Eigen::MatrixXd& jacobian);
@@ -63,12 +67,14 @@ std::vector<Trade> trades_of(int column, const Eigen::MatrixXd& unseen,
 /// "theta of row 1 +1, d of row 2 -0.5": the columns of a direction, the largest first.
 std::string in_words(const Eigen::VectorXd& direction, const std::vector<Column>& columns);
 
-/// Columns taken in the order given as long as each brings something new.
+/// Columns taken in the order given as long as each brings something new: a share of it, above the
+/// tolerance, that those kept before cannot do. Of several tolerances the first counts for all
+/// columns before the next one is asked of those that are left.
 struct Selection {
   std::vector<int> kept;
   std::vector<int> dependent;  ///< those that the columns kept before them can do as well
 };
 Selection select_independent(const Eigen::MatrixXd& jacobian, const std::vector<int>& order,
-                             double tolerance = kRankTolerance);
+                             const std::vector<double>& tolerances = {kRankTolerance});
 
 }  // namespace bathyal

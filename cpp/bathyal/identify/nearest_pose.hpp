@@ -13,8 +13,8 @@ template <class Miss>
 Eigen::VectorXd nearest_pose(const TipWalk& walk, const Eigen::VectorXd& q, Index row, int tool,
                              int station, WalkFrames& frames, const Miss& miss) {
   constexpr int kMostSteps = 10;
-  constexpr double kFarTurn = 0.5;  // [rad], [m]
-  constexpr double kOnPoint = 1e-14;
+  constexpr double kFarTurn = 0.5;    // [rad], [m]
+  constexpr double kOnPoint = 1e-12;  // [m]
   Eigen::VectorXd joints = q;
   for (int step = 0; step < kMostSteps; ++step) {
     Vec3 tip;

@@ -46,6 +46,17 @@ std::vector<double> shares(const ArmSystem& system) {
   return share;
 }
 
+/// The inverse, without the directions that nothing but the row itself tells.
+Eigen::Matrix3d inverse_where_told(const Eigen::Matrix3d& spread) {
+  constexpr double kUntold = 1e-6;
+  const Eigen::Matrix3d inverse = spread.inverse();
+  if (inverse.norm() < 1.0 / kUntold && spread.determinant() > 0.0) return inverse;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(spread);
+  const Vec3 values = axes.eigenvalues();
+  const Vec3 inverses = (values.array() < kUntold).select(0.0, values.cwiseInverse());
+  return axes.eigenvectors() * inverses.asDiagonal() * axes.eigenvectors().transpose();
+}
+
 Study study(const ArmSystem& system, const Eigen::VectorXd& x) {
   const Measurement& m = system.measurement();
   Eigen::VectorXd residuals(system.rows());
@@ -79,16 +90,10 @@ Study study(const ArmSystem& system, const Eigen::VectorXd& x) {
     const double sign = is_kept(trust) ? -1.0 : 1.0;
     const Eigen::Matrix3d spread =
         (1.0 + sign * share[i]) * Eigen::Matrix3d::Identity() + sign * lever / trust;
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(spread);
-    const Vec3 along = axes.eigenvectors().transpose() * residual / std::sqrt(trust);
-    Vec3 from = Vec3::Zero();
-    for (int axis = 0; axis < 3; ++axis) {
-      constexpr double kUnchecked = 1e-6;  // nothing but the row itself tells this direction
-      const double value = axes.eigenvalues()[axis];
-      if (value < kUnchecked) continue;
-      out.square[i] += along[axis] * along[axis] / value;
-      from[axis] = is_kept(trust) ? along[axis] / value : along[axis];
-    }
+    const Vec3 miss = residual / std::sqrt(trust);
+    const Eigen::Matrix3d by_spread = inverse_where_told(spread);
+    out.square[i] = miss.dot(by_spread * miss);
+    const Vec3 from = by_spread * (is_kept(trust) ? miss : Vec3(spread * miss));
     out.distance[i] = from.norm() * system.noise().position / std::sqrt(m.weights[i]);
     out.reach[i] = std::sqrt(1.0 + share[i] + lever.trace() / trust);
   }

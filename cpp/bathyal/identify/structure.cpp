@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "bathyal/identify/arm_observability.hpp"
 #include "bathyal/identify/f_distribution.hpp"
 
 namespace bathyal {
@@ -59,15 +60,15 @@ void center(const ArmSystem& system, Eigen::MatrixXd& moves) {
 }
 
 /// (3 N, moves) what errors that follow the joints do to the residuals, as these are weighed.
-Eigen::MatrixXd joint_moves(const ArmSystem& system, const Eigen::VectorXd& x) {
+Eigen::MatrixXd joint_moves(const ArmSystem& system, const Eigen::VectorXd& x, const RowMatrix& q) {
   const Measurement& m = system.measurement();
   const ArmState state = state_at(system.arm_columns(), x);
-  const JointFunctions functions(state.arm, m.q);
+  const JointFunctions functions(state.arm, q);
   Eigen::MatrixXd moves(3 * m.rows(), kMoves * m.q.cols());
   for (Index i = 0; i < m.rows(); ++i) {
     const Eigen::Matrix3d axes = state.bases[m.station[i]].linear();
     for (Index j = 0; j < m.q.cols(); ++j) {
-      const auto values = functions(j, m.q(i, j));
+      const auto values = functions(j, q(i, j));
       for (Index f = 0; f < kFunctions; ++f) {
         moves.block<3, 3>(3 * i, kMoves * j + 3 * f) = values[f] * axes;
       }
@@ -89,24 +90,27 @@ Eigen::MatrixXd joint_moves(const ArmSystem& system, const Eigen::VectorXd& x) {
   return moves;
 }
 
-/// Columns of length 1 at most, by what each adds to those before.
-Eigen::ColPivHouseholderQR<Eigen::MatrixXd> pivoted(const Eigen::MatrixXd& columns, double least) {
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(columns);
-  qr.setThreshold(qr.maxPivot() > 0.0 ? std::min(least / qr.maxPivot(), 1.0) : 1.0);
-  return qr;
-}
-
 struct Explained {
   double squares = 0.0;
   double functions = 0.0;
 };
 
-Explained explain(const Eigen::MatrixXd& moves, const Eigen::VectorXd& residuals) {
-  const auto qr = pivoted(moves, kBeside);
-  if (qr.maxPivot() < kBeside) return {};
-  Eigen::VectorXd turned = residuals;
-  turned.applyOnTheLeft(qr.householderQ().adjoint());
-  return {turned.head(qr.rank()).squaredNorm(), static_cast<double>(qr.rank())};
+/// Moves taken one by one, by what each still adds to those before, from their `square` and how
+/// much each goes `along` the residuals. What is asked of a move is far above what a square loses.
+Explained explain(Eigen::MatrixXd square, Eigen::VectorXd along) {
+  Explained out;
+  for (Index step = 0; step < along.size(); ++step) {
+    Index next = 0;
+    const double pivot = square.diagonal().maxCoeff(&next);
+    if (!(pivot > kBeside * kBeside)) break;
+    const Eigen::VectorXd column = square.col(next) / std::sqrt(pivot);
+    const double taken = along[next] / std::sqrt(pivot);
+    out.squares += taken * taken;
+    out.functions += 1.0;
+    square.noalias() -= column * column.transpose();
+    along -= taken * column;
+  }
+  return out;
 }
 
 /// Share of the variance that is gone with the functions.
@@ -123,61 +127,76 @@ double rows_trusted(const Measurement& m, const std::vector<double>& trust) {
   return rows;
 }
 
-/// What the arm's columns can do to the positions, as a basis of the space of residuals.
-class ArmSpace {
- public:
-  /// Touches about their centres are what a growing arm does to them: left in, the arm's size would
-  /// take all residuals with it. It is held.
-  ArmSpace(const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& residuals, bool hold_size)
-      : first_(jacobian) {
-    constexpr double kDependent = 1e-9;
-    constexpr double kWeak = 1e-4;  // what moves so little has no part in residuals of this size
-    const Index columns = jacobian.cols();
-    Eigen::MatrixXd triangle = first_.matrixQR().topRows(columns).triangularView<Eigen::Upper>();
+/// An orthonormal basis of what the arm's columns can do to the positions. Touches about their
+/// centres are what a growing arm does to them: left in, the arm's size would take all residuals
+/// with it. It is held.
+Eigen::MatrixXd arm_space(Eigen::MatrixXd jacobian, const Eigen::VectorXd& residuals,
+                          bool hold_size) {
+  constexpr double kDependent = 1e-9;
+  constexpr double kWeak = 1e-4;  // what moves so little has no part in residuals of this size
+  const Index columns = jacobian.cols();
+  const Eigen::HouseholderQR<Eigen::MatrixXd> first(jacobian);
+  Eigen::MatrixXd triangle = first.matrixQR().topRows(columns).triangularView<Eigen::Upper>();
+  if (hold_size) {
     Eigen::VectorXd turned = residuals;
-    turned.applyOnTheLeft(first_.householderQ().adjoint());
-    if (hold_size) {
-      Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(triangle);
-      qr.setThreshold(kDependent);
-      const Eigen::VectorXd growth = qr.solve(turned.head(columns));
-      const bool grows = (triangle * growth).squaredNorm() > 0.5 * turned.squaredNorm();
-      if (grows) triangle -= (triangle * growth) * (growth.transpose() / growth.squaredNorm());
+    turned.applyOnTheLeft(first.householderQ().adjoint());
+    Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(triangle);
+    qr.setThreshold(kDependent);
+    const Eigen::VectorXd growth = qr.solve(turned.head(columns));
+    if ((triangle * growth).squaredNorm() > 0.5 * turned.squaredNorm()) {
+      const Eigen::RowVectorXd share = growth.transpose() / growth.squaredNorm();
+      triangle -= (triangle * growth) * share;
+      jacobian -= (jacobian * growth) * share;
     }
-    second_.setThreshold(kWeak);
-    second_.compute(triangle);
   }
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> second;
+  second.setThreshold(kWeak);
+  second.compute(triangle);
+  const Index rank = second.rank();
+  Eigen::MatrixXd basis = (jacobian * second.colsPermutation()).leftCols(rank);
+  second.matrixR()
+      .topLeftCorner(rank, rank)
+      .triangularView<Eigen::Upper>()
+      .solveInPlace<Eigen::OnTheRight>(basis);
+  return basis;
+}
 
-  Index rank() const { return second_.rank(); }
+bool slides(const Arm& arm) {
+  return std::any_of(arm.joints().begin(), arm.joints().end(),
+                     [](const Joint& joint) { return joint.type == JointType::kPrismatic; });
+}
 
-  /// What the columns cannot do of `vectors`, in other axes: (rows - rank) coordinates.
-  Eigen::MatrixXd outside(Eigen::MatrixXd vectors) const {
-    vectors.applyOnTheLeft(first_.householderQ().adjoint());
-    auto top = vectors.topRows(first_.cols());
-    top.applyOnTheLeft(second_.householderQ().adjoint());
-    return vectors.bottomRows(vectors.rows() - rank());
-  }
-
- private:
-  Eigen::HouseholderQR<Eigen::MatrixXd> first_;
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> second_;
-};
-
-JointStructure test(const ArmSystem& system, const Eigen::VectorXd& x) {
+JointStructure test(ArmSystem& system, const Eigen::VectorXd& x) {
   const Measurement& m = system.measurement();
+  const Index rows = 3 * m.rows();
   JointStructure out;
-  if (system.columns() == 0 || 3 * m.rows() <= system.columns()) return out;
+  if (system.columns() == 0 || rows <= system.columns()) return out;
   Eigen::VectorXd residuals(system.rows());
   Eigen::MatrixXd jacobian(system.rows(), system.columns());
-  const Eigen::VectorXd y = system.scaled(x);
-  system.evaluate(y.data(), residuals.data(), jacobian.data());
-  residuals.conservativeResize(3 * m.rows());
-  const ArmSpace arm(jacobian.topRows(3 * m.rows()), residuals, !m.tracked);
-  const Eigen::MatrixXd moves = arm.outside(joint_moves(system, x));
-  const Eigen::VectorXd left = arm.outside(residuals);
+  system.evaluate(system.scaled(x).data(), residuals.data(), jacobian.data());
+  residuals.conservativeResize(rows);
+  RowMatrix q = m.q;
+  if (!m.tracked && slides(system.arm_columns().arm)) {
+    // At joints as they were recorded, travel and an arm that shrinks by as much would together
+    // make the residuals of touches, and these would pass for something that follows the joint.
+    q = exact_joints(system, x);
+    system.set_joints(q);
+    jacobian = system.jacobian(x);
+  }
+  const Eigen::MatrixXd basis = arm_space(jacobian.topRows(rows), residuals, !m.tracked);
+  const Eigen::VectorXd left = residuals - basis * (basis.transpose() * residuals);
 
-  const double freedom = rows_trusted(m, system.trust()) - static_cast<double>(arm.rank());
+  const Eigen::MatrixXd moves = joint_moves(system, x, q);
+  const Eigen::MatrixXd inside = basis.transpose() * moves;
+  Eigen::MatrixXd square = Eigen::MatrixXd::Zero(moves.cols(), moves.cols());
+  square.selfadjointView<Eigen::Lower>().rankUpdate(moves.transpose());
+  square.selfadjointView<Eigen::Lower>().rankUpdate(inside.transpose(), -1.0);
+  square.triangularView<Eigen::StrictlyUpper>() = square.transpose();
+  const Eigen::VectorXd along = moves.transpose() * left;
+
+  const double freedom = rows_trusted(m, system.trust()) - static_cast<double>(basis.cols());
   const double squares = left.squaredNorm();
-  const Explained all = explain(moves, left);
+  const Explained all = explain(square, along);
   const double below = freedom - all.functions;
   if (all.functions < 1.0 || below < kLeastFreedom) return out;
   const double noise = std::max(squares - all.squares, 0.0) / below;
@@ -185,8 +204,10 @@ JointStructure test(const ArmSystem& system, const Eigen::VectorXd& x) {
   out.share = share_of(all, squares, freedom);
   if (out.p > kWorthAsking) return out;
   for (int j = 0; j < m.q.cols(); ++j) {
-    const double share =
-        share_of(explain(moves.middleCols(kMoves * j, kMoves), left), squares, freedom);
+    const Index at = kMoves * j;
+    const Explained alone =
+        explain(square.block(at, at, kMoves, kMoves), along.segment(at, kMoves));
+    const double share = share_of(alone, squares, freedom);
     if (share > out.joint_share) {
       out.coordinate = j;
       out.joint_share = share;

@@ -41,45 +41,55 @@ void TipWalk::find_turn_axes(const Eigen::VectorXd& x) {
   }
 }
 
-Pose TipWalk::walk(const double* q, Index row, int tool, int station, WalkFrames& frames) const {
+Pose TipWalk::walk(const PoseJoints& pose, Index row, int tool, int station,
+                   WalkFrames& frames) const {
   if (!acts(row)) {
-    walk_plain(q, station, frames);
+    walk_plain(pose, station, frames);
     return frames.world_from_row.back() * row_from_tool_[tool];
   }
-  walk_with_effects(q, row, station, frames);
+  walk_with_effects(pose.q, row, station, frames);
   return frames.left.back() * state_.tools[tool];
 }
 
 /// As compute_row_frames, with all that one pose shares with the next worked out before.
-void TipWalk::walk_plain(const double* q, int station, WalkFrames& frames) const {
+void TipWalk::walk_plain(const PoseJoints& pose, int station, WalkFrames& frames) const {
   const std::vector<Joint>& joints = state_.arm.joints();
   const auto coordinates = static_cast<std::size_t>(state_.arm.size());
   frames.world_from_row.resize(joints.size() + 1);
   frames.world_from_row[0] = state_.bases[station] * state_.arm.root();
   for (std::size_t k = 0; k < joints.size(); ++k) {
-    pass_row(k, joint_value(joints[k], {q, coordinates}), frames.world_from_row[k],
-             frames.world_from_row[k + 1]);
+    const JointMotion motion =
+        pose.motions != nullptr
+            ? pose.motions[k]
+            : motion_of(joints[k], joint_value(joints[k], {pose.q, coordinates}));
+    pass_row(k, motion, frames.world_from_row[k], frames.world_from_row[k + 1]);
   }
 }
 
-void TipWalk::pass_row(std::size_t k, double value, const Pose& before, Pose& behind) const {
+JointMotion motion_of(const Joint& joint, double value) {
+  if (joint.type != JointType::kRevolute) return {value, 0.0};
+  return {std::cos(value), std::sin(value)};
+}
+
+void TipWalk::pass_row(std::size_t k, const JointMotion& motion, const Pose& before,
+                       Pose& behind) const {
   Pose moved = before;
   if (state_.arm.joints()[k].type == JointType::kRevolute) {
-    const double cosine = std::cos(value), sine = std::sin(value);
+    const auto [cosine, sine] = motion;
     const Vec3 x = moved.linear().col(0), y = moved.linear().col(1);
     moved.linear().col(0) = cosine * x + sine * y;
     moved.linear().col(1) = cosine * y - sine * x;
   } else {
-    moved.translation() += value * moved.linear().col(2);
+    moved.translation() += motion.first * moved.linear().col(2);
   }
   const Pose& step = steps_[k].behind_from_moved;
   behind.linear().noalias() = moved.linear() * step.linear();
   behind.translation() = moved.linear() * step.translation() + moved.translation();
 }
 
-Pose TipWalk::tip(const double* q, Index row, int tool, int station, WalkFrames& frames,
+Pose TipWalk::tip(const PoseJoints& joints, Index row, int tool, int station, WalkFrames& frames,
                   double* shift, double* turn, Index stride) const {
-  const Pose world_from_tool = walk(q, row, tool, station, frames);
+  const Pose world_from_tool = walk(joints, row, tool, station, frames);
   if (shift == nullptr) return world_from_tool;
 
   const Vec3 tip = world_from_tool.translation();

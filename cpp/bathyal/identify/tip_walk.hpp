@@ -27,6 +27,24 @@ struct WalkFrames : RowFrames {
   Vec3 by_length = Vec3::Zero();
 };
 
+/// What a joint does by itself: the cosine and the sine of its turn, or its shift and nothing.
+struct JointMotion {
+  double first = 0.0;
+  double second = 0.0;
+};
+
+JointMotion motion_of(const Joint& joint, double value);
+
+/// Joint values of a pose; beside them the motion of each joint, where poses that are walked many
+/// times had it worked out before.
+struct PoseJoints {
+  const double* q;
+  const JointMotion* motions;
+
+  PoseJoints(const double* values, const JointMotion* known = nullptr)
+      : q(values), motions(known) {}
+};
+
 /// The row of a pose that is none of the measurement: no effect acts there.
 inline constexpr Index kNoRow = -1;
 
@@ -43,8 +61,8 @@ class TipWalk {
   /// One pose; world_from_tool. `row` is the row of effects' actions, or kNoRow. `shift` and `turn`
   /// are (3, wanted), column after column with `stride` between them: d tip / d column, and the
   /// axis about which the tool turns per unit of the column; each may be null. `frames` is scratch.
-  Pose tip(const double* q, Index row, int tool, int station, WalkFrames& frames, double* shift,
-           double* turn, Index stride) const;
+  Pose tip(const PoseJoints& joints, Index row, int tool, int station, WalkFrames& frames,
+           double* shift, double* turn, Index stride) const;
 
   /// The axis about which the i-th wanted column, a plane's tilt, turns that plane's normal.
   Vec3 plane_turn(std::size_t i) const { return turn_axes_[i]; }
@@ -70,10 +88,10 @@ class TipWalk {
   void find_pulls(const Eigen::VectorXd& x);
   bool acts(Index row) const { return has_effects_ && row != kNoRow; }
 
-  Pose walk(const double* q, Index row, int tool, int station, WalkFrames& frames) const;
-  void walk_plain(const double* q, int station, WalkFrames& frames) const;
+  Pose walk(const PoseJoints& joints, Index row, int tool, int station, WalkFrames& frames) const;
+  void walk_plain(const PoseJoints& joints, int station, WalkFrames& frames) const;
   void walk_with_effects(const double* q, Index row, int station, WalkFrames& frames) const;
-  void pass_row(std::size_t k, double value, const Pose& before, Pose& behind) const;
+  void pass_row(std::size_t k, const JointMotion& motion, const Pose& before, Pose& behind) const;
   void put_in(std::size_t frame, const Pose& reached, WalkFrames& frames) const;
   void find_unit_moves(const Vec3& tip, bool turns, WalkFrames& frames) const;
   Eigen::Matrix<double, 6, 1> move_of_effect(std::size_t i, Index row,

@@ -66,7 +66,7 @@ void TipWalk::walk_with_effects(const double* q, Index row, int station, WalkFra
   for (std::size_t k = 0; k < rows; ++k) {
     const Pose& before = frames.world_from_row[k];
     Pose behind;
-    pass_row(k, joint_value(joints[k], frames.q), before, behind);
+    pass_row(k, motion_of(joints[k], joint_value(joints[k], frames.q)), before, behind);
     if (frames.growth != 0.0) {
       const Vec3 x = behind.linear() * steps_[k].x_of_row;
       const DhRow& told = joints[k].row;

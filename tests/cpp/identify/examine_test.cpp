@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "../arm/arms.hpp"
 #include "bathyal/identify/f_distribution.hpp"
 #include "bathyal/identify/identify_arm.hpp"
+#include "simulated_touches.hpp"
 
 namespace bathyal {
 namespace {
@@ -111,6 +111,25 @@ TEST(Examine, WhatFollowsAJointIsNamedWithIt) {
   const ArmFit fit = identify_arm(probing(), measured(80, 3e-3));
   EXPECT_LT(fit.structure_p, 1e-6);
   EXPECT_TRUE(any_says(fit, "Geometry is not enough"));
+}
+
+/// Travel and an arm that shrinks by as much leave tips where they are, but for the scatter: that
+/// follows no joint.
+TEST(Examine, ScatterOfSlidingTouchesFollowsNoJoint) {
+  DhTable table;
+  table.rows = {{0.1, -kPi / 2, 0.8, 0, 0}, {0, kPi / 2, 0.2, 0, 0},  {0.45, 0, 0.15, 0, 0},
+                {0, kPi / 2, 0, 0, 0},      {0, -kPi / 2, 0.4, 0, 0}, {0.08, kPi / 2, 0, 0, 0}};
+  table.types.assign(6, JointType::kRevolute);
+  table.types[0] = JointType::kPrismatic;
+  const Arm drawing = arm_from_dh(table);
+  const Arm built = built_arm(drawing, 1e-3, 1);
+  for (const double scatter : {1e-4, 1e-3, 3e-3}) {
+    Touches touches = touch(built, {{0.3, 0.2, 1.0}, {0.1, -0.4, 0.8}, {-0.3, 0.1, 1.2}}, 30, 2);
+    add_scatter(scatter, 3, touches);
+    const ArmFit fit = identify_arm(drawing, touches);
+    EXPECT_GT(fit.structure_p, 1e-2) << scatter;
+    EXPECT_FALSE(any_says(fit, "Geometry is not enough"));
+  }
 }
 
 TEST(Examine, ManyPosesAreThinnedAndStillSpeak) {

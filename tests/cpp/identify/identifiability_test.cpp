@@ -49,6 +49,24 @@ TEST(RevealRank, FewerRowsThanColumnsAndNoneAtAll) {
   EXPECT_EQ(reveal_rank(MatrixXd(6, 0)).rank, 0);
 }
 
+TEST(UnseenOf, IsWhatRevealRankLeaves) {
+  MatrixXd matrix = any_matrix(40, 5, 2);
+  EXPECT_EQ(unseen_of(matrix).rows(), 5);
+  EXPECT_EQ(unseen_of(matrix).cols(), 0);
+  const MatrixXd difference = any_matrix(40, 1, 3);
+  for (const double share : {1e-5, 1e-6, 1e-8, 0.0}) {
+    matrix.col(4) = matrix.col(3) - 2.0 * matrix.col(1) + share * difference;
+    const MatrixXd found = unseen_of(matrix);
+    const MatrixXd known = reveal_rank(matrix).unseen();
+    ASSERT_EQ(found.cols(), known.cols());
+    EXPECT_EQ(found.cols(), share < 1e-7 ? 1 : 0);
+    EXPECT_LT((found * found.transpose() - known * known.transpose()).norm(), 1e-12);
+  }
+  EXPECT_EQ(unseen_of(any_matrix(3, 5, 4)).cols(), 2);
+  EXPECT_EQ(unseen_of(MatrixXd(0, 4)).cols(), 4);
+  EXPECT_EQ(unseen_of(MatrixXd(6, 0)).cols(), 0);
+}
+
 TEST(InverseSquare, IsTheCovariance) {
   const MatrixXd matrix = any_matrix(2000, 6, 5);
   const MatrixXd identity = inverse_square(matrix) * (matrix.transpose() * matrix);

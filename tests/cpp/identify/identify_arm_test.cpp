@@ -116,6 +116,48 @@ TEST(IdentifyArm, SlidingAndFollowingJoints) {
   for (const FitParameter& p : fit.parameters) EXPECT_NE(p.group, "row 3") << "row 3 is fixed";
 }
 
+/// Drawings with a sliding joint whose right angles and parallel axes hide from some columns what
+/// they would see on any other arm: what is left is the noise all the same.
+TEST(IdentifyArm, SlidingJointsAtSpecialAnglesLeaveTheNoise) {
+  constexpr double kNoise = 1e-4;
+  constexpr double kSquare = kPi / 2;
+  // a, alpha, d, theta, beta
+  const std::vector<std::vector<DhRow>> drawings{
+      {{0.27, kSquare, 0.26, 0, 0}, {0.21, -kSquare, 0, 0, 0}, {0, kSquare, 0.27, 0, 0}},
+      {{0, kSquare, 0.25, 0, 0}, {0.16, 0, 0.22, 0, 0}, {0, 0, 0.36, 0, 0}},
+      {{0.31, kSquare, 0.22, 0, 0}, {0, kSquare, 0.08, 0, 0}, {0.2, 0, 0.27, 0, 0}},
+      {{0.32, kSquare, 0, 0, 0},
+       {0, 0, 0.28, 0, 0},
+       {0, -kSquare, 0.29, 0, 0},
+       {0, -kSquare, 0.19, 0, 0},
+       {0, 0, 0.29, 0, 0}},
+  };
+  std::uint64_t seed = 0;
+  for (const std::vector<DhRow>& rows : drawings) {
+    for (const bool rotations : {false, true}) {
+      SCOPED_TRACE(++seed);
+      DhTable table;
+      table.rows = rows;
+      table.types.assign(rows.size(), JointType::kRevolute);
+      table.types[1] = JointType::kPrismatic;
+      DhArmOptions limits;
+      limits.lower.assign(rows.size(), -2.0);
+      limits.upper.assign(rows.size(), 2.0);
+      limits.lower[1] = 0.0;
+      limits.upper[1] = 0.5;
+      const Arm drawing = arm_from_dh(table, limits);
+      Tracked data = track(built_arm(drawing, 1e-3, seed), 200, rotations, seed);
+      add_noise(kNoise, seed, data);
+      const ArmFit fit = identify_arm(drawing, data);
+      const double squares = fit.residuals.squaredNorm() / (kNoise * kNoise);
+      const double freedom = fit.degrees_of_freedom;
+      EXPECT_GT(freedom, 560.0);
+      EXPECT_NEAR(squares, freedom, 4.0 * std::sqrt(2.0 * 600.0));
+      EXPECT_TRUE(fit.warnings.empty());
+    }
+  }
+}
+
 TEST(IdentifyArm, SeveralToolsAndStations) {
   const Arm truth = built_arm(ur10e(), 1e-3, 7);
   const Vec3 second(-0.05, 0.1, 0.2);

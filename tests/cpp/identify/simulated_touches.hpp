@@ -98,4 +98,19 @@ inline Tracked track(const Arm& arm, Index count, bool rotations, std::uint64_t 
   return tracked;
 }
 
+/// Measured positions, and turns where there are any, scatter by `std` [m] and [rad] per axis.
+inline void add_noise(double std, std::uint64_t seed, Tracked& tracked) {
+  RandomStream random(seed, 1);
+  for (Index i = 0; i < tracked.position.size(); ++i) {
+    tracked.position.data()[i] += std * random.normal();
+  }
+  for (std::size_t i = 0; i < tracked.pose.size(); ++i) {
+    Pose& pose = tracked.pose[i];
+    pose.translation() = tracked.position.row(static_cast<Index>(i)).transpose();
+    for (int axis = 0; axis < 3; ++axis) {
+      pose.linear() *= Eigen::AngleAxisd(std * random.normal(), Vec3::Unit(axis)).matrix();
+    }
+  }
+}
+
 }  // namespace bathyal
