@@ -36,7 +36,7 @@ class JointHarmonic final : public Effect {
             "1986 (gear eccentricity); Tuttle, Seering: A nonlinear model of a harmonic drive gear "
             "transmission, 1996",
             {},
-            {{"cos", "rad or m", 1e-6, 1e-3}, {"sin", "rad or m", 1e-6, 1e-3}},
+            {{"cos", "rad or m", 1e-6, 2e-2}, {"sin", "rad or m", 1e-6, 2e-2}},
             false,
             true};
   }
@@ -123,7 +123,7 @@ class JointMap final : public Effect {
             "Judd, Knasinski: A technique to calibrate industrial robots with experimental "
             "verification, 1990 (gear errors as Fourier series)",
             {},
-            {{"cos_1", "rad or m", 1e-6, 1e-3}, {"sin_1", "rad or m", 1e-6, 1e-3}},
+            {{"cos_1", "rad or m", 1e-6, 2e-2}, {"sin_1", "rad or m", 1e-6, 2e-2}},
             false,
             true};
   }
