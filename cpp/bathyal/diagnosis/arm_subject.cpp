@@ -206,17 +206,20 @@ std::vector<std::vector<Action>> ArmSubject::actions_of(int form) const {
   return out;
 }
 
-/// By the ranges that the effect's description gives for each unit; nothing of probes.
+/// By the ranges that the effect's description gives for each unit, as far as they have not been
+/// learned; nothing of probes.
 std::vector<double> ArmSubject::plausible(int form) const {
   const Source& source = sources_[form];
   std::vector<double> out;
   if (source.probe >= 0) return out;
+  const auto learned = sizes_.find(form);
+  const double size = learned != sizes_.end() ? learned->second : 1.0;
   const std::vector<EffectInfo::Range> ranges = source.effect->info().ranges;
   for (const EffectParameter& parameter : source.variant.parameters) {
     const auto told = std::find_if(ranges.begin(), ranges.end(), [&](const auto& range) {
       return range.unit.find(parameter.unit) != std::string::npos;
     });
-    out.push_back(told != ranges.end() ? told->high : kPlausible * parameter.scale);
+    out.push_back(size * (told != ranges.end() ? told->high : kPlausible * parameter.scale));
   }
   return out;
 }

@@ -71,6 +71,7 @@ class ArmSubject final : public Subject {
   void free_what_is_seen();
   void fit(const std::vector<int>& forms);
   bool move_orders();
+  bool learn_sizes();
   void gather_data(const Covariates& covariates);
   void gather_units();
   void gather_forms(const Effects& effects);
@@ -108,12 +109,13 @@ class ArmSubject final : public Subject {
   std::vector<NoiseForm> noise_forms_;
   std::vector<std::string> geometry_doubts_;
   std::vector<std::string> untried_;
-  std::size_t geometry_ = 0;    ///< columns that are not effects'
-  std::vector<int> base_free_;  ///< of them, those that are fitted
-  Eigen::MatrixXd held_;        ///< (free, k) orthonormal: changes of them that anything holds
-  std::vector<int> standing_;   ///< forms of the last `settle`
-  Eigen::VectorXd x_;           ///< of all columns, effects' last
-  RowMatrix exact_;             ///< joints at which derivatives are taken: of exact touches
+  std::size_t geometry_ = 0;     ///< columns that are not effects'
+  std::vector<int> base_free_;   ///< of them, those that are fitted
+  Eigen::MatrixXd held_;         ///< (free, k) orthonormal: changes of them that anything holds
+  std::vector<int> standing_;    ///< forms of the last `settle`
+  std::map<int, double> sizes_;  ///< of standing forms of many values: what is plausible, learned
+  Eigen::VectorXd x_;            ///< of all columns, effects' last
+  RowMatrix exact_;              ///< joints at which derivatives are taken: of exact touches
   Linearization linearization_;
   Eigen::Matrix3Xd bare_;
 };

@@ -14,7 +14,7 @@
 namespace bathyal {
 namespace {
 
-constexpr int kNoiseRounds = 4;
+constexpr int kNoiseRounds = 12;
 constexpr int kMostSteps = 20;
 constexpr double kSettledStep = 1e-6;  ///< in units of the columns' scale: nm and nrad
 constexpr double kSettledCost = 1e-7;  ///< of the sum of squares
@@ -23,6 +23,9 @@ constexpr double kOrderSettled = 0.05;  ///< standard deviations
 constexpr double kFarOrder = 3.0;       ///< over the span: half a wave
 constexpr double kOrderStep = 1e-4;     ///< relative
 constexpr double kNoiseSettled = 1e-3;  ///< relative
+constexpr int kRigid = 6;               ///< values of a rigid motion: effects of more are curves
+constexpr double kSizeSettled = 0.2;    ///< relative
+constexpr double kLeastSize = 1e-3;     ///< of what the effect's description calls plausible
 
 }  // namespace
 
@@ -68,6 +71,9 @@ bool ArmSubject::move_orders() {
 }
 
 void ArmSubject::fit(const std::vector<int>& forms) {
+  std::erase_if(sizes_, [&](const auto& size) {
+    return std::find(forms.begin(), forms.end(), size.first) == forms.end();
+  });
   // Values of forms that stay are where their search starts.
   std::map<int, Eigen::VectorXd> known;
   auto at = static_cast<Index>(geometry_);
@@ -97,10 +103,54 @@ void ArmSubject::fit(const std::vector<int>& forms) {
     x = nearest_minimum(std::move(x));
     if (!m_.tracked) x = without_size_draw(std::move(x));
     stand_at(x);
-    if (!update_noise()) break;
+    const bool other_noise = update_noise();
+    if (!learn_sizes() && !other_noise) break;
   }
   stand_at(x);
   if (forms.empty()) bare_ = deviations();
+}
+
+/// Many values of one form (a curve along a joint that moves little) have directions that the data
+/// hardly tell. They are held to the size that the others show: the evidence's own (MacKay 1992),
+/// Σ value² over the number of values that the data tell rather than the prior.
+bool ArmSubject::learn_sizes() {
+  const ArmSystem& system = *problem_.system;
+  const auto is_wide = [&](int form) {
+    return static_cast<int>(sources_[form].variant.parameters.size()) > kRigid;
+  };
+  if (std::none_of(standing_.begin(), standing_.end(), is_wide)) return false;
+  const Eigen::VectorXd y = system.scaled(x_);
+  const Eigen::MatrixXd to_free = moves();
+  const Index wide = system.columns();
+  const Eigen::MatrixXd own =
+      to_free.transpose() * system.square(y.data()).topLeftCorner(wide, wide) * to_free;
+  const Eigen::VectorXd variance =
+      own.llt().solve(Eigen::MatrixXd::Identity(own.rows(), own.rows())).diagonal();
+  bool learned = false;
+  Index at = 0;
+  for (const int form : standing_) {
+    const auto count = static_cast<Index>(sources_[form].variant.parameters.size());
+    const Index first = at;
+    at += count;
+    if (!is_wide(form)) continue;
+    const double size = sizes_.contains(form) ? sizes_[form] : 1.0;
+    double squares = 0.0, told = 0.0;
+    for (Index i = first; i < first + count; ++i) {
+      const Column& column = problem_.columns.columns[geometry_ + static_cast<std::size_t>(i)];
+      const double held = column.prior_std / column.scale;
+      squares += std::pow(y[held_.rows() + i] / held, 2);
+      told += 1.0 - variance[held_.cols() + i] / (held * held);
+    }
+    const double next =
+        std::clamp(size * std::sqrt(squares / std::max(told, 1.0)), kLeastSize, 1.0);
+    if (std::abs(next / size - 1.0) < kSizeSettled) continue;
+    learned = true;
+    sizes_[form] = next;
+    for (Index i = first; i < first + count; ++i) {
+      problem_.columns.columns[geometry_ + static_cast<std::size_t>(i)].prior_std *= next / size;
+    }
+  }
+  return learned;
 }
 
 /// Derivatives of exact touches: scatter would pass for information about the arm's size (see

@@ -368,7 +368,15 @@ void Examiner::look_beyond_names() {
       (is_probe(form) ? probes : names).push_back(form);
     }
     if (names == names_ && probes == probes_) return;
-    if (names != names_) settle(names);
+    if (names != names_) {
+      // What the search promised must hold where the fit ends.
+      const double before = score_of(standing, trust_);
+      settle(names);
+      if (!(score_of(forms_of(pool, set), trust_) > before)) {
+        settle(names_);
+        return;
+      }
+    }
     names_ = names;
     probes_ = probes;
   }

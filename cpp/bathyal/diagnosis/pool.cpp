@@ -26,10 +26,11 @@ bool is_independent(const Eigen::LLT<Eigen::MatrixXd>& root,
 }
 
 /// What a column must keep beside the others: of two words for one thing, prior and data would let
-/// each hold half, at next to no cost of freedom.
+/// each hold half, at next to no cost of freedom. Of a column that the prior holds tightly the data
+/// may say little by itself, and that is no harm.
 Eigen::ArrayXd least_kept(const Eigen::Ref<const Eigen::VectorXd>& held_by, double least) {
-  constexpr double kHeld = 3.0;
-  return (kHeld * held_by.array()).max(least);
+  constexpr double kHeld = 3.0, kAlike = 1e-3;
+  return (kHeld * held_by.array()).min(kAlike).max(least);
 }
 
 }  // namespace
