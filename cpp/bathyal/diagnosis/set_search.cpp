@@ -128,7 +128,7 @@ Scored improved(const Pool& pool, const Scored& now, const SetSearchOptions& opt
   for (const auto& [cause, count] : causes) {
     if (count < 2) continue;
     std::vector<int> without_kin = now.members;
-    std::erase_if(without_kin, [&](int m) { return pool.about(m).cause == cause; });
+    std::erase_if(without_kin, [&, &kin = cause](int m) { return pool.about(m).cause == kin; });
     best = better_of(pool, without_kin, std::move(best), options);
   }
   return best;
