@@ -7,8 +7,8 @@
 
 #include "bathyal/diagnosis/blocks.hpp"
 #include "bathyal/diagnosis/odd_units.hpp"
-#include "bathyal/diagnosis/set_search.hpp"
 #include "bathyal/diagnosis/subject.hpp"
+#include "bathyal/diagnosis/vantage.hpp"
 
 namespace bathyal {
 
@@ -36,16 +36,6 @@ struct RivalForm {
   int form = 0;     ///< chosen
   int instead = 0;  ///< form
   double odds = 0.0;
-};
-
-/// What the rows depend on.
-struct Dependence {
-  int form = 0;
-  double explained = 0.0;
-  double width = 0.0;
-  double p = 1.0;     ///< corrected
-  double size = 0.0;  ///< per row [noise]
-  double share = 0.0;
 };
 
 /// Corrected p-value below which structure is beyond noise.

@@ -6,6 +6,11 @@
 
 namespace bathyal {
 
+void append(Eigen::MatrixXd& columns, const Eigen::MatrixXd& more) {
+  columns.conservativeResize(Eigen::NoChange, columns.cols() + more.cols());
+  columns.rightCols(more.cols()) = more;
+}
+
 Eigen::MatrixXd side_by_side(const std::vector<Eigen::MatrixXd>& columns) {
   Index wide = 0;
   for (const Eigen::MatrixXd& some : columns) wide += some.cols();

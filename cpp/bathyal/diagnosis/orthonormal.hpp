@@ -18,6 +18,9 @@ inline constexpr double kSwallowed = 1e-4;
 /// moves the misfit less by all rows together could not be seen.
 inline constexpr double kLeastSeen = 2.0;
 
+/// Puts `more` behind `columns`.
+void append(Eigen::MatrixXd& columns, const Eigen::MatrixXd& more);
+
 /// All columns in one.
 Eigen::MatrixXd side_by_side(const std::vector<Eigen::MatrixXd>& columns);
 
