@@ -134,7 +134,7 @@ void Examiner::look_beyond_names() {
 
 /// Where the search looked, a name may have been worth it that is not where the fit ended.
 void Examiner::drop_what_is_not_needed() {
-  for (;;) {
+  while (!names_.empty()) {
     const Pool pool = vantage_.pool_of(names_);
     const std::vector<int> needed = forms_of(pool, improve_set(pool, everyone(pool)));
     if (needed == names_) return;

@@ -64,6 +64,7 @@ int Pool::add(std::span<const int> forms, std::span<const Form> all,
     wide += beside[i].length.size();
     ++taken;
   }
+  if (taken == 0) return 0;
   stack_.conservativeResize(Eigen::NoChange, wide);
   held_by_.conservativeResize(wide);
   for (std::size_t i = 0, m = members_.size() - static_cast<std::size_t>(taken); i < beside.size();
@@ -107,6 +108,11 @@ std::optional<SetFit> Pool::judge(std::span<const int> members) const {
   SetFit out;
   out.freedom = freedom_ - static_cast<double>(wide);
   if (!(out.freedom > 0.0)) return std::nullopt;
+  if (members.empty()) {
+    out.left = total_;
+    out.score = -0.5 * freedom_ * std::log(out.left);
+    return out;
+  }
   const Eigen::LLT<Eigen::MatrixXd> root(Eigen::MatrixXd(square_(which, which)));
   Eigen::MatrixXd by_data = square_(which, which);
   by_data.diagonal() -= held_by_(which);
@@ -162,7 +168,7 @@ double Pool::score_with(int member, std::span<const int> others, const SetFit& b
 Eigen::VectorXd Pool::scores_beside(std::span<const int> members) const {
   Eigen::VectorXd scores = Eigen::VectorXd::Constant(size(), kNever);
   const std::optional<SetFit> now = judge(members);
-  if (!now) return scores;
+  if (!now || size() == 0) return scores;
   const std::vector<Index> which = columns_of(members);
   // What the set leaves of each candidate and of the misfit: a Schur complement, of which only the
   // blocks along the diagonal are wanted.
