@@ -206,22 +206,17 @@ std::vector<std::vector<Action>> ArmSubject::actions_of(int form) const {
   return out;
 }
 
-/// By the ranges that the effect's description gives for each unit, as far as they have not been
-/// learned; nothing of probes.
-std::vector<double> ArmSubject::plausible(int form) const {
+/// Largest size of a parameter, as far as it has not been learned; `scale` is that of its column,
+/// which tells where the effect's description does not.
+double ArmSubject::plausible(int form, std::size_t parameter, double scale) const {
   const Source& source = sources_[form];
-  std::vector<double> out;
-  if (source.probe >= 0) return out;
   const auto learned = sizes_.find(form);
   const double size = learned != sizes_.end() ? learned->second : 1.0;
-  const std::vector<EffectInfo::Range> ranges = source.effect->info().ranges;
-  for (const EffectParameter& parameter : source.variant.parameters) {
-    const auto told = std::find_if(ranges.begin(), ranges.end(), [&](const auto& range) {
-      return range.unit.find(parameter.unit) != std::string::npos;
-    });
-    out.push_back(size * (told != ranges.end() ? told->high : kPlausible * parameter.scale));
+  double told = std::numeric_limits<double>::infinity();
+  if (source.effect) {
+    told = plausible_size(source.effect->info(), source.variant.parameters[parameter]);
   }
-  return out;
+  return size * (std::isfinite(told) ? told : kPlausible * scale);
 }
 
 std::vector<Eigen::MatrixXd> ArmSubject::columns(std::span<const int> forms) const {
@@ -235,25 +230,27 @@ std::vector<Eigen::MatrixXd> ArmSubject::columns(std::span<const int> forms) con
         variant.parameters.push_back({std::to_string(c), "", 1.0});
       }
     }
-    acting.push_back({std::move(variant), std::move(actions), plausible(form)});
+    acting.push_back({std::move(variant), std::move(actions)});
   }
-  return columns_of(std::move(acting));
+  std::vector<Eigen::MatrixXd> out;
+  for (ParameterColumns& one : columns_of(std::move(acting))) {
+    const int form = forms[out.size()];
+    for (Index p = 0; p < one.scale.size(); ++p) {
+      one.columns.col(p) *= plausible(form, static_cast<std::size_t>(p), one.scale[p]);
+    }
+    out.push_back(std::move(one.columns));
+  }
+  return out;
 }
 
-/// Per largest plausible size of each parameter.
-std::vector<Eigen::MatrixXd> ArmSubject::columns_of(std::vector<ActingVariant> acting) const {
+std::vector<ArmSubject::ParameterColumns> ArmSubject::columns_of(
+    std::vector<ActingVariant> acting) const {
   ArmColumns columns = problem_.columns;
   const auto before = static_cast<Index>(columns.columns.size());
   std::vector<Index> first{0};
-  std::vector<double> sizes;  // in units of the columns' scale
   for (ActingVariant& one : acting) {
     add_effect(columns, one.variant, std::move(one.actions));
     first.push_back(static_cast<Index>(columns.columns.size()) - before);
-    for (const double size : one.plausible) {
-      sizes.push_back(size /
-                      columns.columns[static_cast<std::size_t>(before) + sizes.size()].scale);
-    }
-    sizes.resize(static_cast<std::size_t>(first.back()), kPlausible);
   }
   std::vector<int> wanted(static_cast<std::size_t>(first.back()));
   std::iota(wanted.begin(), wanted.end(), static_cast<int>(before));
@@ -270,16 +267,19 @@ std::vector<Eigen::MatrixXd> ArmSubject::columns_of(std::vector<ActingVariant> a
   // next to nothing of that has been taken from them whole (a shift of a touched point), and what
   // is left of it is rounding.
   const double ordinary = kOrdinaryMove / system.noise().position * std::sqrt(double(m_.rows()));
+  Eigen::VectorXd scale(all.cols());
   for (Index c = 0; c < all.cols(); ++c) {
+    scale[c] = columns.columns[static_cast<std::size_t>(before + c)].scale;
     if (all.col(c).norm() < kRounding * ordinary) {
       all.col(c).setZero();
     } else {
-      all.col(c) *= sizes[static_cast<std::size_t>(c)];
+      all.col(c) /= scale[c];
     }
   }
-  std::vector<Eigen::MatrixXd> out;
+  std::vector<ParameterColumns> out;
   for (std::size_t i = 0; i + 1 < first.size(); ++i) {
-    out.emplace_back(all.middleCols(first[i], first[i + 1] - first[i]));
+    const Index wide = first[i + 1] - first[i];
+    out.push_back({all.middleCols(first[i], wide), scale.segment(first[i], wide)});
   }
   return out;
 }

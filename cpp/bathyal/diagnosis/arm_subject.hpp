@@ -66,7 +66,11 @@ class ArmSubject final : public Subject {
   struct ActingVariant {
     EffectVariant variant;
     std::vector<std::vector<Action>> actions;
-    std::vector<double> plausible;  ///< largest size of each parameter; empty: by its scale
+  };
+  /// What parameters do to the rows, (M, k) per unit of each, and an ordinary change of each.
+  struct ParameterColumns {
+    Eigen::MatrixXd columns;
+    Eigen::VectorXd scale;
   };
   void free_what_is_seen();
   void fit(const std::vector<int>& forms);
@@ -78,8 +82,8 @@ class ArmSubject final : public Subject {
   void gather_noise_forms();
   bool is_too_wide(const EffectVariant& variant);
   std::vector<std::vector<Action>> actions_of(int form) const;
-  std::vector<double> plausible(int form) const;
-  std::vector<Eigen::MatrixXd> columns_of(std::vector<ActingVariant> acting) const;
+  double plausible(int form, std::size_t parameter, double scale) const;
+  std::vector<ParameterColumns> columns_of(std::vector<ActingVariant> acting) const;
   Eigen::MatrixXd by_scanned() const;
   Eigen::VectorXd nearest_minimum(Eigen::VectorXd x) const;
   Eigen::VectorXd without_size_draw(Eigen::VectorXd x);

@@ -14,7 +14,7 @@
 namespace bathyal {
 namespace {
 
-constexpr int kNoiseRounds = 12;
+constexpr int kMostRounds = 12;  ///< of finding values, their noise and their sizes
 constexpr int kMostSteps = 20;
 constexpr double kSettledStep = 1e-6;  ///< in units of the columns' scale: nm and nrad
 constexpr double kSettledCost = 1e-7;  ///< of the sum of squares
@@ -88,10 +88,10 @@ void ArmSubject::fit(const std::vector<int>& forms) {
   for (const int form : forms) {
     const int begin = add_effect(problem_.columns, sources_[form].variant, actions_of(form));
     const auto end = static_cast<int>(problem_.columns.columns.size());
-    const std::vector<double> sizes = plausible(form);
     for (int c = begin; c < end; ++c) {
+      Column& column = problem_.columns.columns[c];
+      column.prior_std = plausible(form, static_cast<std::size_t>(c - begin), column.scale);
       free.push_back(c);
-      problem_.columns.columns[c].prior_std = sizes[c - begin];
     }
     x.conservativeResize(end);
     x.tail(end - begin).setZero();
@@ -99,7 +99,7 @@ void ArmSubject::fit(const std::vector<int>& forms) {
   }
   standing_ = forms;
   problem_.system->set_free(std::move(free));
-  for (int round = 0; round < kNoiseRounds; ++round) {
+  for (int round = 0; round < kMostRounds; ++round) {
     x = nearest_minimum(std::move(x));
     if (!m_.tracked) x = without_size_draw(std::move(x));
     stand_at(x);
@@ -353,9 +353,13 @@ Eigen::MatrixXd ArmSubject::covariance() const {
   for (Index i = 0; i < effects; ++i) {
     own.row(i) *= problem_.columns.columns[geometry_ + static_cast<std::size_t>(i)].scale;
   }
-  Eigen::VectorXd residuals(system.rows());
-  system.evaluate(system.scaled(x_).data(), residuals.data(), nullptr);
-  return residuals.squaredNorm() / freedom() * (own * own.transpose());
+  const Eigen::VectorXd y = system.scaled(x_);
+  double squares = system.cost(y.data());
+  for (Index i = 0; i < effects; ++i) {  // what holds them measures nothing
+    const Column& column = problem_.columns.columns[geometry_ + static_cast<std::size_t>(i)];
+    squares -= std::pow(y[held_.rows() + i] * column.scale / column.prior_std, 2);
+  }
+  return squares / freedom() * (own * own.transpose());
 }
 
 /// What a change of each standing order does to the residuals: the values beside it are no surer
@@ -366,9 +370,7 @@ Eigen::MatrixXd ArmSubject::by_scanned() const {
   for (const int form : standing_) {
     const EffectVariant& here = sources_[form].variant;
     const auto wide = static_cast<Index>(here.parameters.size());
-    const std::vector<double> sizes = plausible(form);
-    const Eigen::VectorXd values =
-        x_.segment(at, wide).cwiseQuotient(Eigen::VectorXd::Map(sizes.data(), wide));
+    const Eigen::VectorXd values = x_.segment(at, wide);
     at += wide;
     const auto order = here.settings.find("order");
     if (order == here.settings.end() || has_whole_order(here)) continue;
@@ -376,7 +378,7 @@ Eigen::MatrixXd ArmSubject::by_scanned() const {
       EffectVariant other = here;
       other.settings["order"] += change;
       auto actions = bathyal::actions_of(*sources_[form].effect, other, data_);
-      return Eigen::VectorXd(columns_of({{std::move(other), std::move(actions), sizes}})[0] *
+      return Eigen::VectorXd(columns_of({{std::move(other), std::move(actions)}})[0].columns *
                              values);
     };
     const double change = kOrderStep * order->second;

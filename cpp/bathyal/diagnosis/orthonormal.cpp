@@ -37,10 +37,16 @@ Eigen::MatrixXd orthonormal(Eigen::MatrixXd columns, double tolerance) {
   return qr.householderQ() * Eigen::MatrixXd::Identity(columns.rows(), qr.rank());
 }
 
+double least_length(const Eigen::Ref<const Eigen::MatrixXd>& columns) {
+  // In standard deviations of the noise, of all rows together.
+  constexpr double kLeastSeen = 2.0;
+  const double longest = columns.cols() > 0 ? columns.colwise().norm().maxCoeff() : 0.0;
+  return std::max(kLeastSeen, kSwallowed * longest);
+}
+
 Beside orthonormal_beside(const Eigen::MatrixXd& basis, Eigen::MatrixXd columns) {
   if (columns.cols() == 0) return {std::move(columns), {}};
-  const double longest = columns.colwise().norm().maxCoeff();
-  const double least = std::max(kLeastSeen, kSwallowed * longest);
+  const double least = least_length(columns);
   columns -= basis * (basis.transpose() * columns);
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(columns.transpose() * columns);
   const Eigen::VectorXd& squares = eigen.eigenvalues();

@@ -14,10 +14,6 @@ using Eigen::Index;
 /// telling: the columns before it can do the same.
 inline constexpr double kSwallowed = 1e-4;
 
-/// Of a direction's length at the largest plausible size, in standard deviations of the noise: what
-/// moves the misfit less by all rows together could not be seen.
-inline constexpr double kLeastSeen = 2.0;
-
 /// Puts `more` behind `columns`.
 void append(Eigen::MatrixXd& columns, const Eigen::MatrixXd& more);
 
@@ -40,8 +36,12 @@ struct Beside {
   Eigen::VectorXd length;
 };
 
-/// The part of `columns` (per largest plausible size) that is orthogonal to `basis`. A direction of
-/// it is left out where it is shorter than kLeastSeen, or than kSwallowed of the longest column.
+/// The length from which a direction of `columns` (each per largest plausible size) counts: shorter
+/// ones could not be seen, or are rounding beside the longest column.
+double least_length(const Eigen::Ref<const Eigen::MatrixXd>& columns);
+
+/// The part of `columns` that is orthogonal to `basis`, without directions shorter than
+/// least_length(columns).
 Beside orthonormal_beside(const Eigen::MatrixXd& basis, Eigen::MatrixXd columns);
 
 }  // namespace bathyal

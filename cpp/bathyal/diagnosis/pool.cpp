@@ -165,17 +165,22 @@ double Pool::score_with(int member, std::span<const int> others, const SetFit& b
          own.cost;
 }
 
+/// A Schur complement, of which only the blocks along the diagonal are wanted.
+Pool::Taken Pool::taken_by(std::span<const int> members) const {
+  const std::vector<Index> which = columns_of(members);
+  Taken out;
+  out.root.compute(Eigen::MatrixXd(square_(which, which)));
+  out.taken = out.root.matrixL().solve(Eigen::MatrixXd(square_(which, Eigen::all)));
+  out.explained = out.root.matrixL().solve(Eigen::VectorXd(against_(which)));
+  out.against = against_ - out.taken.transpose() * out.explained;
+  return out;
+}
+
 Eigen::VectorXd Pool::scores_beside(std::span<const int> members) const {
   Eigen::VectorXd scores = Eigen::VectorXd::Constant(size(), kNever);
   const std::optional<SetFit> now = judge(members);
   if (!now || size() == 0) return scores;
-  const std::vector<Index> which = columns_of(members);
-  // What the set leaves of each candidate and of the misfit: a Schur complement, of which only the
-  // blocks along the diagonal are wanted.
-  const Eigen::LLT<Eigen::MatrixXd> root(Eigen::MatrixXd(square_(which, which)));
-  const Eigen::MatrixXd taken = root.matrixL().solve(Eigen::MatrixXd(square_(which, Eigen::all)));
-  const Eigen::VectorXd against =
-      against_ - taken.transpose() * root.matrixL().solve(Eigen::VectorXd(against_(which)));
+  const auto [root, taken, explained, against] = taken_by(members);
   for (int m = 0; m < size(); ++m) {
     const auto [first, k] = std::pair(members_[m].first, members_[m].width);
     scores[m] = score_with(m, members, *now,
@@ -191,12 +196,8 @@ Eigen::MatrixXd Pool::scores_instead(std::span<const int> members) const {
       Eigen::MatrixXd::Constant(static_cast<Index>(members.size()), size(), kNever);
   const std::optional<SetFit> now = judge(members);
   if (!now || members.empty()) return scores;
-  const std::vector<Index> which = columns_of(members);
-  const auto wide = static_cast<Index>(which.size());
-  const Eigen::LLT<Eigen::MatrixXd> root(Eigen::MatrixXd(square_(which, which)));
-  const Eigen::MatrixXd taken = root.matrixL().solve(Eigen::MatrixXd(square_(which, Eigen::all)));
-  const Eigen::VectorXd explained = root.matrixL().solve(Eigen::VectorXd(against_(which)));
-  const Eigen::VectorXd against = against_ - taken.transpose() * explained;
+  const auto [root, taken, explained, against] = taken_by(members);
+  const Index wide = taken.rows();
   const Eigen::MatrixXd inverse = root.matrixL().solve(Eigen::MatrixXd::Identity(wide, wide));
   Index at = 0;
   for (std::size_t i = 0; i < members.size(); ++i) {

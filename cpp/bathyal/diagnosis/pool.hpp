@@ -85,7 +85,16 @@ class Pool {
     double cost;  ///< ln(trials) + kNameCost
     int cause;    ///< number of about->cause
   };
+  /// What a set takes of all columns: it leaves square - takenᵀ taken of them, and `against` of the
+  /// misfit.
+  struct Taken {
+    Eigen::LLT<Eigen::MatrixXd> root;  ///< of the set's square
+    Eigen::MatrixXd taken;             ///< (k, W)
+    Eigen::VectorXd explained;         ///< (k,)
+    Eigen::VectorXd against;           ///< (W,)
+  };
   std::vector<Index> columns_of(std::span<const int> members) const;
+  Taken taken_by(std::span<const int> members) const;
   /// The quick score of `member` beside `others`, whose fit is `base` and which leave `square` and
   /// `against` of its columns; kNever where it cannot stand there.
   double score_with(int member, std::span<const int> others, const SetFit& base,

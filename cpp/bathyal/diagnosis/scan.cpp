@@ -35,8 +35,7 @@ std::vector<ScannedForm> scan(const Subject& subject, const std::vector<int>& fo
       const auto shared = all_shared.middleCols(first, own.cols());
       const auto against = all_against.segment(first, own.cols());
       first += own.cols();
-      const double longest = own.cols() > 0 ? own.colwise().norm().maxCoeff() : 0.0;
-      const double least = std::max(kLeastSeen, kSwallowed * longest);
+      const double least = least_length(own);
       const Eigen::MatrixXd square = own.transpose() * own - shared.transpose() * shared;
       const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(square);
       Eigen::VectorXd inverse = eigen.eigenvalues();

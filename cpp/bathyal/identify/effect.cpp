@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "bathyal/base/check.hpp"
@@ -112,6 +113,21 @@ EffectData make_effect_data(const Arm& arm, const RowMatrix& q, const Covariates
                      [&time](int a, int b) { return time(a, 0) < time(b, 0); });
   }
   return data;
+}
+
+double plausible_size(const EffectInfo& info, const EffectParameter& parameter) {
+  // "rad or m" is the unit of what turns and of what slides.
+  const auto tells = [&](const std::string& units) {
+    const std::size_t at = units.find(parameter.unit);
+    if (at == std::string::npos) return false;
+    const std::size_t end = at + parameter.unit.size();
+    return (at == 0 || units[at - 1] == ' ') &&
+           (end == units.size() || units[end] == ',' || units.substr(end, 4) == " or ");
+  };
+  for (const EffectInfo::Range& range : info.ranges) {
+    if (tells(range.unit)) return range.high;
+  }
+  return std::numeric_limits<double>::infinity();
 }
 
 std::vector<std::vector<Action>> actions_of(const Effect& effect, const EffectVariant& variant,

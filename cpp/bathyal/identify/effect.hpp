@@ -94,10 +94,11 @@ struct EffectInfo {
   struct Range {
     std::string parameter;
     std::string unit;
-    double low = 0.0;  ///< plausible sizes of it
-    double high = 0.0;
+    double low = 0.0;   ///< plausible sizes of it
+    double high = 0.0;  ///< a value as large as this is one standard deviation of what diagnosis
+                        ///< thinks of it before the data; may be infinite
   };
-  std::vector<Range> ranges;
+  std::vector<Range> ranges;  ///< one for each unit at least
   /// Whether it looks at what changes from row to row, not at where a row lies: the ranges of the
   /// data that taught it are no bounds to it.
   bool by_difference = false;
@@ -130,6 +131,10 @@ class Effect {
     return {};
   }
 };
+
+/// The largest plausible size of a parameter: that of the first range in its unit; infinite where
+/// none is told.
+double plausible_size(const EffectInfo& info, const EffectParameter& parameter);
 
 /// Effect::actions, and their shapes checked: users' effects too come through here.
 /// \throw std::invalid_argument for actions that the contract does not allow

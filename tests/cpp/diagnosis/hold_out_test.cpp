@@ -95,6 +95,20 @@ TEST(Blocks, CutTimeIntoPiecesOfOneSize) {
   for (std::size_t i = 1; i < blocks.of.size(); ++i) EXPECT_GE(blocks.of[i], blocks.of[i - 1]);
 }
 
+TEST(Blocks, OfAListWithoutTimesAreShortRunsFromAllOverIt) {
+  Units units = units_of(240);
+  units.timed = false;
+  const Blocks blocks = make_blocks(units);
+  EXPECT_EQ(blocks.count, 10);
+  for (int b = 0; b < blocks.count; ++b) {
+    int runs = 0;
+    for (std::size_t i = 0; i < blocks.of.size(); ++i) {
+      if (blocks.of[i] == b && (i == 0 || blocks.of[i - 1] != b)) ++runs;
+    }
+    EXPECT_EQ(runs, 8);
+  }
+}
+
 TEST(Blocks, KeepTwinsTogetherAndGiveEverySessionItsShare) {
   Units units = units_of(200);
   for (int i = 0; i < 200; ++i) {
