@@ -210,7 +210,7 @@ std::vector<std::vector<Action>> ArmSubject::actions_of(int form) const {
 /// which tells where the effect's description does not.
 double ArmSubject::plausible(int form, std::size_t parameter, double scale) const {
   const Source& source = sources_[form];
-  const auto learned = sizes_.find(form);
+  const auto learned = sizes_.find(family_of(form));
   const double size = learned != sizes_.end() ? learned->second : 1.0;
   double told = std::numeric_limits<double>::infinity();
   if (source.effect) {

@@ -72,9 +72,12 @@ class ArmSubject final : public Subject {
     Eigen::MatrixXd columns;
     Eigen::VectorXd scale;
   };
+  using Family = std::pair<std::string, int>;  ///< an effect in a joint: sizes are learned together
+  Family family_of(int form) const { return {forms_[form].effect, forms_[form].joint}; }
   void free_what_is_seen();
   void fit(const std::vector<int>& forms);
   bool move_orders();
+  std::map<Family, std::vector<Index>> large_families() const;
   bool learn_sizes();
   void gather_data(const Covariates& covariates);
   void gather_units();
@@ -117,7 +120,7 @@ class ArmSubject final : public Subject {
   std::vector<int> base_free_;   ///< of them, those that are fitted
   Eigen::MatrixXd held_;         ///< (free, k) orthonormal: changes of them that anything holds
   std::vector<int> standing_;    ///< forms of the last `settle`
-  std::map<int, double> sizes_;  ///< of standing forms of many values: what is plausible, learned
+  std::map<Family, double> sizes_;  ///< what is plausible of large ones, learned
   Eigen::VectorXd x_;            ///< of all columns, effects' last
   RowMatrix exact_;              ///< joints at which derivatives are taken: of exact touches
   Linearization linearization_;

@@ -23,7 +23,7 @@ constexpr double kOrderSettled = 0.05;  ///< standard deviations
 constexpr double kFarOrder = 3.0;       ///< over the span: half a wave
 constexpr double kOrderStep = 1e-4;     ///< relative
 constexpr double kNoiseSettled = 1e-3;  ///< relative
-constexpr int kRigid = 6;               ///< values of a rigid motion: effects of more are curves
+constexpr std::size_t kRigid = 6;       ///< values of a rigid motion: more of a kind are learned
 constexpr double kSizeSettled = 0.2;    ///< relative
 constexpr double kLeastSize = 1e-3;     ///< of what the effect's description calls plausible
 
@@ -71,9 +71,6 @@ bool ArmSubject::move_orders() {
 }
 
 void ArmSubject::fit(const std::vector<int>& forms) {
-  std::erase_if(sizes_, [&](const auto& size) {
-    return std::find(forms.begin(), forms.end(), size.first) == forms.end();
-  });
   // Values of forms that stay are where their search starts.
   std::map<int, Eigen::VectorXd> known;
   auto at = static_cast<Index>(geometry_);
@@ -82,6 +79,9 @@ void ArmSubject::fit(const std::vector<int>& forms) {
     known[form] = x_.segment(at, wide);
     at += wide;
   }
+  standing_ = forms;
+  const auto families = large_families();
+  std::erase_if(sizes_, [&](const auto& size) { return !families.contains(size.first); });
   truncate_columns(problem_.columns, geometry_);
   Eigen::VectorXd x = x_.head(static_cast<Index>(geometry_));
   std::vector<int> free = base_free_;
@@ -97,7 +97,6 @@ void ArmSubject::fit(const std::vector<int>& forms) {
     x.tail(end - begin).setZero();
     if (known.contains(form)) x.tail(end - begin) = known[form];
   }
-  standing_ = forms;
   problem_.system->set_free(std::move(free));
   for (int round = 0; round < kMostRounds; ++round) {
     x = nearest_minimum(std::move(x));
@@ -110,15 +109,27 @@ void ArmSubject::fit(const std::vector<int>& forms) {
   if (forms.empty()) bare_ = deviations();
 }
 
-/// Many values of one form (a curve along a joint that moves little) have directions that the data
-/// hardly tell. They are held to the size that the others show: the evidence's own (MacKay 1992),
-/// Σ value² over the number of values that the data tell rather than the prior.
+/// Standing ones whose sizes can be learned: the places of their values among the effects'.
+std::map<ArmSubject::Family, std::vector<Index>> ArmSubject::large_families() const {
+  std::map<Family, std::vector<Index>> out;
+  Index count = 0;
+  for (const int form : standing_) {
+    for (std::size_t i = 0; i < sources_[form].variant.parameters.size(); ++i) {
+      out[family_of(form)].push_back(count++);
+    }
+  }
+  std::erase_if(out, [](const auto& family) { return family.second.size() <= kRigid; });
+  return out;
+}
+
+/// Many values of one kind along one joint (a curve where it moves little, a dozen waves) have
+/// directions that the data hardly tell. They are held to the size that the others show: the
+/// evidence's own (MacKay 1992), Σ value² over the number of values that the data tell rather than
+/// the prior.
 bool ArmSubject::learn_sizes() {
+  const auto families = large_families();
+  if (families.empty()) return false;
   const ArmSystem& system = *problem_.system;
-  const auto is_wide = [&](int form) {
-    return static_cast<int>(sources_[form].variant.parameters.size()) > kRigid;
-  };
-  if (std::none_of(standing_.begin(), standing_.end(), is_wide)) return false;
   const Eigen::VectorXd y = system.scaled(x_);
   const Eigen::MatrixXd to_free = moves();
   const Index wide = system.columns();
@@ -127,15 +138,10 @@ bool ArmSubject::learn_sizes() {
   const Eigen::VectorXd variance =
       own.llt().solve(Eigen::MatrixXd::Identity(own.rows(), own.rows())).diagonal();
   bool learned = false;
-  Index at = 0;
-  for (const int form : standing_) {
-    const auto count = static_cast<Index>(sources_[form].variant.parameters.size());
-    const Index first = at;
-    at += count;
-    if (!is_wide(form)) continue;
-    const double size = sizes_.contains(form) ? sizes_[form] : 1.0;
+  for (const auto& [family, values] : families) {
+    double& size = sizes_.try_emplace(family, 1.0).first->second;
     double squares = 0.0, told = 0.0;
-    for (Index i = first; i < first + count; ++i) {
+    for (const Index i : values) {
       const Column& column = problem_.columns.columns[geometry_ + static_cast<std::size_t>(i)];
       const double held = column.prior_std / column.scale;
       squares += std::pow(y[held_.rows() + i] / held, 2);
@@ -145,10 +151,10 @@ bool ArmSubject::learn_sizes() {
         std::clamp(size * std::sqrt(squares / std::max(told, 1.0)), kLeastSize, 1.0);
     if (std::abs(next / size - 1.0) < kSizeSettled) continue;
     learned = true;
-    sizes_[form] = next;
-    for (Index i = first; i < first + count; ++i) {
+    for (const Index i : values) {
       problem_.columns.columns[geometry_ + static_cast<std::size_t>(i)].prior_std *= next / size;
     }
+    size = next;
   }
   return learned;
 }

@@ -151,11 +151,37 @@ class Reporter {
       out.parts.push_back(
           part("point " + m_.name_of(m_.labels[p]), [&](Index i) { return m_.point[i] == p; }));
     }
+    const std::vector<bool> beyond = beyond_the_others();
+    if (std::find(beyond.begin(), beyond.end(), true) != beyond.end()) {
+      out.parts.push_back(
+          part("within the others' joint ranges", [&](Index i) { return !beyond[i]; }));
+      out.parts.push_back(part("beyond them", [&](Index i) { return bool(beyond[i]); }));
+    }
     if (out.parts.empty()) out.parts.push_back(all);
     const double above = out.rms_before * out.rms_before - out.noise * out.noise;
     if (above > 0.0) {
       out_.gain = (out.rms_before * out.rms_before - out.rms_after * out.rms_after) / above;
     }
+  }
+
+  /// (N,) whether a row's joints lie where no row of the other blocks reaches: what was found is a
+  /// guess there.
+  std::vector<bool> beyond_the_others() const {
+    std::vector<bool> out(static_cast<std::size_t>(m_.rows()), false);
+    for (int block = 0; block < found_.blocks.count; ++block) {
+      std::vector<Index> own, others;
+      for (Index i = 0; i < m_.rows(); ++i) {
+        (found_.blocks.of[i] == block ? own : others).push_back(i);
+      }
+      const RowMatrix known = m_.q(others, Eigen::all);
+      const Eigen::RowVectorXd low = known.colwise().minCoeff();
+      const Eigen::RowVectorXd high = known.colwise().maxCoeff();
+      for (const Index i : own) {
+        const auto q = m_.q.row(i).array();
+        out[i] = (q < low.array()).any() || (q > high.array()).any();
+      }
+    }
+    return out;
   }
 
   /// (N,) 3-D, of position rows [m]; NaN of rows that are left out.

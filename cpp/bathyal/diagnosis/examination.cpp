@@ -132,11 +132,15 @@ void Examiner::look_beyond_names() {
   }
 }
 
-/// Where the search looked, a name may have been worth it that is not where the fit ended.
+/// Where the search looked, a name may have been worth it that is not where the fit ended, or not
+/// beside structure found later.
 void Examiner::drop_what_is_not_needed() {
   while (!names_.empty()) {
-    const Pool pool = vantage_.pool_of(names_);
-    const std::vector<int> needed = forms_of(pool, improve_set(pool, everyone(pool)));
+    std::vector<int> asked = names_;
+    asked.insert(asked.end(), probes_.begin(), probes_.end());
+    const Pool pool = vantage_.pool_of(asked);
+    std::vector<int> needed = forms_of(pool, improve_set(pool, everyone(pool)));
+    std::erase_if(needed, [this](int form) { return is_probe(form); });
     if (needed == names_) return;
     names_ = needed;
     vantage_.settle(names_);
