@@ -139,7 +139,19 @@ void Examiner::drop_what_is_not_needed() {
     std::vector<int> asked = names_;
     asked.insert(asked.end(), probes_.begin(), probes_.end());
     const Pool pool = vantage_.pool_of(asked);
-    std::vector<int> needed = forms_of(pool, improve_set(pool, everyone(pool)));
+    std::vector<int> set = improve_set(pool, everyone(pool));
+    // A name may help only in that it makes another look smaller, and cost less.
+    const auto fit = pool.judge(set);
+    std::size_t least = set.size();
+    double least_worth = 0.0;
+    for (std::size_t i = 0; i < set.size(); ++i) {
+      const double worth = pool.worth(set, *fit, i);
+      if (pool.about(set[i]).probe || !(worth < least_worth)) continue;
+      least = i;
+      least_worth = worth;
+    }
+    if (least < set.size()) set.erase(set.begin() + static_cast<std::ptrdiff_t>(least));
+    std::vector<int> needed = forms_of(pool, set);
     std::erase_if(needed, [this](int form) { return is_probe(form); });
     if (needed == names_) return;
     names_ = needed;

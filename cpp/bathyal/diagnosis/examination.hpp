@@ -39,7 +39,7 @@ struct RivalForm {
 };
 
 /// Corrected p-value below which structure is beyond noise.
-inline constexpr double kBeyondNoise = 0.01;
+inline constexpr double kBeyondNoise = 0.002;
 
 /// Findings of one subject: which forms explain what its base model does not.
 struct Examination {

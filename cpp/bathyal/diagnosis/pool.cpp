@@ -122,9 +122,7 @@ std::optional<SetFit> Pool::judge(std::span<const int> members) const {
   }
   const Eigen::VectorXd against = against_(which);
   const Eigen::VectorXd values = root.solve(against);
-  // Of the misfit itself, without what holds the values.
-  const double gained = against.dot(values) + values.dot(held_by_(which).cwiseProduct(values));
-  out.left = std::max(total_ - gained, 1e-12 * total_);
+  out.left = std::max(total_ - against.dot(values), 1e-12 * total_);
   out.score = -0.5 * freedom_ * std::log(out.left);
   const Eigen::MatrixXd inverse = root.matrixL().solve(Eigen::MatrixXd::Identity(wide, wide));
   Index at = 0;
@@ -140,6 +138,12 @@ std::optional<SetFit> Pool::judge(std::span<const int> members) const {
     at += k;
   }
   return out;
+}
+
+double Pool::worth(std::span<const int> members, const SetFit& fit, std::size_t i) const {
+  const double width = fit.width[i], f = fit.f[i];
+  return 0.5 * freedom_ * std::log1p(width * f / fit.freedom) - cost_of_freedom(width, f) -
+         members_[members[i]].cost;
 }
 
 double Pool::score_with(int member, std::span<const int> others, const SetFit& base,

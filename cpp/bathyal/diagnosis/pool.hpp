@@ -25,7 +25,7 @@ double cost_of_freedom(double width, double f);
 
 /// What a set of candidates explains. Candidates' values are along their orthonormal columns.
 struct SetFit {
-  double left = 0.0;       ///< sum of squares that remains
+  double left = 0.0;       ///< sum of squares that remains, what holds the values counted in
   double freedom = 0.0;    ///< of it
   double score = 0.0;      ///< log evidence, see Pool::judge
   std::vector<double> f;   ///< of each candidate, given the others: Wald's statistic per column
@@ -67,6 +67,9 @@ class Pool {
   /// that of a normal prior whose width is that of the values found (George and Foster 2000,
   /// empirical Bayes); of `trials` forms, that one of them was picked (Chen and Chen 2008).
   std::optional<SetFit> judge(std::span<const int> members) const;
+
+  /// Log evidence for candidate `i` of a set by itself, given the others as they are.
+  double worth(std::span<const int> members, const SetFit& fit, std::size_t i) const;
 
   /// The score that each member would give as an addition to `members` (quick: without what the
   /// others' costs change); -inf for those of a cause that the set has, and dependent ones.
