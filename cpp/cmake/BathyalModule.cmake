@@ -22,6 +22,10 @@ add_library(bathyal_flags INTERFACE)
 # change the last bit of a decision, and results must be the same bytes on every SIMD path.
 target_compile_options(bathyal_flags INTERFACE -ffp-contract=off -Wall -Wextra -Wconversion
                                                -Wno-sign-conversion)
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64|amd64)$")
+  set(BATHYAL_X86 ON)
+  target_compile_definitions(bathyal_flags INTERFACE BATHYAL_X86_KERNELS)
+endif()
 if(BATHYAL_WERROR)
   target_compile_options(bathyal_flags INTERFACE -Werror)
 endif()
@@ -30,6 +34,26 @@ if(BATHYAL_SANITIZE)
                                                  -fno-sanitize-recover=all -fno-omit-frame-pointer)
   target_link_options(bathyal_flags INTERFACE -fsanitize=address,undefined)
 endif()
+
+# bathyal_simd_kernels(<variable> <prefix>)
+# Sources <prefix>_baseline.cpp and, where they can be compiled, _avx2 and _avx512: one file an
+# instruction set, chosen at run time (base/simd.hpp). The warnings are false alarms of GCC: on its
+# own intrinsics' headers (bug 105593), and on vectors as template arguments.
+function(bathyal_simd_kernels variable prefix)
+  set(quiet -Wno-maybe-uninitialized -Wno-uninitialized -Wno-ignored-attributes -Wno-psabi)
+  set(baseline ${quiet})
+  set(kernels ${prefix}_baseline.cpp)
+  if(BATHYAL_X86)
+    list(APPEND kernels ${prefix}_avx2.cpp ${prefix}_avx512.cpp)
+    set(baseline -march=x86-64-v2 ${quiet})
+    set(avx2 -mavx2 -mfma -mbmi -mbmi2 ${quiet})
+    set_source_files_properties(${prefix}_avx2.cpp PROPERTIES COMPILE_OPTIONS "${avx2}")
+    set_source_files_properties(${prefix}_avx512.cpp PROPERTIES
+      COMPILE_OPTIONS "${avx2};-mavx512f;-mavx512vl;-mavx512dq;-mavx512bw")
+  endif()
+  set_source_files_properties(${prefix}_baseline.cpp PROPERTIES COMPILE_OPTIONS "${baseline}")
+  set(${variable} ${kernels} PARENT_SCOPE)
+endfunction()
 
 # bathyal_module(<name> SOURCES <files> [LINK <targets>])
 # A static library bathyal_<name>, known to users as bathyal::<name>.

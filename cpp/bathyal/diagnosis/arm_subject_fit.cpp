@@ -8,6 +8,7 @@
 #include "bathyal/diagnosis/orthonormal.hpp"
 #include "bathyal/diagnosis/words.hpp"
 #include "bathyal/identify/effect_columns.hpp"
+#include "bathyal/identify/products.hpp"
 
 // Geometry and effects, fitted together, and what is told of the fit.
 
@@ -40,16 +41,17 @@ void ArmSubject::settle(const std::vector<int>& forms) {
 bool ArmSubject::move_orders() {
   const Eigen::MatrixXd by_order = by_scanned();
   if (by_order.cols() == 0) return false;
-  Eigen::MatrixXd basis = derivatives(x_) * moves();
+  const int threads = problem_.system->num_threads();
+  Eigen::MatrixXd basis = product(derivatives(x_), moves(), threads);
   scale_to_length_1(basis);
-  Eigen::MatrixXd square = basis.transpose() * basis;
+  Eigen::MatrixXd square = inner_products(basis, threads);
   square.diagonal().array() += kSwallowed * kSwallowed;
-  const Eigen::MatrixXd beside =
-      by_order - basis * square.llt().solve(basis.transpose() * by_order);
+  Eigen::MatrixXd beside = by_order;
+  add_product(basis, -square.llt().solve(inner_products(basis, by_order, threads)), beside, threads);
   Eigen::VectorXd residuals(problem_.system->rows());
   problem_.system->evaluate(problem_.system->scaled(x_).data(), residuals.data(), nullptr);
   const Eigen::VectorXd change =
-      -(beside.transpose() * beside).ldlt().solve(beside.transpose() * residuals);
+      -inner_products(beside, threads).ldlt().solve(beside.transpose() * residuals);
   const Eigen::VectorXd sure = beside.colwise().norm();  // 1 / standard deviation
   bool moved = false;
   Index at = 0;
@@ -101,7 +103,7 @@ void ArmSubject::fit(const std::vector<int>& forms) {
   for (int round = 0; round < kMostRounds; ++round) {
     x = nearest_minimum(std::move(x));
     if (!m_.tracked) x = without_size_draw(std::move(x));
-    stand_at(x);
+    x_ = x;
     const bool other_noise = update_noise();
     if (!learn_sizes() && !other_noise) break;
   }
@@ -133,8 +135,8 @@ bool ArmSubject::learn_sizes() {
   const Eigen::VectorXd y = system.scaled(x_);
   const Eigen::MatrixXd to_free = moves();
   const Index wide = system.columns();
-  const Eigen::MatrixXd own =
-      to_free.transpose() * system.square(y.data()).topLeftCorner(wide, wide) * to_free;
+  const Eigen::MatrixXd own = inner_products(
+      to_free, product(system.square(y.data()).topLeftCorner(wide, wide), to_free, 1), 1);
   const Eigen::VectorXd variance =
       own.llt().solve(Eigen::MatrixXd::Identity(own.rows(), own.rows())).diagonal();
   bool learned = false;
@@ -180,7 +182,7 @@ Eigen::VectorXd ArmSubject::without_size_draw(Eigen::VectorXd x) {
     system.evaluate(y.data(), residuals.data(), nullptr);
     Eigen::MatrixXd both(system.rows(), system.columns() + 1);
     both << derivatives(x), residuals;
-    const Eigen::VectorXd move = step_of(both.transpose() * both);
+    const Eigen::VectorXd move = step_of(inner_products(both, system.num_threads()));
     if (!(move.norm() < last)) return step < 2 ? least : x;
     last = move.norm();
     x = system.values(y + move);
@@ -194,7 +196,8 @@ Eigen::VectorXd ArmSubject::without_size_draw(Eigen::VectorXd x) {
 Eigen::VectorXd ArmSubject::step_of(const Eigen::MatrixXd& square) const {
   const Index wide = square.cols() - 1;
   const Eigen::MatrixXd to_free = moves();
-  Eigen::MatrixXd own = to_free.transpose() * square.topLeftCorner(wide, wide) * to_free;
+  Eigen::MatrixXd own =
+      inner_products(to_free, product(square.topLeftCorner(wide, wide), to_free, 1), 1);
   const Eigen::VectorXd scale = own.diagonal().unaryExpr(
       [](double value) { return value > 0.0 ? 1.0 / std::sqrt(value) : 0.0; });
   own = scale.asDiagonal() * own * scale.asDiagonal();
@@ -252,7 +255,8 @@ void ArmSubject::stand_at(const Eigen::VectorXd& x) {
   const Index points = m_.tracked ? 0 : m_.points();
   const Index seen = held_.cols();
   linearization_.base = Eigen::MatrixXd::Zero(rows, seen + 3 * points);
-  linearization_.base.leftCols(seen) = jacobian.leftCols(wide) * held_;
+  linearization_.base.leftCols(seen) =
+      product(jacobian.leftCols(wide), held_, system.num_threads());
   linearization_.unit.assign(static_cast<std::size_t>(rows), -1);
   // Rows that hold effects to what is plausible measure nothing.
   linearization_.lost = static_cast<double>(system.columns() - wide);
@@ -345,7 +349,7 @@ Eigen::MatrixXd ArmSubject::covariance() const {
   const Index effects = jacobian.cols() - held_.rows();
   const Eigen::MatrixXd scanned = by_scanned();
   Eigen::MatrixXd all(jacobian.rows(), held_.cols() + effects + scanned.cols());
-  all << jacobian * moves(), scanned;
+  all << product(jacobian, moves(), system.num_threads()), scanned;
   Eigen::VectorXd scale(all.cols());
   for (Index c = 0; c < scale.size(); ++c) {
     const double length = all.col(c).norm();

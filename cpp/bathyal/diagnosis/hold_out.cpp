@@ -3,6 +3,7 @@
 
 #include "bathyal/base/parallel.hpp"
 #include "bathyal/base/random.hpp"
+#include "bathyal/identify/products.hpp"
 
 namespace bathyal {
 namespace {
@@ -27,7 +28,7 @@ HoldOut::HoldOut(const Eigen::VectorXd& misfit, const Eigen::MatrixXd& columns,
   const auto square_of = [&](const std::vector<Index>& rows) {
     Eigen::MatrixXd part(static_cast<Index>(rows.size()), columns.cols() + 1);
     part << columns(rows, Eigen::all), misfit(rows);
-    return Eigen::MatrixXd(part.transpose() * part);
+    return inner_products(part, num_threads);
   };
   parallel_for(rows_.size(), 1, num_threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t b = begin; b < end; ++b) squares_[b] = square_of(rows_[b]);

@@ -4,7 +4,27 @@
 #include <algorithm>
 #include <utility>
 
+#include "bathyal/base/parallel.hpp"
+#include "bathyal/identify/products.hpp"
+
 namespace bathyal {
+namespace {
+
+constexpr std::size_t kGroupsAtOnce = 16;
+
+/// Makes all of `groups` orthogonal to `basis`: one product tells of all.
+void take_from(std::vector<Eigen::MatrixXd>& groups, const Eigen::MatrixXd& basis,
+               int num_threads) {
+  Eigen::MatrixXd all = side_by_side(groups);
+  add_product(basis, -inner_products(basis, all, num_threads), all, num_threads);
+  Index first = 0;
+  for (Eigen::MatrixXd& group : groups) {
+    group = all.middleCols(first, group.cols());
+    first += group.cols();
+  }
+}
+
+}  // namespace
 
 void append(Eigen::MatrixXd& columns, const Eigen::MatrixXd& more) {
   columns.conservativeResize(Eigen::NoChange, columns.cols() + more.cols());
@@ -44,26 +64,38 @@ double least_length(const Eigen::Ref<const Eigen::MatrixXd>& columns) {
   return std::max(kLeastSeen, kSwallowed * longest);
 }
 
-Beside orthonormal_beside(const Eigen::MatrixXd& basis, Eigen::MatrixXd columns) {
-  if (columns.cols() == 0) return {std::move(columns), {}};
-  const double least = least_length(columns);
-  columns -= basis * (basis.transpose() * columns);
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(columns.transpose() * columns);
-  const Eigen::VectorXd& squares = eigen.eigenvalues();
-  Index none = 0;
-  while (none < squares.size() && !(squares[none] > least * least)) ++none;
-  const Index kept = squares.size() - none;
-  Beside out;
-  out.length = squares.tail(kept).cwiseSqrt();
-  out.columns =
-      columns * (eigen.eigenvectors().rightCols(kept) * out.length.cwiseInverse().asDiagonal());
+std::vector<Beside> orthonormal_beside(const Eigen::MatrixXd& basis,
+                                       std::vector<Eigen::MatrixXd> groups, int num_threads) {
+  std::vector<Beside> out(groups.size());
+  std::vector<double> least(groups.size());
+  for (std::size_t g = 0; g < groups.size(); ++g) least[g] = least_length(groups[g]);
+  const auto for_each = [&](const auto& body) {
+    parallel_for(groups.size(), kGroupsAtOnce, num_threads,
+                 [&](std::size_t begin, std::size_t end) {
+                   for (std::size_t g = begin; g < end; ++g) body(g);
+                 });
+  };
+  take_from(groups, basis, num_threads);
+  for_each([&](std::size_t g) {
+    if (groups[g].cols() == 0) return;
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(inner_products(groups[g], 1));
+    const Eigen::VectorXd& squares = eigen.eigenvalues();
+    Index none = 0;
+    while (none < squares.size() && !(squares[none] > least[g] * least[g])) ++none;
+    const Index kept = squares.size() - none;
+    out[g].length = squares.tail(kept).cwiseSqrt();
+    groups[g] = groups[g] * (eigen.eigenvectors().rightCols(kept) *
+                             out[g].length.cwiseInverse().asDiagonal());
+  });
   // What rounding has left of the basis and of one another; nothing is turned by that.
-  if (kept > 0) {
-    out.columns -= basis * (basis.transpose() * out.columns);
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> skew(out.columns.transpose() *
-                                                              out.columns);
-    out.columns *= skew.operatorInverseSqrt();
-  }
+  take_from(groups, basis, num_threads);
+  for_each([&](std::size_t g) {
+    if (groups[g].cols() > 0) {
+      const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> skew(inner_products(groups[g], 1));
+      groups[g] *= skew.operatorInverseSqrt();
+    }
+    out[g].columns = std::move(groups[g]);
+  });
   return out;
 }
 

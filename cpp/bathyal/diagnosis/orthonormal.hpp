@@ -40,8 +40,9 @@ struct Beside {
 /// ones could not be seen, or are rounding beside the longest column.
 double least_length(const Eigen::Ref<const Eigen::MatrixXd>& columns);
 
-/// The part of `columns` that is orthogonal to `basis`, without directions shorter than
-/// least_length(columns).
-Beside orthonormal_beside(const Eigen::MatrixXd& basis, Eigen::MatrixXd columns);
+/// The part of each group of columns that is orthogonal to `basis`, without directions shorter than
+/// least_length(group).
+std::vector<Beside> orthonormal_beside(const Eigen::MatrixXd& basis,
+                                       std::vector<Eigen::MatrixXd> groups, int num_threads);
 
 }  // namespace bathyal

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "bathyal/base/parallel.hpp"
 #include "bathyal/diagnosis/orthonormal.hpp"
+#include "bathyal/identify/products.hpp"
 
 namespace bathyal {
 namespace {
@@ -47,11 +47,8 @@ Pool::Pool(const Eigen::MatrixXd& basis, const Eigen::VectorXd& misfit, double f
       stack_(misfit.size(), 0) {}
 
 int Pool::add(std::span<const int> forms, std::span<const Form> all,
-              const std::vector<Eigen::MatrixXd>& columns, int num_threads) {
-  std::vector<Beside> beside(columns.size());
-  parallel_for(columns.size(), 1, num_threads, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) beside[i] = orthonormal_beside(basis_, columns[i]);
-  });
+              std::vector<Eigen::MatrixXd> columns, int num_threads) {
+  std::vector<Beside> beside = orthonormal_beside(basis_, std::move(columns), num_threads);
   const Index old = stack_.cols();
   Index wide = old;
   int taken = 0;
@@ -75,21 +72,8 @@ int Pool::add(std::span<const int> forms, std::span<const Form> all,
         beside[i].length.cwiseAbs2().cwiseInverse();
     ++m;
   }
-  // The new columns against all, a strip of the square by each thread.
-  Eigen::MatrixXd square(wide, wide);
-  square.topLeftCorner(old, old) = square_;
-  constexpr Index kStrip = 64;
-  const Index fresh = wide - old;
-  parallel_for(static_cast<std::size_t>(fresh), kStrip, num_threads,
-               [&](std::size_t begin, std::size_t end) {
-                 const auto first = old + static_cast<Index>(begin);
-                 const auto count = static_cast<Index>(end - begin);
-                 square.middleCols(first, count).noalias() =
-                     stack_.transpose() * stack_.middleCols(first, count);
-               });
-  square.bottomLeftCorner(fresh, old) = square.topRightCorner(old, fresh).transpose();
-  square.diagonal().tail(fresh) += held_by_.tail(fresh);
-  square_ = std::move(square);
+  square_ = inner_products(stack_, num_threads);
+  square_.diagonal() += held_by_;
   against_ = stack_.transpose() * misfit_;
   return taken;
 }

@@ -42,7 +42,7 @@ class Pool {
   /// Takes candidates in; those that the base model swallows are left out. Returns how many it
   /// took.
   int add(std::span<const int> forms, std::span<const Form> all,
-          const std::vector<Eigen::MatrixXd>& columns, int num_threads);
+          std::vector<Eigen::MatrixXd> columns, int num_threads);
 
   int size() const { return static_cast<int>(members_.size()); }
   int form(int member) const { return members_[member].form; }

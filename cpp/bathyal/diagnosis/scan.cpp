@@ -8,6 +8,7 @@
 #include "bathyal/base/parallel.hpp"
 #include "bathyal/diagnosis/orthonormal.hpp"
 #include "bathyal/diagnosis/pool.hpp"
+#include "bathyal/identify/products.hpp"
 
 namespace bathyal {
 namespace {
@@ -27,7 +28,7 @@ std::vector<ScannedForm> scan(const Subject& subject, const std::vector<int>& fo
         subject.columns(std::span(forms).subspan(begin, end - begin));
     // All at once: a product with a few columns costs as much as one with many.
     const Eigen::MatrixXd all = side_by_side(columns);
-    const Eigen::MatrixXd all_shared = basis.transpose() * all;
+    const Eigen::MatrixXd all_shared = inner_products(basis, all, num_threads);
     const Eigen::VectorXd all_against = all.transpose() * left;
     Index first = 0;
     for (std::size_t i = begin; i < end; ++i) {

@@ -117,11 +117,13 @@ Scored improved(const Pool& pool, const Scored& now, const SetSearchOptions& opt
   }
   Scored best = now;
   std::map<std::string, int> causes;
+  const auto whole = pool.judge(now.members);
   for (std::size_t i = 0; i < now.members.size(); ++i) {
+    ++causes[pool.about(now.members[i]).cause];
+    if (pool.worth(now.members, *whole, i) > kQuickScoreLacks) continue;
     std::vector<int> rest = without(now.members, i);
     const auto fit = pool.judge(rest);
     if (fit && fit->score > best.score) best = {std::move(rest), fit->score};
-    ++causes[pool.about(now.members[i]).cause];
   }
   best = exchanged(pool, now.members, std::move(best), options);
   // One wide member may be all that several of its cause are, and fits none of them beside it.

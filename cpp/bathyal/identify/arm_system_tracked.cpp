@@ -4,6 +4,7 @@
 
 #include "bathyal/base/parallel.hpp"
 #include "bathyal/identify/arm_system.hpp"
+#include "bathyal/identify/products.hpp"
 
 // The rows of tracked poses, each pose by itself.
 
@@ -58,18 +59,15 @@ Eigen::MatrixXd ArmSystem::square(const double* y) const {
   std::vector<Eigen::MatrixXd> parts((static_cast<std::size_t>(m_.rows()) - 1) / kPosesPerChunk +
                                      1);
   for_each_tracked(y, true, [&](std::size_t chunk, const Eigen::MatrixXd& rows) {
-    parts[chunk].setZero(wide, wide);
-    parts[chunk].selfadjointView<Eigen::Lower>().rankUpdate(rows.transpose());
+    parts[chunk] = inner_products(rows, 1);
   });
   Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(wide, wide);
   for (const Eigen::MatrixXd& part : parts) sum += part;
   const Eigen::MatrixXd linear = linear_rows_at(y);
-  // Eigen divides by the number of rows where columns are many.
-  if (linear.rows() > 0) sum.selfadjointView<Eigen::Lower>().rankUpdate(linear.transpose());
+  if (linear.rows() > 0) sum += inner_products(linear, num_threads_);
   Eigen::VectorXd factors(wide);
   factors << scales(), 1.0;
-  const Eigen::MatrixXd both = sum.selfadjointView<Eigen::Lower>();
-  return factors.asDiagonal() * both * factors.asDiagonal();
+  return factors.asDiagonal() * sum * factors.asDiagonal();
 }
 
 double ArmSystem::cost(const double* y) const {
