@@ -20,6 +20,7 @@ namespace {
 constexpr int kMostRounds = 4;  ///< of looking for structure beside names
 constexpr int kMostProbes = 6;  ///< that are asked at once
 constexpr double kLeastFreedom = 10.0;
+constexpr double kChance = 0.05;  ///< corrected p-value from which a name is no better than luck
 
 class Examiner {
  public:
@@ -49,6 +50,7 @@ class Examiner {
   void look_beyond_names();
   void drop_what_is_not_needed();
   void drop_what_foretells_nothing();
+  double chance(const Pool& pool, int member, const SetFit& fit, std::size_t i) const;
   void tell_evidence();
   void tell_rivals();
   void tell_detectable();
@@ -132,6 +134,17 @@ void Examiner::look_beyond_names() {
   }
 }
 
+/// That the `i`-th of a set is luck, beside the others: by Fisher's F, with all that was tried of
+/// all effects counted.
+double Examiner::chance(const Pool& pool, int member, const SetFit& fit, std::size_t i) const {
+  std::set<std::string> effects;
+  for (const Form& form : subject_.forms()) {
+    if (!form.probe) effects.insert(form.effect);
+  }
+  return std::min(1.0, pool.about(member).trials * static_cast<double>(effects.size()) *
+                           f_tail(fit.f[i], fit.width[i], fit.freedom));
+}
+
 /// Where the search looked, a name may have been worth it that is not where the fit ended, or not
 /// beside structure found later.
 void Examiner::drop_what_is_not_needed() {
@@ -142,15 +155,14 @@ void Examiner::drop_what_is_not_needed() {
     std::vector<int> set = improve_set(pool, everyone(pool));
     // A name may help only in that it makes another look smaller, and cost less.
     const auto fit = pool.judge(set);
-    std::size_t least = set.size();
-    double least_worth = 0.0;
+    std::size_t weakest = set.size();
+    double p = kChance;
     for (std::size_t i = 0; i < set.size(); ++i) {
-      const double worth = pool.worth(set, *fit, i);
-      if (pool.about(set[i]).probe || !(worth < least_worth)) continue;
-      least = i;
-      least_worth = worth;
+      if (pool.about(set[i]).probe || !(chance(pool, set[i], *fit, i) > p)) continue;
+      weakest = i;
+      p = chance(pool, set[i], *fit, i);
     }
-    if (least < set.size()) set.erase(set.begin() + static_cast<std::ptrdiff_t>(least));
+    if (weakest < set.size()) set.erase(set.begin() + static_cast<std::ptrdiff_t>(weakest));
     std::vector<int> needed = forms_of(pool, set);
     std::erase_if(needed, [this](int form) { return is_probe(form); });
     if (needed == names_) return;
@@ -253,10 +265,6 @@ void Examiner::tell_evidence() {
   out_.left_over = std::max(
       names_only->left - whole->left - (width_of(everything) - width_of(named)) * noise, 0.0);
   const auto rows = static_cast<double>(subject_.linearization().misfit.size());
-  std::set<std::string> effects;
-  for (const Form& form : subject_.forms()) {
-    if (!form.probe) effects.insert(form.effect);
-  }
   for (std::size_t i = 0; i < everything.size(); ++i) {
     const int m = everything[i];
     const double width = whole->width[i], f = whole->f[i];
@@ -270,8 +278,7 @@ void Examiner::tell_evidence() {
     chosen.width = width;
     chosen.explained = f * width * noise;
     chosen.size = std::sqrt(std::max(f * width - width, 0.0) / rows);
-    chosen.p = std::min(1.0, pool.about(m).trials * static_cast<double>(effects.size()) *
-                                 f_tail(f, width, whole->freedom));
+    chosen.p = chance(pool, m, *whole, i);
     if (pool.about(m).probe) {
       out_.probes.push_back(chosen);
     } else {

@@ -1,0 +1,148 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What diagnosis makes of recordings of real arms: a table and the causes it names.
+
+    python benchmarks/python/diagnose_real.py [NAME ...]
+
+Reads ../shared/data; names are the keys of RUNS and of TRANSFERS, all of them by default. Errors are
+3-D rms in millimetres. One run shares the machine with no other.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+import time
+from collections.abc import Callable, Iterable
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+import bathyal
+
+sys.path.insert(0, str(Path(__file__).parents[2] / "tests" / "python"))
+from real_arms import hilti, sockets, trailblazer_with_one_slide, ur10  # noqa: E402
+
+MM = 1e3
+TOLD_CAUSES = 6  # of each run, the largest first
+
+
+def tracked(series: str) -> bathyal.Tracked:
+    every = ur10(series)
+    return bathyal.Tracked(every.q, every.position)
+
+
+def site(name: str) -> bathyal.Tracked:
+    every, _ = hilti(name)
+    return bathyal.Tracked(every.q, every.position)
+
+
+RUNS: dict[str, tuple[Callable[[], bathyal.Arm], Callable[[], bathyal.Touches | bathyal.Tracked]]]
+RUNS = {
+    **{f"UR10 {s}": (bathyal.arms.ur10, lambda s=s: tracked(s)) for s in "CBA"},
+    "Panda 2": (bathyal.arms.panda, lambda: sockets("panda_2_clean")),
+    "Panda 3": (bathyal.arms.panda, lambda: sockets("panda_3")),
+    "Kinova 1": (bathyal.arms.kinova_gen3_lite, lambda: sockets("dinova_1")),
+    "Kinova 2": (bathyal.arms.kinova_gen3_lite, lambda: sockets("dinova_2")),
+    "Hilti flat": (trailblazer_with_one_slide, lambda: site("flat")),
+}  # fmt: skip
+TRANSFERS = [("A", "B"), ("B", "A"), ("A", "C"), ("B", "C")]
+
+
+@cache
+def diagnosed(name: str) -> tuple[bathyal.Diagnosis, float]:
+    arm, data = RUNS[name]
+    asked = arm(), data()
+    begin = time.perf_counter()
+    report = bathyal.diagnose(*asked)
+    return report, time.perf_counter() - begin
+
+
+def rms(errors: NDArray[np.float64]) -> float:
+    return float(np.sqrt((errors**2).sum(axis=1).mean()))
+
+
+def moved_onto(points: NDArray[np.float64], places: NDArray[np.float64]) -> NDArray[np.float64]:
+    """The points by the rigid motion that brings them nearest to the places (Kabsch 1976): another
+    session's tracker frame is another."""
+    centers = points.mean(axis=0), places.mean(axis=0)
+    u, _, vt = np.linalg.svd((points - centers[0]).T @ (places - centers[1]))
+    turn = vt.T @ np.diag([1.0, 1.0, np.linalg.det(vt.T @ u.T)]) @ u.T
+    return (points - centers[0]) @ turn.T + centers[1]
+
+
+def line(name: str) -> str:
+    report, seconds = diagnosed(name)
+    held = report.held_out
+    rows = len(RUNS[name][1]().q)
+    parts = {part.name: part for part in held.parts}
+    within = parts.get("within the others' joint ranges")
+    inside = f"{within.rms_after * MM:.3f} ({rows - within.rows} beyond)" if within else ""
+    left = report.leftover
+    return (
+        f"| {name} | {rows:,} | {report.verdict} | {held.rms_before * MM:.3f} | "
+        f"{held.rms_after * MM:.3f} | {inside} | {held.noise * MM:.3f} | {len(report.effects)} | "
+        f"{left.words} ({left.share:.1%}) | {seconds:.0f} |"
+    )
+
+
+def causes(name: str) -> Iterable[str]:
+    report, _ = diagnosed(name)
+    for effect in report.effects[:TOLD_CAUSES]:
+        rivals = ", ".join(r.words for r in effect.rivals if r.odds > 0.05)
+        yield (
+            f"  - {effect.words}: {effect.size * MM:.3f} mm per axis, p {effect.p_value:.0e}"
+            + (f"; as well: {rivals}" if rivals else "")
+        )
+
+
+def transfer(taught: str, asked: str) -> str:
+    """Geometry and effects of one session at the poses of another, on poses within the support.
+
+    A motion of the whole base is fitted to each alike: the tracker stood elsewhere.
+    """
+    report, _ = diagnosed(f"UR10 {taught}")
+    data = tracked(asked)
+    within = report.model.in_support(data.q).all(axis=1)
+    share = within.mean()
+    if within.sum() < 10:
+        return f"| {taught} → {asked} | {share:.1%} | declined | | |"
+    q, places = data.q[within], data.position[within]
+    errors = [
+        rms(moved_onto(arm.forward(q)[:, :3, 3], places) - places)
+        for arm in (report.fit.arm, report.model)
+    ]
+    return (
+        f"| {taught} → {asked} | {share:.1%} | {errors[0] * MM:.3f} | {errors[1] * MM:.3f} | "
+        f"{1 - errors[1] / errors[0]:.0%} |"
+    )
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__)
+    transfers = {f"{a}-{b}": (a, b) for a, b in TRANSFERS}
+    parser.add_argument("names", nargs="*", choices=[[], *RUNS, *transfers], default=[])
+    names = parser.parse_args().names or [*RUNS, *transfers]
+    print("## Diagnosis of real arms\n")
+    print(
+        "| data | rows | verdict | geometry alone, held out | with what is named | within the others' "
+        "joint ranges | floor | causes | left over (share of the variance) | s |\n|"
+        + "---|" * 10
+    )
+    for name in RUNS:
+        if name in names:
+            print(line(name), flush=True)
+    for name in RUNS:
+        if name in names:
+            print(f"\n- {name}", *causes(name), sep="\n")
+    if not any(name in names for name in transfers):
+        return
+    print("\n| taught → asked | within the support | geometry | with effects | below |\n|" + "---|" * 5)
+    for name, pair in transfers.items():
+        if name in names:
+            print(transfer(*pair), flush=True)
+
+
+if __name__ == "__main__":
+    main()
