@@ -3,8 +3,8 @@
 
     python benchmarks/python/diagnose_real.py [NAME ...]
 
-Reads ../shared/data; names are the keys of RUNS and of TRANSFERS, all of them by default. Errors are
-3-D rms in millimetres. One run shares the machine with no other.
+Reads ../shared/data; names are those of RUNS ("UR10 C") and TRANSFERS ("A-B"), by default all.
+Errors are 3-D rms in millimetres, of rows or poses that taught nothing.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 import bathyal
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "tests" / "python"))
-from real_arms import hilti, sockets, trailblazer_with_one_slide, ur10  # noqa: E402
+from real_arms import hilti, sockets, trailblazer_with_one_slide, ur10
 
 MM = 1e3
 TOLD_CAUSES = 6  # of each run, the largest first
@@ -126,9 +126,10 @@ def main() -> None:
     names = parser.parse_args().names or [*RUNS, *transfers]
     print("## Diagnosis of real arms\n")
     print(
-        "| data | rows | verdict | geometry alone, held out | with what is named | within the others' "
-        "joint ranges | floor | causes | left over (share of the variance) | s |\n|"
-        + "---|" * 10
+        "| data | rows | verdict | geometry alone, held out | with what is named | within the "
+        "others' joint ranges | floor | causes | left over (share of the variance) | s |\n|"
+        + "---|"
+        * 10
     )
     for name in RUNS:
         if name in names:
@@ -138,7 +139,10 @@ def main() -> None:
             print(f"\n- {name}", *causes(name), sep="\n")
     if not any(name in names for name in transfers):
         return
-    print("\n| taught → asked | within the support | geometry | with effects | below |\n|" + "---|" * 5)
+    print(
+        "\n| taught → asked | within the support | geometry | with effects | below |\n|"
+        + "---|" * 5
+    )
     for name, pair in transfers.items():
         if name in names:
             print(transfer(*pair), flush=True)

@@ -116,13 +116,13 @@ class ArmSubject final : public Subject {
   std::vector<NoiseForm> noise_forms_;
   std::vector<std::string> geometry_doubts_;
   std::vector<std::string> untried_;
-  std::size_t geometry_ = 0;     ///< columns that are not effects'
-  std::vector<int> base_free_;   ///< of them, those that are fitted
-  Eigen::MatrixXd held_;         ///< (free, k) orthonormal: changes of them that anything holds
-  std::vector<int> standing_;    ///< forms of the last `settle`
+  std::size_t geometry_ = 0;        ///< columns that are not effects'
+  std::vector<int> base_free_;      ///< of them, those that are fitted
+  Eigen::MatrixXd held_;            ///< (free, k) orthonormal: changes of them that anything holds
+  std::vector<int> standing_;       ///< forms of the last `settle`
   std::map<Family, double> sizes_;  ///< what is plausible of large ones, learned
-  Eigen::VectorXd x_;            ///< of all columns, effects' last
-  RowMatrix exact_;              ///< joints at which derivatives are taken: of exact touches
+  Eigen::VectorXd x_;               ///< of all columns, effects' last
+  RowMatrix exact_;                 ///< joints at which derivatives are taken: of exact touches
   Linearization linearization_;
   Eigen::Matrix3Xd bare_;
 };

@@ -47,7 +47,8 @@ bool ArmSubject::move_orders() {
   Eigen::MatrixXd square = inner_products(basis, threads);
   square.diagonal().array() += kSwallowed * kSwallowed;
   Eigen::MatrixXd beside = by_order;
-  add_product(basis, -square.llt().solve(inner_products(basis, by_order, threads)), beside, threads);
+  add_product(basis, -square.llt().solve(inner_products(basis, by_order, threads)), beside,
+              threads);
   Eigen::VectorXd residuals(problem_.system->rows());
   problem_.system->evaluate(problem_.system->scaled(x_).data(), residuals.data(), nullptr);
   const Eigen::VectorXd change =

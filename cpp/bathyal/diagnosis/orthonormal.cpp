@@ -84,8 +84,8 @@ std::vector<Beside> orthonormal_beside(const Eigen::MatrixXd& basis,
     while (none < squares.size() && !(squares[none] > least[g] * least[g])) ++none;
     const Index kept = squares.size() - none;
     out[g].length = squares.tail(kept).cwiseSqrt();
-    groups[g] = groups[g] * (eigen.eigenvectors().rightCols(kept) *
-                             out[g].length.cwiseInverse().asDiagonal());
+    groups[g] = groups[g] *
+                (eigen.eigenvectors().rightCols(kept) * out[g].length.cwiseInverse().asDiagonal());
   });
   // What rounding has left of the basis and of one another; nothing is turned by that.
   take_from(groups, basis, num_threads);

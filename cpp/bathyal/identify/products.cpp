@@ -76,18 +76,18 @@ void add_product(const Columns& a, const Columns& b, Eigen::Ref<Eigen::MatrixXd>
                  int num_threads) {
   if (a.cols() == 0 || b.cols() == 0) return;
   const products::Kernels& kernel = kernels();
-  parallel_for(static_cast<std::size_t>(a.rows()), kRowsOfTask, num_threads,
-               [&](std::size_t begin, std::size_t end) {
-                 const auto first = static_cast<Index>(begin);
-                 std::vector<double> scratch(
-                     static_cast<std::size_t>(products::scratch_size(a.cols())));
-                 kernel.combine({{a.data() + first, a.outerStride(), a.cols()},
-                                 plain(b, 0, b.cols()),
-                                 static_cast<Index>(end - begin),
-                                 out.data() + first,
-                                 out.outerStride(),
-                                 scratch.data()});
-               });
+  parallel_for(
+      static_cast<std::size_t>(a.rows()), kRowsOfTask, num_threads,
+      [&](std::size_t begin, std::size_t end) {
+        const auto first = static_cast<Index>(begin);
+        std::vector<double> scratch(static_cast<std::size_t>(products::scratch_size(a.cols())));
+        kernel.combine({{a.data() + first, a.outerStride(), a.cols()},
+                        plain(b, 0, b.cols()),
+                        static_cast<Index>(end - begin),
+                        out.data() + first,
+                        out.outerStride(),
+                        scratch.data()});
+      });
 }
 
 Eigen::MatrixXd product(const Columns& a, const Columns& b, int num_threads) {

@@ -85,6 +85,15 @@ TEST_F(PoolTest, QuickScoresAreTheTrueOnesForTheFirstMember) {
   }
 }
 
+TEST_F(PoolTest, WorthOfTheOnlyMemberIsWhatItsNameGains) {
+  const Pool p = pool();
+  for (int m = 0; m < p.size(); ++m) {
+    const std::vector<int> alone{m};
+    const auto fit = p.judge(alone);
+    EXPECT_NEAR(p.worth(alone, *fit, 0), fit->score - p.judge({})->score, 1e-9);
+  }
+}
+
 TEST_F(PoolTest, ScoresInsteadAreThoseBesideTheRest) {
   // But for what the others' costs change when a member goes, which is the same for all.
   const Pool p = pool();
