@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The score card of hidden effects over all its cases: tables, JSON and pictures.
+"""The score card of hidden effects over two thousand cases: tables, JSON and pictures.
 
-    python benchmarks/python/score_card.py [--cases 2400] [--out FOLDER]
+    python benchmarks/python/score_card.py [--seeds 1000:3000] [--out FOLDER]
 
 Each case is sealed by tests/python/hidden_effects.py, in NumPy and from its seed alone; bathyal
-sees the data, the judge compares with the answer. See tests/python/score_card.py.
+sees the data, the judge compares with the answer. See tests/python/score_card.py. Seeds below 1000
+have been looked at while the engine was made; those of the card have not.
 """
 
 import argparse
@@ -21,18 +22,19 @@ from score_card import card, draw, run, text  # noqa: E402
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--cases", type=int, default=2400)
+    parser.add_argument("--seeds", default="1000:3000", help="first:end")
     parser.add_argument("--processes", type=int, default=2)
     parser.add_argument("--out", type=Path, default=ROOT / "build" / "score_card")
     options = parser.parse_args()
+    seeds = range(*map(int, options.seeds.split(":")))
     begin = time.perf_counter()
 
     def told(done: int) -> None:
         if done % 100 == 0:
             seconds = time.perf_counter() - begin
-            print(f"{done} of {options.cases} cases, {seconds:.0f} s", file=sys.stderr, flush=True)
+            print(f"{done} of {len(seeds)} cases, {seconds:.0f} s", file=sys.stderr, flush=True)
 
-    cases = run(range(options.cases), processes=options.processes, told=told)
+    cases = run(seeds, processes=options.processes, told=told)
     result = card(cases)
     options.out.mkdir(parents=True, exist_ok=True)
     (options.out / "card.json").write_text(json.dumps(result, indent=1))

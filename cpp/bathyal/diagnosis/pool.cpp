@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include "bathyal/diagnosis/orthonormal.hpp"
 #include "bathyal/identify/products.hpp"
@@ -39,43 +40,35 @@ double cost_of_freedom(double width, double f) {
   return 0.5 * width * (std::log1p(f) + f / (1.0 + f));
 }
 
-Pool::Pool(const Eigen::MatrixXd& basis, const Eigen::VectorXd& misfit, double freedom)
-    : basis_(basis),
-      misfit_(misfit - basis * (basis.transpose() * misfit)),
+Pool::Pool(const Eigen::MatrixXd& basis, const Eigen::VectorXd& misfit, double freedom,
+           std::span<const int> forms, std::span<const Form> all,
+           std::vector<Eigen::MatrixXd> columns, int num_threads)
+    : misfit_(misfit - basis * (basis.transpose() * misfit)),
       total_(misfit_.squaredNorm()),
-      freedom_(freedom),
-      stack_(misfit.size(), 0) {}
-
-int Pool::add(std::span<const int> forms, std::span<const Form> all,
-              std::vector<Eigen::MatrixXd> columns, int num_threads) {
-  std::vector<Beside> beside = orthonormal_beside(basis_, std::move(columns), num_threads);
-  const Index old = stack_.cols();
-  Index wide = old;
-  int taken = 0;
+      freedom_(freedom) {
+  const std::vector<Beside> beside = orthonormal_beside(basis, std::move(columns), num_threads);
+  Index wide = 0;
+  std::map<std::string, int> causes;
   for (std::size_t i = 0; i < beside.size(); ++i) {
-    if (beside[i].length.size() == 0) continue;
+    const Index width = beside[i].length.size();
+    if (width == 0) continue;
     const Form& about = all[static_cast<std::size_t>(forms[i])];
-    const int cause = causes_.emplace(about.cause, static_cast<int>(causes_.size())).first->second;
-    members_.push_back({forms[i], &about, wide, beside[i].length.size(),
-                        std::log(about.trials) + kNameCost, cause});
-    wide += beside[i].length.size();
-    ++taken;
+    const int cause = causes.emplace(about.cause, static_cast<int>(causes.size())).first->second;
+    members_.push_back({forms[i], &about, wide, width, std::log(about.trials) + kNameCost, cause});
+    wide += width;
   }
-  if (taken == 0) return 0;
-  stack_.conservativeResize(Eigen::NoChange, wide);
-  held_by_.conservativeResize(wide);
-  for (std::size_t i = 0, m = members_.size() - static_cast<std::size_t>(taken); i < beside.size();
-       ++i) {
-    if (beside[i].length.size() == 0) continue;
-    stack_.middleCols(members_[m].first, members_[m].width) = beside[i].columns;
-    held_by_.segment(members_[m].first, members_[m].width) =
-        beside[i].length.cwiseAbs2().cwiseInverse();
-    ++m;
+  stack_.resize(misfit.size(), wide);
+  held_by_.resize(wide);
+  wide = 0;
+  for (const Beside& one : beside) {
+    const Index width = one.length.size();
+    stack_.middleCols(wide, width) = one.columns;
+    held_by_.segment(wide, width) = one.length.cwiseAbs2().cwiseInverse();
+    wide += width;
   }
   square_ = inner_products(stack_, num_threads);
   square_.diagonal() += held_by_;
   against_ = stack_.transpose() * misfit_;
-  return taken;
 }
 
 std::vector<Index> Pool::columns_of(std::span<const int> members) const {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -36,13 +35,11 @@ struct SetFit {
 class Pool {
  public:
   /// `basis`: orthonormal columns of the base model; `misfit` (M,); `freedom` that is left when the
-  /// base model has been fitted.
-  Pool(const Eigen::MatrixXd& basis, const Eigen::VectorXd& misfit, double freedom);
-
-  /// Takes candidates in; those that the base model swallows are left out. Returns how many it
-  /// took.
-  int add(std::span<const int> forms, std::span<const Form> all,
-          std::vector<Eigen::MatrixXd> columns, int num_threads);
+  /// base model has been fitted. `columns` are those of `forms`, which are places in `all`, and
+  /// `all` must outlive the pool. Forms that the base model swallows are no members.
+  Pool(const Eigen::MatrixXd& basis, const Eigen::VectorXd& misfit, double freedom,
+       std::span<const int> forms, std::span<const Form> all, std::vector<Eigen::MatrixXd> columns,
+       int num_threads);
 
   int size() const { return static_cast<int>(members_.size()); }
   int form(int member) const { return members_[member].form; }
@@ -103,12 +100,10 @@ class Pool {
   double score_with(int member, std::span<const int> others, const SetFit& base,
                     const Eigen::MatrixXd& square, const Eigen::VectorXd& against) const;
 
-  const Eigen::MatrixXd& basis_;
   Eigen::VectorXd misfit_;
   double total_;
   double freedom_;
   std::vector<Member> members_;
-  std::map<std::string, int> causes_;
   Eigen::MatrixXd stack_;    ///< (M, W) all candidates' columns
   Eigen::VectorXd held_by_;  ///< (W,) 1 / variance of the columns' values before the data
   Eigen::MatrixXd square_;   ///< (W, W) stackᵀ stack, and held_by on the diagonal

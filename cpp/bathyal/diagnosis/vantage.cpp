@@ -61,9 +61,8 @@ const Ground& Vantage::ground(const std::vector<int>& forms) const {
 
 Pool Vantage::pool_of(const std::vector<int>& forms) const {
   const Ground& base = ground();
-  Pool pool(base.basis, subject_.linearization().misfit, base.freedom);
-  pool.add(forms, subject_.forms(), subject_.columns(forms), num_threads_);
-  return pool;
+  return {base.basis,       subject_.linearization().misfit, base.freedom, forms,
+          subject_.forms(), subject_.columns(forms),         num_threads_};
 }
 
 std::vector<Dependence> Vantage::dependences(const Ground& beside) const {

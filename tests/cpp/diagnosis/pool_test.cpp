@@ -43,10 +43,8 @@ class PoolTest : public ::testing::Test {
               columns_[1] * Eigen::Vector2d(1.0, 0.5) / kPlausible +
               columns_[4] * Eigen::Vector2d(-0.7, 0.4) / kPlausible + random_columns(99, 1);
   }
-  Pool pool() const {
-    Pool out(basis_, misfit_, kRows - 3.0);
-    out.add(ids_, forms_, columns_, 1);
-    return out;
+  Pool pool(int threads = 1) const {
+    return {basis_, misfit_, kRows - 3.0, ids_, forms_, columns_, threads};
   }
 
   Eigen::MatrixXd base_, basis_;
@@ -170,10 +168,8 @@ TEST_F(PoolTest, WhatHelpsBesideAMemberIsNoRivalOfIt) {
 }
 
 TEST_F(PoolTest, TheSameForAnyNumberOfThreads) {
-  Pool two(basis_, misfit_, kRows - 3.0);
-  two.add(ids_, forms_, columns_, 2);
   const std::vector<int> set{0, 1, 2, 3, 4, 5};
-  EXPECT_EQ(pool().judge(set)->score, two.judge(set)->score);
+  EXPECT_EQ(pool(1).judge(set)->score, pool(2).judge(set)->score);
 }
 
 }  // namespace
