@@ -27,7 +27,9 @@ class Sealed:
     covariates: dict[str, Array]
     point: Array | None
     distances: Array | None  # (P, 3) label, label, length
-    errors: Array  # (N, 3) of the measurement alone [m], in the frame that `residuals` are told in
+    # (N, 3) of the measurement, and what the rounding of recorded joints moves the tip by [m], in the
+    # frame that `residuals` are told in: nobody who has the record can know them
+    errors: Array
     spin: Array  # (N, 3) of the measured rotations [rad]
     frame: Array  # (3, 3) from the frame of the base to that of the errors
     poses: Poses
@@ -55,9 +57,11 @@ def measure(
     effects: Effects,
     added: Array,
     tips: Array,
+    rounded: Array,
 ) -> Sealed | None:
-    """`added` (N, n) is by how much joints stand elsewhere than recorded, `tips` (N, 3) by how much
-    the tip does, base's frame. None where noise or outliers could not be told."""
+    """`added` (N, n) is by how much joints stand elsewhere than recorded, `rounded` (N, n) how much
+    of that is rounding, `tips` (N, 3) by how much the tip does, base's frame. None where noise or
+    outliers could not be told."""
     plan, rows = scene.plan, len(poses.q)
     twists, stretch = effects.twists()
     frames = scene.true.walk(poses.q + added, twists, stretch)
@@ -75,6 +79,8 @@ def measure(
         points = np.array([clean[labels == k].mean(axis=0) for k in np.unique(labels)])
         q = brought(scene.true, q, points[labels] + errors, 6, added, twists, stretch)
         distances = _distances(random, points) if random.random() < 0.6 else None
+    unrounded = scene.true.walk(poses.q + added - rounded, twists, stretch)
+    unknown = (frames.tip - unrounded.tip) @ turn.T
     pose = np.tile(np.eye(4), (rows, 1, 1))
     pose[:, :3, 3] = position + errors + gross
     spin = poses.stiff * plan.noise * random.normal(size=(rows, 3))
@@ -85,7 +91,7 @@ def measure(
         scene.covariates,
         poses.point,
         distances,
-        errors,
+        errors + unknown,
         spin,
         turn if poses.point is None else np.eye(3),
         poses,

@@ -31,7 +31,8 @@ def seal(random: np.random.Generator, scene: Scene) -> Sealed | None:
         step = _step(random, scene)
         q = np.round(q / step) * step
     poses = _poses(scene, q, point)
-    added = scene.q - q if step else np.zeros_like(q)
+    rounded = scene.q - q if step else np.zeros_like(q)
+    added = rounded
     effects = Effects.draw(random, scene, poses)
     if effects is None:
         return None
@@ -44,7 +45,7 @@ def seal(random: np.random.Generator, scene: Scene) -> Sealed | None:
             return None
         added, tips, effects.outside_size, effects.unexplained = beyond
     added = added + effects.joints(scene, poses)
-    return measure(random, scene, poses, effects, added, tips)
+    return measure(random, scene, poses, effects, added, tips, rounded)
 
 
 def _outside(
