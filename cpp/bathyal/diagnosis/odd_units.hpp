@@ -22,7 +22,7 @@ std::vector<UnitTest> test_units(const Linearization& at, const Eigen::MatrixXd&
                                  const Eigen::VectorXd& trust, double freedom);
 
 /// The share of chance that names one innocent unit.
-inline constexpr double kOddUnit = 0.005;
+inline constexpr double kOddUnit = 0.001;
 
 /// `trust` with 0 for units that do not belong, and with those taken back that do.
 Eigen::VectorXd leave_out_odd(const Linearization& at, const Eigen::MatrixXd& basis,
