@@ -43,8 +43,8 @@ RUNS = {
     **{f"UR10 {s}": (bathyal.arms.ur10, lambda s=s: tracked(s)) for s in "CBA"},
     "Panda 2": (bathyal.arms.panda, lambda: sockets("panda_2_clean")),
     "Panda 3": (bathyal.arms.panda, lambda: sockets("panda_3")),
-    "Kinova 1": (bathyal.arms.kinova_gen3_lite, lambda: sockets("dinova_1")),
-    "Kinova 2": (bathyal.arms.kinova_gen3_lite, lambda: sockets("dinova_2")),
+    "Kinova 1": (bathyal.arms.gen3_lite, lambda: sockets("dinova_1")),
+    "Kinova 2": (bathyal.arms.gen3_lite, lambda: sockets("dinova_2")),
     "Hilti flat": (trailblazer_with_one_slide, lambda: site("flat")),
 }  # fmt: skip
 TRANSFERS = [("A", "B"), ("B", "A"), ("A", "C"), ("B", "C")]

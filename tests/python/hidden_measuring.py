@@ -27,8 +27,8 @@ class Sealed:
     covariates: dict[str, Array]
     point: Array | None
     distances: Array | None  # (P, 3) label, label, length
-    # (N, 3) of the measurement, and what the rounding of recorded joints moves the tip by [m], in the
-    # frame that `residuals` are told in: nobody who has the record can know them
+    # (N, 3) of the measurement, and what the rounding of recorded joints moves the tip by [m], in
+    # the frame that `residuals` are told in: nobody who has the record can know them
     errors: Array
     spin: Array  # (N, 3) of the measured rotations [rad]
     frame: Array  # (3, 3) from the frame of the base to that of the errors
