@@ -38,6 +38,7 @@ class Judged:
     inside: list[tuple[str, float, bool]] = field(default_factory=list)  # parameter, z, covered
     error: float = float("nan")  # rms of foretold tips against the truth, in noises
     told: float = float("nan")  # the same of a refit that is told the causes
+    held_out: float = float("nan")  # rms per axis on blocks held out, in noises
     seconds: float = 0.0
     failure: str = ""
 
@@ -79,6 +80,7 @@ def judge(seed: int, diagnose: Diagnose = engine) -> Judged:
             out.inside += _covered(fact, named[cause])
     if getattr(report, "residuals_after", None) is not None:
         out.error, out.told = _errors(case, np.asarray(report.residuals_after))
+        out.held_out = float(report.held_out.rms_after / np.sqrt(3) / answer.noise)
     return out
 
 

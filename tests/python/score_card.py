@@ -77,6 +77,7 @@ def card(cases: Sequence[Judged]) -> dict[str, Any]:
         "inside": [_inside(size, _at(kinds["inside"], size)) for size in (*CLASSES, None)],
         "outside": [_outside(size, _at(kinds["outside"], size)) for size in (*CLASSES[1:], None)],
         "clean": _shares(kinds["clean"]),
+        "held out": _median([c.held_out for c in kinds["clean"] if np.isfinite(c.held_out)]),
         "confounded": _confounded(kinds["confounded"]),
         "coverage": _coverage(cases),
         "error": {
@@ -169,6 +170,10 @@ def _quantile(level: float) -> float:
     return NormalDist().inv_cdf(0.5 + level / 2)
 
 
+def _median(values: list[float]) -> float:
+    return float(np.median(values)) if values else float("nan")
+
+
 def _error(cases: list[Judged]) -> dict[str, Any]:
     """Foretold tips against the truth, over what a refit comes to that is told the causes."""
     known = [c for c in cases if np.isfinite(c.error) and c.told > 0]
@@ -207,6 +212,8 @@ def text(result: dict[str, Any]) -> str:
         "| of other kinds | cases | share |",
         "|---|---|---|",
         f"| clean, called clean | {clean['cases']} | {_percent(clean.get('clean', 0.0))} |",
+        f"| clean, error held out / noise (median; below 1 where blocks leak) | {clean['cases']} "
+        f"| {result['held out']:.3f} |",
         f"| confounded, ambiguous with both names (mean list {both['mean list']:.1f}) "
         f"| {both['cases']} | {_percent(both['ambiguous with both'])} |",
         f"| 95 % intervals that hold the truth | {cover['parameters']} numbers "

@@ -71,6 +71,11 @@ def test_intervals_hold_the_truth(judged):
     assert sum(inside) >= least_right(len(inside), 0.93)
 
 
+def test_what_is_held_out_is_not_known(judged):
+    """A fit to the very rows that it foretells would leave less than the noise."""
+    assert np.median([c.held_out for c in of(judged, "clean") if c.exact]) > 1.0
+
+
 def test_tips_are_foretold_nearly_as_well_as_by_who_is_told(judged):
     known = [c for c in judged if c.kind == "inside" and c.exact]
     square = np.array([[c.error**2, c.told**2] for c in known]).sum(axis=0)
