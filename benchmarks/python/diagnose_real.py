@@ -78,7 +78,8 @@ def line(name: str) -> str:
     rows = len(RUNS[name][1]().q)
     parts = {part.name: part for part in held.parts}
     within = parts.get("within the others' joint ranges")
-    inside = f"{within.rms_after * MM:.3f} ({rows - within.rows} beyond)" if within else ""
+    beyond = parts["beyond them"].rows if within else 0
+    inside = f"{within.rms_after * MM:.3f} ({beyond} beyond)" if within else ""
     left = report.leftover
     return (
         f"| {name} | {rows:,} | {report.verdict} | {held.rms_before * MM:.3f} | "

@@ -3,6 +3,7 @@
 
 #include "bathyal/arm/forward_kernel.hpp"
 #include "bathyal/arm/sincos.hpp"
+#include "bathyal/base/lanes.hpp"
 
 // Forward kinematics of several poses side by side, one a lane: written once, compiled for each
 // instruction set. Every lane goes through the same operations whatever the width, and nothing is
@@ -20,18 +21,6 @@ template <class V>
 struct LaneFrame {
   LaneVector<V> x, y, z, origin;
 };
-
-template <class V>
-inline typename V::D load(const double* p) {
-  typename V::D value;
-  __builtin_memcpy(&value, p, sizeof value);
-  return value;
-}
-
-template <class V>
-inline void store(double* p, typename V::D value) {
-  __builtin_memcpy(p, &value, sizeof value);
-}
 
 /// a u + b v
 template <class V, class A, class B>

@@ -29,7 +29,13 @@ class Examiner {
         options_(options),
         progress_(progress),
         vantage_(subject, options.num_threads),
-        explainer_(vantage_, [this] { tell_again(); }) {}
+        explainer_(vantage_, [this] { tell_again(); }) {
+    std::set<std::string> effects;
+    for (const Form& form : subject_.forms()) {
+      if (!form.probe) effects.insert(form.effect);
+    }
+    effects_ = static_cast<double>(effects.size());
+  }
 
   Examination run();
 
@@ -60,6 +66,7 @@ class Examiner {
   const Progress& progress_;
   Vantage vantage_;
   Explainer explainer_;
+  double effects_;  ///< that could be named
   std::vector<int> names_;
   std::vector<int> probes_;
   Eigen::VectorXd trust_;
@@ -137,12 +144,8 @@ void Examiner::look_beyond_names() {
 /// That the `i`-th of a set is luck, beside the others: by Fisher's F, with all that was tried of
 /// all effects counted.
 double Examiner::chance(const Pool& pool, int member, const SetFit& fit, std::size_t i) const {
-  std::set<std::string> effects;
-  for (const Form& form : subject_.forms()) {
-    if (!form.probe) effects.insert(form.effect);
-  }
-  return std::min(1.0, pool.about(member).trials * static_cast<double>(effects.size()) *
-                           f_tail(fit.f[i], fit.width[i], fit.freedom));
+  return std::min(
+      1.0, pool.about(member).trials * effects_ * f_tail(fit.f[i], fit.width[i], fit.freedom));
 }
 
 /// Where the search looked, a name may have been worth it that is not where the fit ended, or not

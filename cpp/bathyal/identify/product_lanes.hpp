@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "bathyal/base/lanes.hpp"
 #include "bathyal/identify/product_kernel.hpp"
 
 // Products of tall matrices: written once, compiled for each instruction set. Every number is made
@@ -8,18 +9,6 @@
 // give the same bytes.
 
 namespace bathyal::products {
-
-template <class V>
-inline typename V::D load(const double* p) {
-  typename V::D value;
-  __builtin_memcpy(&value, p, sizeof value);
-  return value;
-}
-
-template <class V>
-inline void store(double* p, typename V::D value) {
-  __builtin_memcpy(p, &value, sizeof value);
-}
 
 /// Up to `N` columns; where there are fewer, the last stands for the others and what comes of them
 /// is not used.

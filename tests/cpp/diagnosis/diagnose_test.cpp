@@ -4,7 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 #include <numbers>
+#include <set>
+#include <string>
 
 #include "bathyal/arm/dh.hpp"
 #include "bathyal/arm/row_frames.hpp"
@@ -58,6 +61,25 @@ TEST(Diagnose, NamesAnEccentricEncoder) {
   }
   EXPECT_LT(found.held_out.rms_after, 1.2 * std::sqrt(3.0) * 1e-4);
   EXPECT_GT(found.held_out.rms_before, 3.0 * found.held_out.rms_after);
+}
+
+TEST(Diagnose, TellsErrorsApartWhereNoOtherRowReaches) {
+  const Tracked measured = wavy(1e-3, 1e-4, 150);
+  std::set<Index> ends;  // rows that end the range of a joint: no other block reaches them
+  for (Index j = 0; j < 6; ++j) {
+    Index row = 0;
+    measured.q.col(j).minCoeff(&row);
+    ends.insert(row);
+    measured.q.col(j).maxCoeff(&row);
+    ends.insert(row);
+  }
+  std::map<std::string, int> rows;
+  for (const auto& part : diagnose(six_joints(), measured).held_out.parts) {
+    rows[part.name] = part.rows;
+  }
+  EXPECT_GE(rows["beyond them"], static_cast<int>(ends.size()));
+  EXPECT_LE(rows["beyond them"], static_cast<int>(ends.size()) + 6);
+  EXPECT_EQ(rows["beyond them"] + rows["within the others' joint ranges"], 150);
 }
 
 TEST(Diagnose, GivesTheSameBytesOnAnyNumberOfThreads) {
