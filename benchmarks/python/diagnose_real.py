@@ -77,8 +77,8 @@ def line(name: str) -> str:
     held = report.held_out
     rows = len(RUNS[name][1]().q)
     parts = {part.name: part for part in held.parts}
-    within = parts.get("within the others' joint ranges")
-    beyond = parts["beyond them"].rows if within else 0
+    within = parts.get("within others' ranges")
+    beyond = parts["beyond others' ranges"].rows if within else 0
     inside = f"{within.rms_after * MM:.3f} ({beyond} beyond)" if within else ""
     left = report.leftover
     return (

@@ -153,9 +153,8 @@ class Reporter {
     }
     const std::vector<bool> beyond = beyond_the_others();
     if (std::find(beyond.begin(), beyond.end(), true) != beyond.end()) {
-      out.parts.push_back(
-          part("within the others' joint ranges", [&](Index i) { return !beyond[i]; }));
-      out.parts.push_back(part("beyond them", [&](Index i) { return bool(beyond[i]); }));
+      out.parts.push_back(part("within others' ranges", [&](Index i) { return !beyond[i]; }));
+      out.parts.push_back(part("beyond others' ranges", [&](Index i) { return bool(beyond[i]); }));
     }
     if (out.parts.empty()) out.parts.push_back(all);
     const double above = out.rms_before * out.rms_before - out.noise * out.noise;
