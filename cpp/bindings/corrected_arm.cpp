@@ -76,10 +76,24 @@ Support::Range range_argument(const std::string& name, const py::object& object,
   return {table.row(0).transpose(), table.row(1).transpose()};
 }
 
-Support make_support(const py::object& joints, const py::object& gravity,
+std::vector<std::vector<Support::Gap>> gaps_argument(const py::sequence& gaps) {
+  std::vector<std::vector<Support::Gap>> told;
+  for (const py::handle& of_joint : gaps) {
+    told.emplace_back();
+    const py::array array = py::array::ensure(of_joint);
+    if (array && array.size() == 0) continue;
+    const RowMatrix table = table_argument("gaps of joint " + std::to_string(told.size()),
+                                           py::reinterpret_borrow<py::object>(of_joint), 2);
+    for (const auto& row : table.rowwise()) told.back().push_back({row[0], row[1]});
+  }
+  return told;
+}
+
+Support make_support(const py::object& joints, const py::sequence& gaps, const py::object& gravity,
                      const py::dict& covariates, const py::object& sessions) {
   Support support = support_of(RowMatrix::Zero(1, 1), {});
   support.joints = range_argument("joints", joints, 0);
+  support.gaps = gaps_argument(gaps);
   if (!gravity.is_none()) support.gravity = range_argument("gravity", gravity, 3);
   for (const auto& [key, value] : covariates) {
     const std::string name = py::str(key);
@@ -118,7 +132,19 @@ py::array to_numpy(const SupportMask& mask, bool single) {
   return single ? py::array(array[py::int_(0)]) : py::array(array);
 }
 
-/// One warning of a call that left effects out, told from where it was called.
+py::list to_python(const std::vector<std::vector<Support::Gap>>& gaps) {
+  py::list told;
+  for (const std::vector<Support::Gap>& of_joint : gaps) {
+    RowMatrix table(static_cast<Index>(of_joint.size()), 2);
+    for (std::size_t i = 0; i < of_joint.size(); ++i) {
+      table.row(static_cast<Index>(i)) << of_joint[i].low, of_joint[i].high;
+    }
+    told.append(python::to_numpy(table));
+  }
+  return told;
+}
+
+/// One warning of a call that held effects or left them out, told from where it was called.
 void warn_of_support(const CorrectedArm& model, const RowMatrix& q, const Covariates& covariates,
                      const SupportMask& mask) {
   if (mask.all()) return;
@@ -202,12 +228,16 @@ std::string repr_of(const CorrectedArm& model) {
 
 void bind_support(py::module_& module) {
   py::class_<Support>(module, "Support", kSupportDoc)
-      .def(py::init(&make_support), py::arg("joints"), py::kw_only(),
+      .def(py::init(&make_support), py::arg("joints"), py::kw_only(), py::arg("gaps") = py::tuple(),
            py::arg("gravity") = py::none(), py::arg("covariates") = py::dict(),
            py::arg("sessions") = py::none())
       .def_property_readonly(
           "joints", [](const Support& s) { return to_numpy(s.joints); },
           "(2, n) least and greatest of each coordinate [rad] or [m].")
+      .def_property_readonly(
+          "gaps", [](const Support& s) { return to_python(s.gaps); },
+          "Of each coordinate (g, 2) from and to: stretches within its range without data, wider "
+          "than a 200th of it; an empty list where nobody told.")
       .def_property_readonly(
           "gravity", [](const Support& s) { return to_numpy(s.gravity); }, "(2, 3) [m/s²]")
       .def_property_readonly(

@@ -55,8 +55,8 @@ std::shared_ptr<Effect> make_effect(std::string name, py::function function,
                                     const py::dict& parameters, const py::object& joints,
                                     const std::string& site, std::vector<std::string> needs,
                                     std::string words, std::string formula, std::string source,
-                                    const std::map<std::string, double>& scales,
-                                    bool by_difference) {
+                                    const std::map<std::string, double>& scales, bool by_difference,
+                                    double period) {
   UserEffect told;
   told.info.name = std::move(name);
   told.info.words = std::move(words);
@@ -64,6 +64,8 @@ std::shared_ptr<Effect> make_effect(std::string name, py::function function,
   told.info.source = std::move(source);
   told.info.needs = std::move(needs);
   told.info.by_difference = by_difference;
+  if (!(period > 0.0)) throw_argument("period", "a length above 0", to_text(period));
+  told.period = period;
   told.site = word_argument("site", site, site_words());
   for (auto& [parameter, unit] :
        items_argument<std::string>("parameters", parameters, "a dict of name to unit")) {
@@ -184,7 +186,8 @@ void bind_effect(py::module_& module) {
            py::arg("parameters"), py::arg("joints") = py::none(), py::arg("site") = "joint",
            py::arg("needs") = std::vector<std::string>{}, py::arg("words") = "",
            py::arg("formula") = "", py::arg("source") = "",
-           py::arg("scales") = std::map<std::string, double>{}, py::arg("by_difference") = false)
+           py::arg("scales") = std::map<std::string, double>{}, py::arg("by_difference") = false,
+           py::arg("period") = std::numeric_limits<double>::infinity())
       .def_property_readonly("name", [](const Effect& e) { return e.info().name; })
       .def_property_readonly(
           "words", [](const Effect& e) { return e.info().words; }, "What it is, for people.")
@@ -211,6 +214,10 @@ void bind_found_effect(py::module_& module) {
            py::arg("units") = std::map<std::string, std::string>{},
            py::arg("scales") = std::map<std::string, double>{}, py::arg("cause") = "")
       .def_property_readonly("name", [](const FoundEffect& f) { return f.variant.effect; })
+      .def_property_readonly(
+          "period", [](const FoundEffect& f) { return f.effect->period(f.variant); },
+          "The shortest stretch of joint values over which it comes and goes [rad] or [m]; inf of "
+          "what is smooth.")
       .def_property_readonly(
           "effect", [](const FoundEffect& f) { return std::const_pointer_cast<Effect>(f.effect); },
           "The Effect itself.")

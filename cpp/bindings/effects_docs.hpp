@@ -42,6 +42,9 @@ scales : dict of str to float, optional
 by_difference : bool
     Whether it looks at how rows differ from their neighbours, not at where they lie: the ranges of
     the data that taught it are no bounds to it.
+period : float
+    The shortest stretch of joint values over which what it does comes and goes [rad] or [m]: in a
+    wider gap of the data a corrected arm holds it at the edge. Infinite unless given.
 
 Raises
 ------
@@ -99,6 +102,8 @@ Parameters
 ----------
 joints : (2, n) array
     Least and greatest of each coordinate [rad] or [m].
+gaps : list of (g, 2) arrays, optional
+    Of each coordinate, from and to: stretches within its range without data, rising.
 gravity : (2, 3) array, optional
     [m/s²] in the arm's base frame; straight down unless given.
 covariates : dict of str to (2, k) array, optional
@@ -113,11 +118,14 @@ Rigid geometry, effects with their values, and the support of the data that taug
 ``report.model`` is. `q` is what the controller records; the effects move joints, frames and
 lengths from there.
 
-An effect counts in a row where its own arguments lie within the support. Where one lies beyond (a
-joint, a temperature, a load, a session that nobody saw) and would change what the effect does, the
-effect is left out of that row, and where all are the answer is the rigid arm's: beyond what it was
-taught a curve may do anything. That is never silent: each call warns once with a `SupportWarning`,
-and `in_support` gives the rows. A NaN covariate is one that is not known in that row.
+An effect counts in a row where its own arguments lie within the support: in the ranges that taught
+it, and in no gap between joint values wider than its period (the shortest of those of its cause).
+Where one lies beyond (a joint, a temperature, a load) and would change what the effect does, the
+effect is held: a wave or curve along its joint at its average over what was taught, for beyond that
+it may do anything; what is smooth at what it does in the nearest row within. An effect that needs
+what is not known (a NaN covariate, a session that nobody saw) is left out, and where all are the
+answer is the rigid arm's. That is never silent: each call warns once with a `SupportWarning`, and
+`in_support` gives the rows.
 
 Every method that computes takes ``covariates``, a dict of name to a number, (N,) or (N, k) array. An
 effect that needs one that is missing is left out with the warning where no covariates are told at
@@ -185,14 +193,13 @@ ValueError
 Warns
 -----
 SupportWarning
-    Where effects were left out.
+    Where effects were held or left out.
 )";
 
 inline constexpr const char* kCorrectedJacobianDoc =
     R"(Geometric Jacobians at the tool centre point.
 
-The derivative of `forward`, the effects that count held: of the chain as it stands, of the effects
-by central differences of what they move (1e-6 rad or m apart). Arguments, errors and warnings are
+The derivative of `forward`: of the chain as it stands, of the effects by central differences of what they move (1e-6 rad or m apart). Arguments, errors and warnings are
 those of `forward`, and the axes of `Arm.jacobian`.
 
 Returns
@@ -209,7 +216,7 @@ do, until the corrected tip agrees to the tolerances, 1e-9 m and rad unless give
 statuses are those of `Arm.inverse`, with `covariates` as `forward` takes them; errors are those of
 the corrected arm.
 
-A pose on the edge of the support that comes out beyond it with an effect and within it without is
+A pose in the middle of a gap, where an effect held at one edge brings it nearer to the other, is
 "singular", with the error that is left. On the edge of what the rigid arm reaches a pose may be
 called out of reach by as little as the effects amount to.
 
@@ -226,7 +233,7 @@ ValueError
 Warns
 -----
 SupportWarning
-    Where effects were left out at the q that was found.
+    Where effects were held or left out at the q that was found.
 )";
 
 inline constexpr const char* kInSupportDoc = R"(Which effects count in which row.

@@ -23,6 +23,7 @@ struct UserEffect {
   UserSite site = UserSite::kJoint;
   bool each_joint = false;
   std::vector<int> joints;  ///< of kJoint, unless it is each of them
+  double period = std::numeric_limits<double>::infinity();
 };
 
 /// An effect whose numbers come from a Python function. It takes the GIL for each call, and tells

@@ -81,6 +81,7 @@ class PythonEffect final : public Effect {
       : told_(std::move(told)), function_(std::move(function)) {}
 
   EffectInfo info() const override { return told_.info; }
+  double period(const EffectVariant&) const override { return told_.period; }
 
   std::vector<EffectVariant> variants(const EffectData& data) const override {
     const bool seen = std::all_of(told_.info.needs.begin(), told_.info.needs.end(),

@@ -19,6 +19,7 @@ _PARAMETER_KEYS = {key: key for key in ("name", "unit", "scale", "value")}
 _RANGE_KEYS = {"low": "low", "high": "high"}
 _SUPPORT_KEYS = {
     "joints": "joints",
+    "gaps": "gaps",
     "gravity": "gravity_m_s2",
     "covariates": "covariates",
     "sessions": "sessions",
@@ -79,6 +80,7 @@ def _range_told(numbers: Any) -> dict[str, Any]:
 def _support_told(support: Support) -> dict[str, Any]:
     return {
         "joints": _range_told(support.joints),
+        "gaps": [gaps.tolist() for gaps in support.gaps],
         "gravity_m_s2": _range_told(support.gravity),
         "covariates": {name: _range_told(r) for name, r in support.covariates.items()},
         "sessions": support.sessions.tolist(),
@@ -119,6 +121,7 @@ def _support(told: Any) -> Support:
         raise Error(f"covariates: expected an object, got {covariates!r:.60}")
     return Support(
         _range(parts["joints"], "joints"),
+        gaps=listed(parts, "gaps") if "gaps" in parts else (),
         gravity=_range(parts["gravity"], "gravity"),
         covariates={name: _range(range, name) for name, range in covariates.items()},
         sessions=[float(session) for session in listed(parts, "sessions")],

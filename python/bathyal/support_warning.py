@@ -16,12 +16,12 @@ Floats = NDArray[np.float64]
 
 
 class SupportWarning(UserWarning):
-    """Effects of a corrected arm were left out where it was asked beyond its support.
+    """A corrected arm was asked beyond its support: effects were held or left out.
 
     Attributes
     ----------
     counts : dict of str to int
-        Effect to the number of rows without it.
+        Effect to the number of rows in which it does not count.
     beyond : list of str
         What of the rows lies beyond, and what was taught.
     in_support : (N, E) array of bool
@@ -48,21 +48,24 @@ def warn(
         counts[name] = counts.get(name, 0) + int(missing)
         untold = [need for need in found.effect.needs if need not in covariates]
         if untold:
-            reasons.append(f"{name} in all rows, for want of {' and '.join(untold)}")
+            reasons.append(f"{name} left out of all rows, for want of {' and '.join(untold)}")
         else:
-            reasons.append(
-                f"{name} in {missing} of {len(mask)} rows, beyond the data that taught it"
-            )
-    beyond = _beyond(model.support, q, covariates)
-    text = f"Left out of the answer: {'; '.join(reasons)}."
+            reasons.append(f"{name} in {missing} of {len(mask)} rows")
+    period = min(found.period for found in model.effects)
+    beyond = _beyond(model.support, period, q, covariates)
+    text = f"Asked beyond the data that taught it: {'; '.join(reasons)}."
     if beyond:
         text += f" Beyond: {'; '.join(beyond)}."
-    text += " Rows without any effect are the rigid arm's; in_support() tells which they are."
+    text += (
+        " There a wave or curve along a joint is held at its average, what is smooth as in the "
+        "nearest row that taught it, and what needs a number that is not known is left out; "
+        "in_support() tells the rows."
+    )
     warnings.warn(SupportWarning(text, counts, beyond, mask), stacklevel=2)
 
 
-def _beyond(support: Support, q: Floats, covariates: Mapping[str, Any]) -> list[str]:
-    """Each column that leaves its range, in words."""
+def _beyond(support: Support, period: float, q: Floats, covariates: Mapping[str, Any]) -> list[str]:
+    """Each column that leaves its range, and gaps wider than a period, in words."""
     columns = [(f"joint {j + 1}", q[:, j], support.joints[:, j]) for j in range(q.shape[1])]
     for name, values in covariates.items():
         if name == "session":
@@ -80,6 +83,14 @@ def _beyond(support: Support, q: Floats, covariates: Mapping[str, Any]) -> list[
                 f"{name}, asked {known.min():.4g} to {known.max():.4g}, taught {low:.4g} to "
                 f"{high:.4g}"
             )
+    for j, gaps in enumerate(support.gaps):
+        low, high = gaps[:, :1], gaps[:, 1:]
+        rows = np.count_nonzero((q[:, j] > low) & (q[:, j] < high), axis=1)
+        wide = (rows > 0) & (np.ptp(gaps, axis=1) > period)
+        words += [
+            f"joint {j + 1} in a gap from {gap[0]:.4g} to {gap[1]:.4g} in {n} rows"
+            for gap, n in zip(gaps[wide], rows[wide], strict=True)
+        ]
     if len(support.sessions) and "session" in covariates:
         strange = np.setdiff1d(np.asarray(covariates["session"], dtype=float), support.sessions)
         words += [f"session {number:g}, never seen" for number in strange if np.isfinite(number)]

@@ -145,7 +145,7 @@ def test_beyond_the_support_it_says_so_and_falls_back() -> None:
     warning = caught[0].message
     assert isinstance(warning, bathyal.SupportWarning)
     assert warning.counts == {"joint_harmonic of joint 3": 1, "thermal": 2, "base_shift": 1}
-    assert "joint_harmonic of joint 3 in 1 of 4 rows, beyond the data" in str(warning)
+    assert "joint_harmonic of joint 3 in 1 of 4 rows; thermal in 2 of" in str(warning)
     assert [text.split(",")[0] for text in warning.beyond] == [
         "joint 3",
         "temperature",
@@ -156,23 +156,63 @@ def test_beyond_the_support_it_says_so_and_falls_back() -> None:
     expected = [[1, 1, 1, 1], [0, 1, 1, 1], [1, 0, 1, 1], [1, 0, 0, 1]]
     assert warning.in_support.astype(int).tolist() == expected
     assert arm.in_support(q, covariates=told).astype(int).tolist() == expected
-    without = model(effects()[1:])
+    # The wave at its average, the temperature at the highest that was taught.
     row = {name: np.ravel(v)[1] if np.ndim(v) else v for name, v in told.items()}
-    assert np.array_equal(poses[1], without.forward(q[1], covariates=row))
+    places = np.linspace(*np.quantile(Q[:, 2], [0, 1]), 10001)
+    average = np.mean(1e-3 * np.cos(2 * places) + 5e-4 * np.sin(2 * places))
+    held = model(effects()[1:]).forward(q[1] + average * np.eye(6)[2], covariates=row)
+    np.testing.assert_allclose(poses[1], held, atol=1e-7)
+    hot = ALL | {"temperature": COVARIATES["temperature"].max(), "session": 1}
+    assert np.array_equal(poses[2], arm.forward(q[2], covariates=hot))
 
 
-def test_where_no_effect_counts_it_is_the_rigid_arm() -> None:
-    arm = model()
-    far = np.full((3, 6), 1.4)
+def test_where_no_effect_is_known_it_is_the_rigid_arm() -> None:
+    arm = model(effects()[1:3])
     for call in (arm.forward, arm.jacobian):
-        with pytest.warns(bathyal.SupportWarning, match="thermal in all rows, for want of temp"):
-            call(far)
+        with pytest.warns(bathyal.SupportWarning, match="thermal left out of all rows, for want"):
+            call(Q[:3])
     with pytest.warns(bathyal.SupportWarning):
-        poses = model(effects()[:3]).forward(far)
-    assert np.array_equal(poses, arm.arm.forward(far))
+        poses = arm.forward(Q[:3])
+    assert np.array_equal(poses, arm.arm.forward(Q[:3]))
     with pytest.warns(bathyal.SupportWarning):
-        found = model(effects()[:3]).inverse(poses, start=far)
-    np.testing.assert_allclose(found.q, far, atol=1e-7)
+        found = arm.inverse(poses, start=Q[:3])
+    np.testing.assert_allclose(found.q, Q[:3], atol=1e-7)
+
+
+def test_a_gap_is_beyond_the_support() -> None:
+    arm = bathyal.arms.ur10e()
+    q = np.random.default_rng(4).uniform(-2, 2, (400, 6))
+    q[:, 2] += np.sign(q[:, 2])
+    data = bathyal.Tracked(q, arm.forward(q)[:, :3, 3])
+    arm = bathyal.CorrectedArm(arm, [harmonic(order=4.0)], data)
+    widest = max(arm.support.gaps[2], key=np.ptp)
+    assert widest[0] < -1 < 1 < widest[1]
+    asked = np.zeros((3, 6))
+    asked[:, 2] = [0.1, -0.4, 1.2]
+    with pytest.warns(bathyal.SupportWarning, match="joint 3 in a gap from -1.* to 1.* in 2 rows"):
+        arm.forward(asked)
+    assert arm.in_support(asked).ravel().tolist() == [False, False, True]
+    assert bathyal.CorrectedArm(arm.arm, [harmonic(order=2.0)], data).in_support(asked).all()
+    assert arm.effects[0].period == pytest.approx(np.pi / 2)
+
+
+def test_an_effect_of_ones_own_tells_its_period() -> None:
+    def teeth(data: Any, joint: int) -> Any:
+        return np.sin(9 * data.q[:, joint])
+
+    fine = Effect("teeth", teeth, parameters={"size": "rad"}, joints=[1], period=2 * np.pi / 9)
+    support = Support([[-2.0] * 6, [2.0] * 6], gaps=[[]] + [[[-1.0, 1.0]]] * 5)
+    arm = bathyal.CorrectedArm(
+        bathyal.arms.ur10e(), [FoundEffect(fine, {"size": 1e-3}, joint=1)], support
+    )
+    assert arm.in_support(np.full((1, 6), 1.5)).all()
+    assert not arm.in_support(np.full((1, 6), 0.5)).any()
+    with pytest.raises(ValueError, match=r"`period`: expected a length above 0, got 0"):
+        Effect("teeth", teeth, parameters={"size": "rad"}, joints=[1], period=0.0)
+    with pytest.raises(ValueError, match="support gaps"):
+        Support([[-2.0] * 6, [2.0] * 6], gaps=[[[1.0, 0.5]]] * 6)
+    with pytest.raises(ValueError, match="support gaps"):
+        Support([[-2.0] * 6, [2.0] * 6], gaps=[[]])
 
 
 def test_inside_the_support_nothing_is_said() -> None:
@@ -281,12 +321,15 @@ def test_identification_holds_the_effects() -> None:
     np.testing.assert_allclose(tips, seen, atol=1e-7)
 
 
-def test_identification_leaves_effects_out_beyond_their_support() -> None:
+def test_identification_holds_effects_beyond_their_support() -> None:
     arm = model([harmonic(1, 1.7)])
     data = bathyal.Tracked(Q + 3.0, arm.arm.forward(Q + 3.0)[:, :3, 3])
     fit = bathyal.identify_arm(arm, data)
     assert fit.rms_after < 1e-9
-    assert not [p.name for p in fit.parameters if p.name.startswith("joint_harmonic")]
+    again = bathyal.CorrectedArm(fit.arm, arm.effects, arm.support)
+    with pytest.warns(bathyal.SupportWarning):
+        places = again.forward(data.q)[:, :3, 3]
+    np.testing.assert_allclose(places, data.position, atol=1e-9)
 
 
 def test_identification_takes_touches_too() -> None:
@@ -319,6 +362,8 @@ def test_a_file_keeps_all_to_the_last_digit(tmp_path: Path) -> None:
     assert [found.settings for found in read.effects] == [found.settings for found in arm.effects]
     assert np.array_equal(read.support.joints, [Q.min(axis=0), Q.max(axis=0)])
     assert read.support.sessions.tolist() == [1.0, 2.0]
+    for one, other in zip(read.support.gaps, arm.support.gaps, strict=True):
+        assert np.array_equal(one, other)
     assert set(read.support.covariates) == {"payload", "temperature", "time"}
 
 

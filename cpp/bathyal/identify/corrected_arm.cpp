@@ -2,6 +2,7 @@
 #include "bathyal/identify/corrected_arm.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "bathyal/base/check.hpp"
@@ -19,14 +20,35 @@ JointView view_of(const JointMatrix& q) { return {q.data(), q.rows(), q.cols()};
 
 void write_pose(const Pose& pose, double* out) { Eigen::Map<RowMajor4>{out} = pose.matrix(); }
 
-/// Whether an effect moves the same in one row of two evaluations.
-bool same_row(const std::vector<Action>& one, const std::vector<Action>& other, Index row) {
-  if (one.size() != other.size()) return false;
-  for (std::size_t i = 0; i < one.size(); ++i) {
-    if (one[i].site != other[i].site || one[i].index != other[i].index) return false;
-    if (one[i].values.row(row) != other[i].values.row(row)) return false;
+/// Calls `body` with each action and the one at its place in `other`.
+/// \throw std::invalid_argument where `other` acts elsewhere
+template <class Body>
+void for_each_pair(const FoundEffect& found, std::vector<std::vector<Action>>& actions,
+                   const std::vector<std::vector<Action>>& other, const Body& body) {
+  for (std::size_t p = 0; p < actions.size(); ++p) {
+    const bool as_many = actions[p].size() == other[p].size();
+    for (std::size_t i = 0; as_many && i < actions[p].size(); ++i) {
+      if (actions[p][i].site != other[p][i].site || actions[p][i].index != other[p][i].index) {
+        throw_argument("effect " + found.variant.effect, "the same sites in all rows", "others");
+      }
+      body(actions[p][i].values, other[p][i].values);
+    }
+    if (!as_many) {
+      throw_argument("effect " + found.variant.effect, "as many actions in all rows", "others");
+    }
   }
-  return true;
+}
+
+using RowMask = Eigen::Array<bool, Eigen::Dynamic, 1>;
+
+/// Rows in which an effect does the same in two evaluations.
+RowMask same_rows(const FoundEffect& found, std::vector<std::vector<Action>>& one,
+                  const std::vector<std::vector<Action>>& other, Index rows) {
+  RowMask same = RowMask::Constant(rows, true);
+  for_each_pair(found, one, other, [&](const RowMatrix& a, const RowMatrix& b) {
+    for (Index i = 0; i < rows; ++i) same[i] = same[i] && a.row(i) == b.row(i);
+  });
+  return same;
 }
 
 /// What one side of a difference does not move stands still there.
@@ -55,6 +77,11 @@ std::string list_of(const Covariates& covariates) {
 }
 
 }  // namespace
+
+struct CorrectedArm::Part {
+  Actions actions;  ///< [p] of parameter p, held and left out where `counts` is false
+  RowMask counts;
+};
 
 struct CorrectedArm::Rows {
   EffectData data;
@@ -96,18 +123,32 @@ CorrectedArm::CorrectedArm(Arm arm, std::vector<FoundEffect> effects, Support su
       throw_argument("effects", "each once", words_of(found) + " twice, with the same settings");
     }
   }
+  for (const FoundEffect& found : effects_) {
+    double period = found.effect->period(found.variant);
+    for (const FoundEffect& other : effects_) {
+      if (other.variant.cause != found.variant.cause) continue;
+      period = std::min(period, other.effect->period(other.variant));
+    }
+    periods_.push_back(period);
+  }
   support_.check(arm_.size());
   try_effects();
 }
 
-/// One pose in the support shows at once what would else wait for the first use.
-void CorrectedArm::try_effects() const {
+/// One row of all covariates, within the support.
+Covariates CorrectedArm::known_covariates() const {
   Covariates covariates;
   for (const auto& [name, range] : support_.covariates) covariates[name] = range.low.transpose();
   if (!support_.sessions.empty()) {
     covariates["session"] = RowMatrix::Constant(1, 1, support_.sessions.front());
   }
   covariates["gravity"] = support_.gravity.low.transpose();
+  return covariates;
+}
+
+/// One pose in the support shows at once what would else wait for the first use.
+void CorrectedArm::try_effects() const {
+  const Covariates covariates = known_covariates();
   for (const FoundEffect& found : effects_) {
     for (const std::string& name : found.effect->info().needs) {
       if (!covariates.contains(name)) {
@@ -116,9 +157,8 @@ void CorrectedArm::try_effects() const {
       }
     }
   }
-  const RowMatrix q = support_.joints.low.transpose();
-  const AskedRows rows = ask(arm_, support_, q, covariates);
-  correction(rows.asked, SupportMask::Constant(1, static_cast<Index>(effects_.size()), true));
+  const JointMatrix q = support_.joints.low.transpose();
+  prepare(view_of(q), covariates);
 }
 
 CorrectedPoses CorrectedArm::forward(JointView q, const Covariates& covariates,
@@ -164,7 +204,7 @@ CorrectedPoses CorrectedArm::forward_links(JointView q, const Covariates& covari
 CorrectedJacobians CorrectedArm::jacobian(JointView q, const Covariates& covariates, TipFrame frame,
                                           int num_threads) const {
   const Rows rows = prepare(q, covariates);
-  const std::vector<Correction> by_joint = correction_by_joint(rows.data, rows.mask);
+  const std::vector<Correction> by_joint = correction_by_joint(rows.data.q, covariates);
   const auto count = static_cast<std::size_t>(q.rows());
   const std::size_t width = 6 * static_cast<std::size_t>(size());
   CorrectedJacobians result{std::vector<double>(count * width), rows.mask};
@@ -186,37 +226,81 @@ CorrectedJacobians CorrectedArm::jacobian(JointView q, const Covariates& covaria
 }
 
 SupportMask CorrectedArm::in_support(JointView q, const Covariates& covariates) const {
-  check_joint_values(arm_, q);
-  return mask_of(ask(arm_, support_, q, covariates), told(covariates));
+  return prepare(q, covariates).mask;
 }
 
 std::vector<HeldEffect> CorrectedArm::held(JointView q, const Covariates& covariates) const {
   check_joint_values(arm_, q);
   const AskedRows rows = ask(arm_, support_, q, covariates);
-  const SupportMask mask = mask_of(rows, told(covariates));
+  const std::vector<char> told = this->told(covariates);
   std::vector<HeldEffect> held;
   for (std::size_t e = 0; e < effects_.size(); ++e) {
-    const auto column = mask.col(static_cast<Index>(e));
-    if (!column.any()) continue;
-    const FoundEffect& found = effects_[e];
-    held.push_back(
-        {found.variant, found.values, actions_of(*found.effect, found.variant, rows.asked)});
-    for (std::vector<Action>& actions : held.back().actions) {
-      for (Action& action : actions) {
-        for (Index i = 0; i < column.size(); ++i) {
-          if (!column[i]) action.values.row(i).setZero();
-        }
-      }
-    }
+    if (!told[e]) continue;
+    held.push_back({effects_[e].variant, effects_[e].values, part(e, rows, true).actions});
   }
   return held;
+}
+
+/// Of a wave or curve along a joint: one row of what it does over all that the joint was taught.
+CorrectedArm::Actions CorrectedArm::average(std::size_t effect) const {
+  constexpr Index kPlaces = 256;
+  const FoundEffect& found = effects_[effect];
+  JointMatrix q = support_.joints.low.transpose().replicate(kPlaces, 1);
+  q.col(found.variant.joint) = support_.taught(found.variant.joint, periods_[effect], kPlaces);
+  Actions actions =
+      actions_of(*found.effect, found.variant, ask(arm_, support_, q, known_covariates()).asked);
+  for (std::vector<Action>& of_parameter : actions) {
+    for (Action& action : of_parameter) action.values = action.values.colwise().mean().eval();
+  }
+  return actions;
+}
+
+CorrectedArm::Part CorrectedArm::part(std::size_t effect, const AskedRows& rows, bool told) const {
+  const FoundEffect& found = effects_[effect];
+  const Index count = rows.asked.rows();
+  Part part{{}, RowMask::Constant(count, told)};
+  if (!told) return part;
+  part.actions = actions_of(*found.effect, found.variant, rows.asked);
+  if (found.effect->info().by_difference) return part;
+  RowMatrix near = rows.low.q;
+  const bool in_gap = support_.leave_gaps(periods_[effect], near);
+  if (!rows.beyond && !in_gap) return part;
+  const auto actions_at = [&](EffectData data) {
+    data.q = near;
+    return actions_of(*found.effect, found.variant, data);
+  };
+  Actions low = actions_at(rows.low);
+  const Actions high = actions_at(rows.high);
+  part.counts =
+      same_rows(found, part.actions, low, count) && same_rows(found, part.actions, high, count);
+  const RowMask known = same_rows(found, low, high, count);
+  if (part.counts.all()) return part;
+  const bool curve = found.variant.joint >= 0 && std::isfinite(periods_[effect]);
+  const Actions held = curve ? average(effect) : std::move(low);
+  for_each_pair(found, part.actions, held, [&](RowMatrix& values, const RowMatrix& near) {
+    for (Index i = 0; i < count; ++i) {
+      if (part.counts[i]) continue;
+      if (known[i]) {
+        values.row(i) = near.row(curve ? 0 : i);
+      } else {
+        values.row(i).setZero();
+      }
+    }
+  });
+  return part;
 }
 
 CorrectedArm::Rows CorrectedArm::prepare(JointView q, const Covariates& covariates) const {
   check_joint_values(arm_, q);
   AskedRows rows = ask(arm_, support_, q, covariates);
-  SupportMask mask = mask_of(rows, told(covariates));
-  Correction sum = correction(rows.asked, mask);
+  const std::vector<char> told = this->told(covariates);
+  SupportMask mask(q.rows(), static_cast<Index>(effects_.size()));
+  Correction sum(arm_, q.rows());
+  for (std::size_t e = 0; e < effects_.size(); ++e) {
+    const Part part = this->part(e, rows, told[e] != 0);
+    mask.col(static_cast<Index>(e)) = part.counts;
+    sum.add(part.actions, effects_[e].values);
+  }
   return {std::move(rows.asked), std::move(mask), std::move(sum)};
 }
 
@@ -235,42 +319,17 @@ std::vector<char> CorrectedArm::told(const Covariates& covariates) const {
   return told;
 }
 
-SupportMask CorrectedArm::mask_of(const AskedRows& rows, const std::vector<char>& told) const {
-  const Index count = rows.asked.rows();
-  SupportMask mask = SupportMask::Constant(count, static_cast<Index>(effects_.size()), true);
-  for (std::size_t e = 0; e < effects_.size(); ++e) {
-    const auto column = static_cast<Index>(e);
-    if (!told[e]) mask.col(column).setConstant(false);
-    if (!told[e] || !rows.beyond || effects_[e].effect->info().by_difference) continue;
-    const std::vector<Action> asked = moves_of(effects_[e], rows.asked);
-    const std::vector<Action> low = moves_of(effects_[e], rows.low);
-    const std::vector<Action> high = moves_of(effects_[e], rows.high);
-    for (Index i = 0; i < count; ++i) {
-      mask(i, column) = same_row(asked, low, i) && same_row(asked, high, i);
-    }
-  }
-  return mask;
-}
-
-Correction CorrectedArm::correction(const EffectData& data, const SupportMask& mask) const {
-  Correction sum(arm_, data.rows());
-  for (std::size_t e = 0; e < effects_.size(); ++e) {
-    const auto column = static_cast<Index>(e);
-    if (mask.col(column).any()) sum.add(moves_of(effects_[e], data), mask.col(column));
-  }
-  return sum;
-}
-
-std::vector<Correction> CorrectedArm::correction_by_joint(const EffectData& data,
-                                                          const SupportMask& mask) const {
+std::vector<Correction> CorrectedArm::correction_by_joint(const JointMatrix& q,
+                                                          const Covariates& covariates) const {
   std::vector<Correction> by_joint;
-  EffectData stepped = data;
+  JointMatrix stepped = q;
   for (Index j = 0; j < size(); ++j) {
-    stepped.q.col(j) = data.q.col(j).array() + kStep;
-    Correction up = correction(stepped, mask);
-    stepped.q.col(j) = data.q.col(j).array() - kStep;
-    by_joint.push_back(difference(std::move(up), correction(stepped, mask), 1.0 / (2.0 * kStep)));
-    stepped.q.col(j) = data.q.col(j);
+    stepped.col(j) = q.col(j).array() + kStep;
+    Correction up = prepare(view_of(stepped), covariates).correction;
+    stepped.col(j) = q.col(j).array() - kStep;
+    const Correction down = prepare(view_of(stepped), covariates).correction;
+    by_joint.push_back(difference(std::move(up), down, 1.0 / (2.0 * kStep)));
+    stepped.col(j) = q.col(j);
   }
   return by_joint;
 }

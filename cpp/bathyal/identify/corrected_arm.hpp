@@ -12,9 +12,12 @@
 
 namespace bathyal {
 
+/// Which effect counts in which row, (N, effects).
+using SupportMask = Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
 struct CorrectedPoses {
   std::vector<double> poses;  ///< world_from_tool, (N, 4, 4); of links (N, L, 4, 4)
-  SupportMask in_support;     ///< which effects counted
+  SupportMask in_support;     ///< which effects counted, neither held nor left out
 };
 
 struct CorrectedJacobians {
@@ -32,12 +35,16 @@ struct CorrectedInverse {
 ///
 /// Poses are foretold one by one: q is what the controller would record, and the effects move
 /// joints, frames and lengths from there (correction.hpp). An effect counts in a row where its own
-/// arguments lie within the support. Where one lies beyond and the effect looks at it (it would
-/// move something else at the nearest pose within), the effect is left out of that row, as if the
-/// arm did not have it: beyond what it was taught a curve may do anything. Where all effects are
-/// left out the answer is the rigid arm's, to the last bit. Every answer says which effects
-/// counted. An effect that looks at what changes from row to row (EffectInfo::by_difference) has
-/// no bounds.
+/// arguments lie within the support: within the ranges that taught it, and in no gap between joint
+/// values that is wider than its period (of effects of one cause, which were found together, the
+/// shortest). Where one lies beyond and the effect looks at it (it would
+/// move something else at the nearest row within), the effect is held: a wave or curve along its
+/// joint at its average over what was taught, for beyond that it may do anything; what is smooth at
+/// what it does in the nearest row. Its geometry was found beside the effects, so that without them
+/// the arm would be further off than either. An effect that looks at what is not known (NaN, a
+/// session that nobody saw) is left out, as if the arm did not have it. Where all effects are left
+/// out the answer is the rigid arm's, to the last bit. Every answer says which effects counted. An
+/// effect that looks at what changes from row to row (EffectInfo::by_difference) has no bounds.
 ///
 /// Covariates, each (N, k) or one row for all: where an effect needs one that is not told it is
 /// left out when no covariates are told at all, and refused when some are. `payload` counts 0 kg,
@@ -68,16 +75,15 @@ class CorrectedArm {
 
   /// As bathyal::jacobian. The chain is derived as it stands; how an effect changes with the joints
   /// comes from central differences of what it moves (not of the pose), 1e-6 rad or m apart: of a
-  /// harmonic of size c and order k they are off by c (k³ 2e-13 + k 1e-9). The effects that count
-  /// are held.
+  /// harmonic of size c and order k they are off by c (k³ 2e-13 + k 1e-9).
   CorrectedJacobians jacobian(JointView q, const Covariates& covariates = {},
                               TipFrame frame = TipFrame::kWorld, int num_threads = 0) const;
 
   /// As bathyal::inverse by kDampedLeastSquares: the rigid arm is sent where the target lies less
   /// what the effects do at the pose found before, until the corrected tip agrees to
-  /// position_tolerance and angle_tolerance, 1e-9 m and rad unless given. A pose on the edge of
-  /// the support that comes out beyond it with an effect and within it without is kSingular, with
-  /// the error that is left. Statuses else are those of the rigid arm: on the edge of what it
+  /// position_tolerance and angle_tolerance, 1e-9 m and rad unless given. A pose in the middle of a
+  /// gap, where an effect held at one edge brings it nearer to the other, is kSingular, with the
+  /// error that is left. Statuses else are those of the rigid arm: on the edge of what it
   /// reaches a pose may be called out of reach by as little as the effects amount to.
   /// \throw std::invalid_argument as bathyal::inverse, and for kPseudoInverse.
   CorrectedInverse inverse(std::span<const double> targets, JointView starts,
@@ -87,22 +93,27 @@ class CorrectedArm {
   /// Which effects count in which row, (N, effects).
   SupportMask in_support(JointView q, const Covariates& covariates = {}) const;
 
-  /// What each effect does in recorded rows; nothing where it does not count.
+  /// What each effect does in recorded rows, held and left out as in every answer.
   std::vector<HeldEffect> held(JointView q, const Covariates& covariates) const;
 
  private:
   struct Rows;  ///< poses with what the effects move there
+  struct Part;  ///< what one effect does in rows
 
+  using Actions = std::vector<std::vector<Action>>;
+
+  Covariates known_covariates() const;
   void try_effects() const;
+  Actions average(std::size_t effect) const;
+  Part part(std::size_t effect, const AskedRows& rows, bool told) const;
   Rows prepare(JointView q, const Covariates& covariates) const;
-  SupportMask mask_of(const AskedRows& rows, const std::vector<char>& told) const;
   std::vector<char> told(const Covariates& covariates) const;
-  Correction correction(const EffectData& data, const SupportMask& mask) const;
-  std::vector<Correction> correction_by_joint(const EffectData& data,
-                                              const SupportMask& mask) const;
+  std::vector<Correction> correction_by_joint(const JointMatrix& q,
+                                              const Covariates& covariates) const;
 
   Arm arm_;
   std::vector<FoundEffect> effects_;
+  std::vector<double> periods_;  ///< the least of each effect's cause
   Support support_;
 };
 

@@ -9,16 +9,6 @@
 namespace bathyal {
 namespace {
 
-Action& at_site(std::vector<Action>& moves, const Action& like) {
-  for (Action& move : moves) {
-    if (move.site == like.site && (move.index == like.index || like.site == Site::kLength)) {
-      return move;
-    }
-  }
-  moves.push_back({like.site, like.index, RowMatrix::Zero(like.values.rows(), like.values.cols())});
-  return moves.back();
-}
-
 double share_of(const Correction& correction, Index row) {
   return correction.lengths.size() == 0 ? 0.0 : correction.lengths[row];
 }
@@ -58,45 +48,35 @@ void grow_rows(const Arm& arm, const CorrectedFrames& frames, double share, TipM
 
 }  // namespace
 
-std::vector<Action> moves_of(const FoundEffect& found, const EffectData& data) {
-  const std::vector<std::vector<Action>> actions = actions_of(*found.effect, found.variant, data);
-  std::vector<Action> moves;
-  for (std::size_t p = 0; p < actions.size(); ++p) {
-    for (const Action& action : actions[p]) {
-      at_site(moves, action).values += found.values[static_cast<Index>(p)] * action.values;
-    }
-  }
-  return moves;
-}
-
 Correction::Correction(const Arm& arm, Index rows)
     : q(JointMatrix::Zero(rows, arm.size())),
       frames(arm.joints().size() + 2),
       chained(static_cast<std::size_t>(rows), 0) {}
 
-void Correction::add(const std::vector<Action>& moves, const Eigen::Ref<const SupportMask>& mask) {
-  for (const Action& move : moves) {
-    const Index rows = move.values.rows();
-    if (move.site == Site::kFrame && frames[move.index].rows() == 0) {
-      frames[move.index] = RowMatrix::Zero(rows, 6);
-    }
-    if (move.site == Site::kLength && lengths.size() == 0) lengths.setZero(rows);
-    for (Index i = 0; i < rows; ++i) {
-      if (!mask(i, 0)) continue;
-      switch (move.site) {
-        case Site::kJoint:
-          q(i, move.index) += move.values(i, 0);
-          break;
-        case Site::kFrame:
-          frames[move.index].row(i) += move.values.row(i);
-          if (!move.values.row(i).isZero(0.0)) chained[i] = 1;
-          break;
-        case Site::kLength:
-          lengths[i] += move.values(i, 0);
-          if (move.values(i, 0) != 0.0) chained[i] = 1;
-          break;
-      }
-    }
+void Correction::add(const std::vector<std::vector<Action>>& actions,
+                     const Eigen::VectorXd& values) {
+  for (std::size_t p = 0; p < actions.size(); ++p) {
+    for (const Action& action : actions[p]) add(action, values[static_cast<Index>(p)]);
+  }
+}
+
+void Correction::add(const Action& action, double value) {
+  const Index rows = action.values.rows();
+  switch (action.site) {
+    case Site::kJoint:
+      q.col(action.index) += value * action.values.col(0);
+      return;
+    case Site::kFrame:
+      if (frames[action.index].rows() == 0) frames[action.index] = RowMatrix::Zero(rows, 6);
+      frames[action.index] += value * action.values;
+      break;
+    case Site::kLength:
+      if (lengths.size() == 0) lengths.setZero(rows);
+      lengths += value * action.values.col(0);
+      break;
+  }
+  for (Index i = 0; i < rows; ++i) {
+    if (!action.values.row(i).isZero(0.0)) chained[static_cast<std::size_t>(i)] = 1;
   }
 }
 

@@ -11,14 +11,6 @@
 
 namespace bathyal {
 
-/// Which effect counts in which row, (N, effects).
-using SupportMask = Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-
-/// What one effect moves with its values: its actions by their values, one a site.
-/// \pre `found` has a value of each parameter of its variant
-/// \throw std::invalid_argument as actions_of
-std::vector<Action> moves_of(const FoundEffect& found, const EffectData& data);
-
 /// The sum of what effects move.
 struct Correction {
   JointMatrix q;  ///< (N, n) added to the coordinates
@@ -28,8 +20,11 @@ struct Correction {
   std::vector<char> chained;  ///< (N,) whether frames or lengths move in that row
 
   Correction(const Arm& arm, Index rows);
-  /// Where `mask` says so.
-  void add(const std::vector<Action>& moves, const Eigen::Ref<const SupportMask>& mask);
+  /// The actions of one effect, [p] those of parameter p, by their values.
+  void add(const std::vector<std::vector<Action>>& actions, const Eigen::VectorXd& values);
+
+ private:
+  void add(const Action& action, double value);
 };
 
 /// Every frame of a corrected arm at one pose, in the world.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <limits>
 #include <map>
 #include <memory>
 #include <string>
@@ -122,6 +123,13 @@ class Effect {
   /// times, the order.)
   virtual std::vector<std::vector<Action>> actions(const EffectVariant& variant,
                                                    const EffectData& data) const = 0;
+
+  /// The shortest stretch of joint values over which what it does comes and goes, the period of a
+  /// wave [rad] or [m]: the data say nothing of what lies in a wider gap between them. Infinite for
+  /// what is smooth over all of a joint's range.
+  virtual double period(const EffectVariant& /*variant*/) const {
+    return std::numeric_limits<double>::infinity();
+  }
 
   /// Forms between two neighbours of a scan, in its order, for a closer look; empty where there is
   /// nothing between.

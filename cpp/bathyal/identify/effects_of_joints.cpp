@@ -62,6 +62,10 @@ class JointHarmonic final : public Effect {
     return {{move_joint(j, phase.cos())}, {move_joint(j, phase.sin())}};
   }
 
+  double period(const EffectVariant& variant) const override {
+    return 2.0 * std::numbers::pi / setting_of(variant, "order");
+  }
+
   std::vector<EffectVariant> between(const EffectVariant& lower, const EffectVariant& upper,
                                      const EffectData&) const override {
     constexpr int kParts = 8;
@@ -158,6 +162,11 @@ class JointMap final : public Effect {
       out.push_back({move_joint(j, phase.sin())});
     }
     return out;
+  }
+
+  double period(const EffectVariant& variant) const override {
+    const auto terms = static_cast<double>(variant.parameters.size() / 2);
+    return 2.0 * std::numbers::pi / (terms * setting_of(variant, "wave"));
   }
 };
 

@@ -28,6 +28,21 @@ Support::Range range_of(const RowMatrix& values) {
   return range;
 }
 
+/// Neighbours further apart than a share of the range; what is nearer no effect can tell.
+std::vector<Support::Gap> gaps_of(const Eigen::VectorXd& values) {
+  constexpr double kLeastShare = 1.0 / 200.0;
+  std::vector<double> sorted(values.begin(), values.end());
+  std::sort(sorted.begin(), sorted.end());
+  std::vector<Support::Gap> gaps;
+  for (std::size_t i = 1; i < sorted.size(); ++i) {
+    const double width = sorted[i] - sorted[i - 1];
+    if (width > kLeastShare * (sorted.back() - sorted.front())) {
+      gaps.push_back({sorted[i - 1], sorted[i]});
+    }
+  }
+  return gaps;
+}
+
 bool known(const Support::Range& range) { return (range.low.array() <= range.high.array()).all(); }
 
 void check_range_of(const std::string& name, const Support::Range& range, Index width) {
@@ -108,6 +123,20 @@ void Support::check(Index coordinates) const {
   check_range_of("joints", joints, coordinates);
   check_range_of("gravity", gravity, 3);
   for (const auto& [name, range] : covariates) check_range_of(name, range, -1);
+  if (!gaps.empty() && static_cast<Index>(gaps.size()) != coordinates) {
+    throw_argument("support gaps", "a list for each of " + std::to_string(coordinates) + " joints",
+                   std::to_string(gaps.size()));
+  }
+  for (const std::vector<Gap>& of_joint : gaps) {
+    double end = -std::numeric_limits<double>::infinity();
+    for (const Gap& gap : of_joint) {
+      if (!(end <= gap.low && gap.low < gap.high) || !std::isfinite(gap.high)) {
+        throw_argument("support gaps", "finite stretches that rise, each low below its high",
+                       "others");
+      }
+      end = gap.high;
+    }
+  }
   const bool rising = std::adjacent_find(sessions.begin(), sessions.end(),
                                          std::greater_equal<>()) == sessions.end();
   if (!rising || !std::all_of(sessions.begin(), sessions.end(),
@@ -116,9 +145,51 @@ void Support::check(Index coordinates) const {
   }
 }
 
+bool Support::leave_gaps(double period, RowMatrix& q) const {
+  bool moved = false;
+  for (std::size_t j = 0; j < gaps.size(); ++j) {
+    for (double& value : q.col(static_cast<Index>(j))) {
+      const auto after = std::upper_bound(gaps[j].begin(), gaps[j].end(), value,
+                                          [](double v, const Gap& gap) { return v < gap.low; });
+      if (after == gaps[j].begin()) continue;
+      const Gap& gap = *std::prev(after);
+      const double inside = std::min(value - gap.low, gap.high - value);
+      if (gap.high - gap.low <= period || inside <= kRounding) continue;
+      value = value - gap.low < gap.high - value ? gap.low : gap.high;
+      moved = true;
+    }
+  }
+  return moved;
+}
+
+Eigen::VectorXd Support::taught(Index joint, double period, Index count) const {
+  std::vector<Gap> wide;
+  double width = joints.high[joint] - joints.low[joint];
+  if (!gaps.empty()) {
+    for (const Gap& gap : gaps[static_cast<std::size_t>(joint)]) {
+      if (gap.high - gap.low <= period) continue;
+      wide.push_back(gap);
+      width -= gap.high - gap.low;
+    }
+  }
+  Eigen::VectorXd values(count);
+  auto gap = wide.begin();
+  double skipped = 0.0;
+  for (Index i = 0; i < count; ++i) {
+    const double along = width * (static_cast<double>(i) + 0.5) / static_cast<double>(count);
+    while (gap != wide.end() && joints.low[joint] + along + skipped > gap->low) {
+      skipped += gap->high - gap->low;
+      ++gap;
+    }
+    values[i] = joints.low[joint] + along + skipped;
+  }
+  return values;
+}
+
 Support support_of(const RowMatrix& q, const Covariates& covariates) {
   Support support;
   support.joints = range_of(q);
+  for (Index j = 0; j < q.cols(); ++j) support.gaps.push_back(gaps_of(q.col(j)));
   support.gravity = {kGravity, kGravity};
   support.covariates["payload"] = {Eigen::VectorXd::Zero(1), Eigen::VectorXd::Zero(1)};
   for (const auto& [name, values] : covariates) {

@@ -149,9 +149,11 @@ TEST(CorrectedLibrary, IdentificationHoldsEffects) {
   EXPECT_EQ(held[0].values, library.found[0].values);
   RowMatrix far = scene.q;
   far.row(3).setConstant(50.0);
-  const std::vector<HeldEffect> without = model.held(view(far), scene.covariates);
-  EXPECT_TRUE(without[0].actions[0][0].values.row(3).isZero(0.0));
-  EXPECT_EQ(without[0].actions[0][0].values.row(4), held[0].actions[0][0].values.row(4));
+  far.row(5).setConstant(60.0);
+  const RowMatrix beyond = model.held(view(far), scene.covariates)[0].actions[0][0].values;
+  EXPECT_EQ(beyond.row(3), beyond.row(5));  // at the average of what was taught
+  EXPECT_NE(beyond.row(3), held[0].actions[0][0].values.row(3));
+  EXPECT_EQ(beyond.row(4), held[0].actions[0][0].values.row(4));
 }
 
 }  // namespace
