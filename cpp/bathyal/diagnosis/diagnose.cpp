@@ -50,7 +50,7 @@ class Reporter {
       tell_why_nothing_is_held_out();
       return std::move(out_);
     }
-    out_.detectable = found_.detectable * unit();
+    out_.detectable = found_.detectable * mean_unit();
     tell_held_out();
     tell_effects();
     tell_leftover();
@@ -59,7 +59,23 @@ class Reporter {
   }
 
  private:
+  /// Noise of a row of full trust [m].
   double unit() const { return subject_.noise(); }
+
+  /// One unit of a mean square over rows [m]. Where noise differs from row to row the most exact
+  /// one may be far below all others.
+  double mean_unit() const {
+    double trust = 0.0;
+    int rows = 0;
+    for (const double t : found_.trust) {
+      if (t > 0.0) {
+        trust += t;
+        ++rows;
+      }
+    }
+    return rows > 0 ? unit() / std::sqrt(trust / rows) : unit();
+  }
+
   const Form& form(int index) const { return subject_.forms()[index]; }
 
   /// By repeats of a pose, which no model explains away; else by what the model leaves.
@@ -82,7 +98,7 @@ class Reporter {
       out_.noise = std::sqrt(squares / freedom);
       out_.noise_source = "repeats of " + counted(poses, "pose");
     } else {
-      out_.noise = unit();
+      out_.noise = mean_unit();
       out_.noise_source = "what the model leaves";
     }
     constexpr double kComputed = 1e-7;  // [m] at which steps of the search come to be seen
@@ -221,10 +237,10 @@ class Reporter {
         named.parameters.push_back(
             {parameter.name, parameter.unit, value, std, value - t * std, value + t * std});
       }
-      named.size = chosen->size * unit();
+      named.size = chosen->size * mean_unit();
       const double rows = 3.0;  // a held-out mean square is per row, rms are of three
-      named.held_out_before = std::sqrt(rows * chosen->held_out_without) * unit();
-      named.held_out_after = std::sqrt(rows * chosen->held_out_with) * unit();
+      named.held_out_before = std::sqrt(rows * chosen->held_out_without) * mean_unit();
+      named.held_out_after = std::sqrt(rows * chosen->held_out_with) * mean_unit();
       named.gain = (named.held_out_before * named.held_out_before -
                     named.held_out_after * named.held_out_after) /
                    above;
@@ -277,7 +293,7 @@ class Reporter {
         [](const Chosen& a, const Chosen& b) { return a.explained < b.explained; });
     const auto rows = static_cast<double>(3 * m_.rows());
     out_.leftover = {form(most->form).effect, form(most->form).words,
-                     std::sqrt(found_.left_over / rows) * unit(),
+                     std::sqrt(found_.left_over / rows) * mean_unit(),
                      found_.base_squares > 0.0 ? found_.left_over / found_.base_squares : 0.0,
                      most->p};
   }

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -89,6 +90,27 @@ TEST(Diagnose, GivesTheSameBytesOnAnyNumberOfThreads) {
   EXPECT_EQ(one.residuals_after, two.residuals_after);
   EXPECT_EQ(one.held_out.rms_after, two.held_out.rms_after);
   EXPECT_EQ(one.effects[0].parameters[1].value, two.effects[0].parameters[1].value);
+}
+
+TEST(Diagnose, SizesAreMetresWhereNoiseGrowsWithTheRange) {
+  Tracked data = wavy(2e-3, 0.0, 300);
+  for (Index i = 0; i < data.position.rows(); ++i) {
+    RandomStream random(9, static_cast<std::uint64_t>(i));
+    const double range = data.position.row(i).norm();
+    for (Index axis = 0; axis < 3; ++axis) data.position(i, axis) += 3e-4 * range * random.normal();
+  }
+  const Diagnosis found = diagnose(six_joints(), data);
+  const auto named = [&](const std::string& name) {
+    const auto at = std::find_if(found.effects.begin(), found.effects.end(),
+                                 [&](const NamedEffect& e) { return e.name == name; });
+    return at == found.effects.end() ? NamedEffect{} : *at;
+  };
+  const double left = std::sqrt(found.residuals_after.squaredNorm() / 900.0);
+  const double before = std::sqrt(found.residuals_before.squaredNorm() / 900.0);
+  ASSERT_EQ(named("range_noise").parameters.size(), 1u);
+  EXPECT_NEAR(found.noise, left, 0.3 * left);
+  EXPECT_NEAR(named("joint_harmonic").size, std::sqrt(before * before - left * left), 0.3 * before);
+  EXPECT_GT(named("joint_harmonic").gain, 0.5);
 }
 
 TEST(Diagnose, TwelvePosesAreTooFewToHoldAnyOut) {
