@@ -3,7 +3,8 @@
 
     python benchmarks/python/diagnose_real.py [NAME ...]
 
-Reads ../shared/data; names are those of RUNS ("UR10 C") and TRANSFERS ("A-B"), by default all.
+Reads ../shared/data; names are those of RUNS ("UR10 C"), TRANSFERS ("A-B") and SITES, by default
+all.
 Errors are 3-D rms in millimetres, of rows or poses that taught nothing.
 """
 
@@ -23,20 +24,16 @@ from numpy.typing import NDArray
 import bathyal
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "tests" / "python"))
-from real_arms import hilti, sockets, trailblazer_with_one_slide, ur10
+from real_arms import hilti, sockets, trailblazer, ur10
 
 MM = 1e3
+AT_START = {"time": 0.0}  # before anything drifted or slipped
 FEWEST_ROWS = 10  # that an error is told of
 TOLD_CAUSES = 6  # of each run, the largest first
 
 
 def tracked(series: str) -> bathyal.Tracked:
     every = ur10(series)
-    return bathyal.Tracked(every.q, every.position)
-
-
-def site(name: str) -> bathyal.Tracked:
-    every, _ = hilti(name)
     return bathyal.Tracked(every.q, every.position)
 
 
@@ -47,9 +44,10 @@ RUNS = {
     "Panda 3": (bathyal.arms.panda, lambda: sockets("panda_3")),
     "Kinova 1": (bathyal.arms.gen3_lite, lambda: sockets("dinova_1")),
     "Kinova 2": (bathyal.arms.gen3_lite, lambda: sockets("dinova_2")),
-    "Hilti flat": (trailblazer_with_one_slide, lambda: site("flat")),
+    "Hilti flat": (trailblazer, lambda: hilti("flat")[0]),
 }  # fmt: skip
 TRANSFERS = [("A", "B"), ("B", "A"), ("A", "C"), ("B", "C")]
+SITES = ["diagonal_wood", "orthogonal_wood", "outdoor", "pallet", "seesaw", "wood_left_track"]
 
 
 @cache
@@ -65,11 +63,15 @@ def rms(errors: NDArray[np.float64]) -> float:
     return float(np.sqrt((errors**2).sum(axis=1).mean()))
 
 
-def moved_onto(points: NDArray[np.float64], places: NDArray[np.float64]) -> NDArray[np.float64]:
-    """The points by the rigid motion that brings them nearest to the places (Kabsch 1976): another
-    session's tracker frame is another."""
-    centers = points.mean(axis=0), places.mean(axis=0)
-    u, _, vt = np.linalg.svd((points - centers[0]).T @ (places - centers[1]))
+def moved_onto(
+    points: NDArray[np.float64],
+    places: NDArray[np.float64],
+    told: NDArray[np.bool_] | slice = slice(None),
+) -> NDArray[np.float64]:
+    """The points by the rigid motion that brings those `told` nearest to their places (Kabsch
+    1976): another session's tracker frame is another."""
+    centers = points[told].mean(axis=0), places[told].mean(axis=0)
+    u, _, vt = np.linalg.svd((points[told] - centers[0]).T @ (places[told] - centers[1]))
     turn = vt.T @ np.diag([1.0, 1.0, np.linalg.det(vt.T @ u.T)]) @ u.T
     return (points - centers[0]) @ turn.T + centers[1]
 
@@ -124,11 +126,32 @@ def transfer(taught: str, asked: str) -> str:
     return f"| {' | '.join(cells)} |"
 
 
+def at_site(site: str) -> str:
+    """Hilti's geometry and effects of `flat` at another site, stationed by the rows that the site
+    itself was stationed by. How its base moved since is not known: it stands as at the start."""
+    report, _ = diagnosed("Hilti flat")
+    data, stationing = hilti(site)
+    within = report.model.in_support(data.q, covariates=AT_START).all(axis=1)
+    cells = [site, f"{len(data.q)}", f"{within.mean():.0%}"]
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", bathyal.SupportWarning)
+        tips = (
+            report.fit.arm.forward(data.q)[:, :3, 3],
+            report.model.forward(data.q, covariates=AT_START)[:, :3, 3],
+        )
+    before, after = (
+        rms((moved_onto(tip, data.position, stationing) - data.position)[~stationing])
+        for tip in tips
+    )
+    cells += [f"{before * MM:.2f}", f"{after * MM:.2f}", f"{1 - after / before:.0%}"]
+    return f"| {' | '.join(cells)} |"
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     transfers = {f"{a}-{b}": (a, b) for a, b in TRANSFERS}
-    parser.add_argument("names", nargs="*", choices=[[], *RUNS, *transfers], default=[])
-    names = parser.parse_args().names or [*RUNS, *transfers]
+    parser.add_argument("names", nargs="*", choices=[[], *RUNS, *transfers, *SITES], default=[])
+    names = parser.parse_args().names or [*RUNS, *transfers, *SITES]
     print("## Diagnosis of real arms\n")
     print(
         "| data | rows | verdict | geometry alone, held out | with what is named | within the "
@@ -142,15 +165,22 @@ def main() -> None:
     for name in RUNS:
         if name in names:
             print(f"\n- {name}", *causes(name), sep="\n")
-    if not any(name in names for name in transfers):
-        return
-    print(
-        "\n| taught → asked | within the support | geometry | with effects | below | beyond it: "
-        "geometry | with effects | below |\n|" + "---|" * 8
-    )
+    if any(name in names for name in transfers):
+        print(
+            "\n| taught → asked | within the support | geometry | with effects | below "
+            "| beyond it: geometry | with effects | below |\n|" + "---|" * 8
+        )
     for name, pair in transfers.items():
         if name in names:
             print(transfer(*pair), flush=True)
+    if any(name in names for name in SITES):
+        print(
+            "\n| Hilti flat → | rows | within the support | geometry | with effects | below |\n|"
+            + "---|" * 6
+        )
+    for name in SITES:
+        if name in names:
+            print(at_site(name), flush=True)
 
 
 if __name__ == "__main__":

@@ -94,14 +94,15 @@ def hilti(site: str) -> tuple[bathyal.Tracked, NDArray[np.bool_]]:
     with _there(ARMS / "hilti-jaibot" / f"{site}.yaml").open() as file:
         content = yaml.load(file, Loader=getattr(yaml, "CSafeLoader", yaml.SafeLoader))
     taken = [
-        (measured["joint_states"], measured["prism_position"], kind)
+        (measured["joint_states"], measured["prism_position"], measured["time"], kind)
         for height in content["column_heights"].values()
         for space in height["solution_spaces"].values()
         for kind, measurements in space.items()
         for measured in measurements
     ]
-    q, position, kind = zip(*taken, strict=True)
-    return bathyal.Tracked(q, position), np.array(kind) == "stationing_measurements"
+    q, position, time, kind = zip(*taken, strict=True)
+    data = bathyal.Tracked(q, position, covariates={"time": np.array(time) - min(time)})
+    return data, np.array(kind) == "stationing_measurements"
 
 
 def trailblazer() -> bathyal.Arm:
