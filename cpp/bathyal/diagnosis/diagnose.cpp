@@ -7,6 +7,7 @@
 #include <set>
 
 #include "bathyal/base/check.hpp"
+#include "bathyal/base/error.hpp"
 #include "bathyal/diagnosis/arm_subject.hpp"
 #include "bathyal/diagnosis/copies.hpp"
 #include "bathyal/diagnosis/doubts_of_record.hpp"
@@ -158,10 +159,10 @@ class Reporter {
     out.rms_before = all.rms_before;
     out.rms_after = all.rms_after;
     const std::vector<int>& session = subject_.units().session;
-    const int sessions = 1 + *std::max_element(session.begin(), session.end());
-    for (int s = 0; sessions > 1 && s < sessions; ++s) {
+    const std::vector<std::string> names = session_names();
+    for (std::size_t s = 0; names.size() > 1 && s < names.size(); ++s) {
       out.parts.push_back(
-          part("session " + std::to_string(s + 1), [&](Index i) { return session[i] == s; }));
+          part("session " + names[s], [&](Index i) { return session[i] == static_cast<int>(s); }));
     }
     for (int p = 0; !m_.tracked && p < m_.points(); ++p) {
       out.parts.push_back(
@@ -177,6 +178,23 @@ class Reporter {
     if (above > 0.0) {
       out_.gain = (out.rms_before * out.rms_before - out.rms_after * out.rms_after) / above;
     }
+  }
+
+  /// As the record calls them; counted from 1 where it does not.
+  std::vector<std::string> session_names() const {
+    const EffectData& data = subject_.data();
+    std::vector<std::string> names;
+    if (data.has("session")) {
+      const auto labels = data.covariate("session").reshaped();
+      for (const double label : std::set<double>(labels.begin(), labels.end())) {
+        names.push_back(to_text(label));
+      }
+    } else {
+      const std::vector<int>& session = subject_.units().session;
+      const int count = 1 + *std::max_element(session.begin(), session.end());
+      for (int s = 1; s <= count; ++s) names.push_back(std::to_string(s));
+    }
+    return names;
   }
 
   /// (N,) whether a row's joints lie where no row of the other blocks reaches: what was found is a

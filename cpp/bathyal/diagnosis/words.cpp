@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 
+#include "bathyal/base/error.hpp"
 #include "bathyal/identify/wording.hpp"
 
 namespace bathyal {
@@ -26,7 +27,7 @@ std::string joint_words(int coordinate, const Arm& arm) {
 std::string session_words(const EffectVariant& variant, const std::string& what) {
   const auto from = variant.settings.find("from");
   if (from == variant.settings.end()) return what + " in each session by itself";
-  return what + " from session " + three_digits(from->second) + " on";
+  return what + " from session " + to_text(from->second) + " on";
 }
 
 }  // namespace

@@ -92,6 +92,24 @@ TEST(Diagnose, GivesTheSameBytesOnAnyNumberOfThreads) {
   EXPECT_EQ(one.effects[0].parameters[1].value, two.effects[0].parameters[1].value);
 }
 
+TEST(Diagnose, CallsSessionsAsTheRecordDoes) {
+  Tracked data = wavy(0.0, 1e-4, 120);
+  RowMatrix session(120, 1);
+  for (Index i = 0; i < 120; ++i) {
+    session(i, 0) = i < 60 ? 7.0 : 20261121.0;
+    if (i >= 60) data.position(i, 0) += 2e-3;
+  }
+  data.covariates["session"] = session;
+  const Diagnosis found = diagnose(six_joints(), data);
+  ASSERT_EQ(found.effects.size(), 1u);
+  EXPECT_EQ(found.effects[0].name, "base_shift");
+  EXPECT_NE(found.effects[0].words.find("from session 20261121 on"), std::string::npos)
+      << found.effects[0].words;
+  ASSERT_GE(found.held_out.parts.size(), 2u);
+  EXPECT_EQ(found.held_out.parts[0].name, "session 7");
+  EXPECT_EQ(found.held_out.parts[1].name, "session 20261121");
+}
+
 TEST(Diagnose, SizesAreMetresWhereNoiseGrowsWithTheRange) {
   Tracked data = wavy(2e-3, 0.0, 300);
   for (Index i = 0; i < data.position.rows(); ++i) {
