@@ -111,6 +111,7 @@ def write_page(
     step(1.0, "Drawn")
 
 
+_MOST_SHOWN = 15  # dependences in the table
 _DRAWINGS: dict[str, tuple[str, Callable[[Any], Figure | None]]] = {
     "show": ("residuals of geometry alone against each quantity", show_figure),
     "pair": ("residuals over pairs of quantities", pair_figure),
@@ -201,10 +202,13 @@ def _structures(report: Diagnosis) -> str:
             against_text(s), length_text(s.size), share_text(s.share), chance_text(s.p_value),
             s.words, "strong" if s.p_value < SIGNIFICANT else "weak",
         )
-        for s in shown
+        for s in shown[:_MOST_SHOWN]
     ]  # fmt: skip
     head = ("against", "size per axis", "of variance above noise", "chance", "what it looks like")
-    return table(head, (row[:5] for row in rows), (row[5] for row in rows), kind="prose")
+    text = table(head, (row[:5] for row in rows), (row[5] for row in rows), kind="prose")
+    if len(shown) > _MOST_SHOWN:
+        text += f"<p>{len(shown) - _MOST_SHOWN} more stand in report.json.</p>"
+    return text
 
 
 # Name -------------------------------------------------------------------------------------------

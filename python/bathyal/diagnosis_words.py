@@ -83,6 +83,11 @@ def headline(report: Diagnosis) -> str:
         return f"{title}: {_causes(report.effects)}."
     if report.verdict == "ambiguous" and report.ambiguous:
         groups = groups_of(report)
+        if sure_in_the_main(report):
+            lesser = (
+                "a lesser choice is" if len(groups) == 1 else f"{len(groups)} lesser choices are"
+            )
+            return f"{title}: in the main {_causes(settled(report))}. {upper(lesser)} open."
         told = [_any_of([str(cause.words) for cause in group]) for group in groups[:_MOST_TOLD]]
         return f"{title}: {listed(told + _more(groups, 'choice'), '; ')}."
     if report.verdict == "unknown":
@@ -108,6 +113,14 @@ def settled(report: Diagnosis) -> list[Any]:
     """Causes that have no rival among those that cannot be told apart."""
     doubtful = {_key(cause) for cause in report.ambiguous}
     return [effect for effect in report.effects if _key(effect) not in doubtful]
+
+
+def sure_in_the_main(report: Diagnosis) -> bool:
+    """Whether a cause without rivals does more than any of those that cannot be told apart."""
+    sizes = {_key(effect): effect.size for effect in report.effects if not is_of_noise(effect)}
+    sure = [sizes[_key(effect)] for effect in settled(report) if _key(effect) in sizes]
+    open_ones = [sizes.get(_key(group[0]), 0.0) for group in groups_of(report)]
+    return bool(sure) and max(sure) > max(open_ones, default=0.0)
 
 
 def _key(cause: Any) -> tuple[str, int | None, str]:
@@ -243,10 +256,16 @@ def _ambiguous(report: Diagnosis) -> list[str]:
         odds = [first.words, *(f"{cause.words} ({odds_text(cause.odds)})" for cause in others)]
         told.append(_any_of(odds))
     told += _more(groups, "choice")
-    either = f"Ambiguous, these data cannot tell apart: {listed(told, '; ')}."
-    sure = settled(report)
-    return [either, _told(sure, "Beside them stands" if len(sure) == 1 else "Beside them stand"),
-            gain_text(report), leftover_text(report)]  # fmt: skip
+    apart, sure = listed(told, "; "), settled(report)
+    stand = "stands" if len(sure) == 1 else "stand"
+    found = (
+        [_told(sure, f"Ambiguous, but in the main this {stand}"),
+         f"Among lesser causes these data cannot tell apart: {apart}."]
+        if sure_in_the_main(report)
+        else [f"Ambiguous, these data cannot tell apart: {apart}.",
+              _told(sure, f"Beside them {stand}")]
+    )  # fmt: skip
+    return [*found, gain_text(report), leftover_text(report)]
 
 
 def _unknown(report: Diagnosis) -> list[str]:

@@ -118,6 +118,19 @@ def test_ambiguous_lists_all_and_asks_for_poses():
     assert "No pose would tell them apart" in next_steps(report)[0]
 
 
+def test_what_is_sure_leads_where_it_does_more_than_what_is_open():
+    report = cases.ambiguous()
+    report.effects[0].size = 2 * report.effects[1].size
+    text = summary(report)
+    assert text.startswith(
+        "Ambiguous, but in the main this stands: a harmonic of order 2 along joint 3 with amplitude"
+    )
+    assert "Among lesser causes these data cannot tell apart: the tool slipped after 120" in text
+    assert headline(report) == (
+        "Ambiguous: in the main a harmonic of order 2 along joint 3. A lesser choice is open."
+    )
+
+
 def test_groups_of_causes_that_cannot_be_told_apart_stay_apart():
     report = cases.ambiguous()
     report.ambiguous += [
