@@ -24,10 +24,11 @@ from numpy.typing import NDArray
 import bathyal
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "tests" / "python"))
-from real_arms import hilti, sockets, trailblazer, ur10
+from real_arms import hilti, hilti_tilts, sockets, trailblazer, ur10
 
 MM = 1e3
 AT_START = {"time": 0.0}  # before anything drifted or slipped
+TEMPERATURES = {"flat": 21.0, "outdoor": 9.0}  # of Hilti's sites, by their file [°C]
 FEWEST_ROWS = 10  # that an error is told of
 TOLD_CAUSES = 6  # of each run, the largest first
 
@@ -147,6 +148,51 @@ def at_site(site: str) -> str:
     return f"| {' | '.join(cells)} |"
 
 
+def lean(site: str) -> str:
+    """How fast base and column lean by their own sensors, which diagnosis is not told of; what the
+    reach and height of the arm do to them is fitted beside."""
+    data, _ = hilti(site)
+    hours = data.covariates["time"].ravel() / 3600
+    height, turn = data.q[:, 0], data.q[:, 1]
+    beside = [np.ones_like(hours), height, np.cos(turn), np.sin(turn)]
+    beside += [height * np.cos(turn), height * np.sin(turn)]
+    columns = np.column_stack([hours, *beside])
+    inverse = np.linalg.inv(columns.T @ columns)
+    told = []
+    for part, tilt in hilti_tilts(site).items():
+        rates = inverse @ columns.T @ np.degrees(tilt)
+        left = np.degrees(tilt) - columns @ rates
+        std = np.sqrt(inverse[0, 0] * (left**2).sum(axis=0) / (len(hours) - columns.shape[1]))
+        axis = int(np.argmax(np.abs(rates[0])))
+        told.append(f"the {part} {rates[0, axis]:.3f} ± {2 * std[axis]:.3f} °/h")
+    return f"\nBy its own sensors {site} leans: {', '.join(told)}."
+
+
+def two_temperatures(one: str, other: str) -> str:
+    """Two sites with their temperatures as sessions of one arm: what growth is named."""
+    arm = trailblazer()
+    first, second = hilti(one)[0], hilti(other)[0]
+    arm_there = bathyal.identify_arm(arm, first).arm
+    there = moved_onto(second.position, arm_there.forward(second.q)[:, :3, 3])
+    count = len(first), len(second)
+    data = bathyal.Tracked(
+        np.vstack([first.q, second.q]),
+        np.vstack([first.position, there]),
+        covariates={
+            "temperature": np.repeat([TEMPERATURES[one], TEMPERATURES[other]], count),
+            "time": np.concatenate(
+                [first.covariates["time"], 1e5 + second.covariates["time"]]
+            ).ravel(),
+        },
+        session=np.repeat([0, 1], count),
+    )
+    report = bathyal.diagnose(arm, data)
+    growth = [e.parameters["expansion"].value for e in report.effects if e.name == "thermal"]
+    named = f"growth by {growth[0]:.1e} per kelvin" if growth else "no growth"
+    others = [e.words for e in report.effects if e.name in ("base_shift", "tool_change")]
+    return f"\n{one} and {other} together: {report.verdict}, {named}; {'; '.join(others)}."
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     transfers = {f"{a}-{b}": (a, b) for a, b in TRANSFERS}
@@ -181,6 +227,8 @@ def main() -> None:
     for name in SITES:
         if name in names:
             print(at_site(name), flush=True)
+    if "Hilti flat" in names:
+        print(lean("flat"), two_temperatures("flat", "outdoor"), sep="\n", flush=True)
 
 
 if __name__ == "__main__":

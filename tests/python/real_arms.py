@@ -6,6 +6,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from functools import cache
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -88,17 +89,35 @@ def blocks(count: int, number: int = 10) -> NDArray[np.bool_]:
 
 
 @cache
-def hilti(site: str) -> tuple[bathyal.Tracked, NDArray[np.bool_]]:
-    """Prism positions of Hilti's column and arm, and which of them the site was stationed by."""
+def _hilti_rows(site: str) -> list[tuple[dict[str, Any], str]]:
     yaml = pytest.importorskip("yaml")
     with _there(ARMS / "hilti-jaibot" / f"{site}.yaml").open() as file:
         content = yaml.load(file, Loader=getattr(yaml, "CSafeLoader", yaml.SafeLoader))
-    taken = [
-        (measured["joint_states"], measured["prism_position"], measured["time"], kind)
+    return [
+        (measured, kind)
         for height in content["column_heights"].values()
         for space in height["solution_spaces"].values()
         for kind, measurements in space.items()
         for measured in measurements
+    ]
+
+
+def hilti_tilts(site: str) -> dict[str, Array]:
+    """What base and column lean by their own sensors: (N, 2) about y and x [rad], in the rows'
+    order."""
+    rows = [measured for measured, _ in _hilti_rows(site)]
+    return {
+        part: np.array([row[f"tilt_sensor_{part}_accel"] for row in rows])[:, :2] / 9.80665
+        for part in ("base", "column")
+    }
+
+
+@cache
+def hilti(site: str) -> tuple[bathyal.Tracked, NDArray[np.bool_]]:
+    """Prism positions of Hilti's column and arm, and which of them the site was stationed by."""
+    taken = [
+        (measured["joint_states"], measured["prism_position"], measured["time"], kind)
+        for measured, kind in _hilti_rows(site)
     ]
     q, position, time, kind = zip(*taken, strict=True)
     data = bathyal.Tracked(q, position, covariates={"time": np.array(time) - min(time)})

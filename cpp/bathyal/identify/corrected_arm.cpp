@@ -25,16 +25,16 @@ void write_pose(const Pose& pose, double* out) { Eigen::Map<RowMajor4>{out} = po
 template <class Body>
 void for_each_pair(const FoundEffect& found, std::vector<std::vector<Action>>& actions,
                    const std::vector<std::vector<Action>>& other, const Body& body) {
+  const auto same_site = [](const Action& a, const Action& b) {
+    return a.site == b.site && a.index == b.index;
+  };
   for (std::size_t p = 0; p < actions.size(); ++p) {
-    const bool as_many = actions[p].size() == other[p].size();
-    for (std::size_t i = 0; as_many && i < actions[p].size(); ++i) {
-      if (actions[p][i].site != other[p][i].site || actions[p][i].index != other[p][i].index) {
-        throw_argument("effect " + found.variant.effect, "the same sites in all rows", "others");
-      }
-      body(actions[p][i].values, other[p][i].values);
+    if (!std::equal(actions[p].begin(), actions[p].end(), other[p].begin(), other[p].end(),
+                    same_site)) {
+      throw_argument("effect " + found.variant.effect, "the same sites in all rows", "others");
     }
-    if (!as_many) {
-      throw_argument("effect " + found.variant.effect, "as many actions in all rows", "others");
+    for (std::size_t i = 0; i < actions[p].size(); ++i) {
+      body(actions[p][i].values, other[p][i].values);
     }
   }
 }
@@ -126,7 +126,7 @@ CorrectedArm::CorrectedArm(Arm arm, std::vector<FoundEffect> effects, Support su
   for (const FoundEffect& found : effects_) {
     double period = found.effect->period(found.variant);
     for (const FoundEffect& other : effects_) {
-      if (other.variant.cause != found.variant.cause) continue;
+      if (other.variant.joint != found.variant.joint || !std::isfinite(period)) continue;
       period = std::min(period, other.effect->period(other.variant));
     }
     periods_.push_back(period);
@@ -273,15 +273,15 @@ CorrectedArm::Part CorrectedArm::part(std::size_t effect, const AskedRows& rows,
   const Actions high = actions_at(rows.high);
   part.counts =
       same_rows(found, part.actions, low, count) && same_rows(found, part.actions, high, count);
-  const RowMask known = same_rows(found, low, high, count);
   if (part.counts.all()) return part;
+  const RowMask known = same_rows(found, low, high, count);
   const bool curve = found.variant.joint >= 0 && std::isfinite(periods_[effect]);
   const Actions held = curve ? average(effect) : std::move(low);
-  for_each_pair(found, part.actions, held, [&](RowMatrix& values, const RowMatrix& near) {
+  for_each_pair(found, part.actions, held, [&](RowMatrix& values, const RowMatrix& instead) {
     for (Index i = 0; i < count; ++i) {
       if (part.counts[i]) continue;
       if (known[i]) {
-        values.row(i) = near.row(curve ? 0 : i);
+        values.row(i) = instead.row(curve ? 0 : i);
       } else {
         values.row(i).setZero();
       }

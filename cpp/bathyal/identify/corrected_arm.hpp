@@ -36,8 +36,8 @@ struct CorrectedInverse {
 /// Poses are foretold one by one: q is what the controller would record, and the effects move
 /// joints, frames and lengths from there (correction.hpp). An effect counts in a row where its own
 /// arguments lie within the support: within the ranges that taught it, and in no gap between joint
-/// values that is wider than its period (of effects of one cause, which were found together, the
-/// shortest). Where one lies beyond and the effect looks at it (it would
+/// values that is wider than its period (of waves and curves along one joint, which were found
+/// together, the shortest). Where one lies beyond and the effect looks at it (it would
 /// move something else at the nearest row within), the effect is held: a wave or curve along its
 /// joint at its average over what was taught, for beyond that it may do anything; what is smooth at
 /// what it does in the nearest row. Its geometry was found beside the effects, so that without them
@@ -113,7 +113,7 @@ class CorrectedArm {
 
   Arm arm_;
   std::vector<FoundEffect> effects_;
-  std::vector<double> periods_;  ///< the least of each effect's cause
+  std::vector<double> periods_;  ///< of each effect; of those along one joint the shortest
   Support support_;
 };
 

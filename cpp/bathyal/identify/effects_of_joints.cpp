@@ -63,7 +63,7 @@ class JointHarmonic final : public Effect {
   }
 
   double period(const EffectVariant& variant) const override {
-    return 2.0 * std::numbers::pi / setting_of(variant, "order");
+    return 2.0 * std::numbers::pi / std::abs(setting_of(variant, "order"));
   }
 
   std::vector<EffectVariant> between(const EffectVariant& lower, const EffectVariant& upper,
@@ -166,7 +166,7 @@ class JointMap final : public Effect {
 
   double period(const EffectVariant& variant) const override {
     const auto terms = static_cast<double>(variant.parameters.size() / 2);
-    return 2.0 * std::numbers::pi / (terms * setting_of(variant, "wave"));
+    return 2.0 * std::numbers::pi / std::abs(terms * setting_of(variant, "wave"));
   }
 };
 
