@@ -116,7 +116,10 @@ _DRAWINGS: dict[str, tuple[str, Callable[[Any], Figure | None]]] = {
     "show": ("residuals of geometry alone against each quantity", show_figure),
     "pair": ("residuals over pairs of quantities", pair_figure),
     "curve": ("what each cause adds to its joint", curve_figure),
-    "support": ("where the data lie within the joints' limits", support_figure),
+    "support": (
+        "where the data lie within the joints' limits, wide gaps left pale",
+        support_figure,
+    ),
     "gain": ("error on data held out, before and after", gain_figure),
     "left": ("residuals with the causes taken out", left_figure),
 }

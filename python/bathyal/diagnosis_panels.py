@@ -229,6 +229,9 @@ def draw_supports(axes: Axes, ranges: Sequence[Support], *, font: float = 8.0) -
         left, wide = (one.low - one.least) / way, (one.high - one.low) / way
         axes.barh(place, 1, color="#ececea", height=0.62)
         axes.barh(place, wide, left=left, color=AFTER, height=0.62)
+        for low, high in one.gaps:
+            share = (high - low) / way
+            axes.barh(place, share, left=(low - one.least) / way, color="#ececea", height=0.62)
         unit = "°" if one.unit == "°" else f" {one.unit}"
         told = f"{one.low:.0f} … {one.high:.0f}{unit}".replace("-", "−")
         limits = f"of {one.least:.0f} … {one.most:.0f}{unit}".replace("-", "−")

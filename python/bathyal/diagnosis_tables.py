@@ -218,6 +218,7 @@ class Support:
     high: float
     least: float | None
     most: float | None
+    gaps: tuple[tuple[float, float], ...] = ()  # wider than what was found there comes and goes
 
     @property
     def share(self) -> float | None:
@@ -225,6 +226,13 @@ class Support:
         if self.least is None or self.most is None or self.most <= self.least:
             return None
         return (self.high - self.low) / (self.most - self.least)
+
+
+def _gaps(report: Diagnosis, joint: int) -> NDArray[np.float64]:
+    """(g, 2) of a joint, from and to: where the corrected arm holds its waves and curves."""
+    gaps = report.model.support.gaps[joint]
+    periods = [found.period for found in report.model.effects if found.joint == joint]
+    return gaps[np.ptp(gaps, axis=1) > min(periods, default=math.inf)]
 
 
 def supports(report: Diagnosis) -> list[Support]:
@@ -237,7 +245,8 @@ def supports(report: Diagnosis) -> list[Support]:
         ends = [factor * float(end) if math.isfinite(end) else None for end in (lower, upper)]
         low, high = float(joint.values.min()), float(joint.values.max())
         name = joint_label(number, joint.name)
-        found.append(Support(name, joint.unit, low, high, *ends))
+        gaps = tuple(factor * gap for gap in _gaps(report, number - 1))
+        found.append(Support(name, joint.unit, low, high, *ends, gaps))
     for name in ("temperature", "payload"):
         values = report.data.covariates.get(name)
         if values is not None:

@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
@@ -115,3 +117,15 @@ def test_sheet_has_a_panel_for_each_step():
     assert any("harmonic of order 2" in text.get_text() for text in figure.texts)
     assert len(curve_figure(cases.many()).axes) == 8
     assert curve_figure(cases.clean()) is None
+
+
+def test_gaps_wider_than_a_wave_are_cut_out_of_the_range():
+    report = cases.named()
+    wave = SimpleNamespace(joint=2, period=0.5)
+    gaps = [np.empty((0, 2))] * 7
+    gaps[1] = gaps[2] = np.array([[-0.9, -0.6], [0.1, 0.8]])
+    report.model = cases.Arm((wave,), gaps)
+    told = [one.gaps for one in tables.supports(report)]
+    assert told[1] == ()
+    assert len(told[2]) == 1
+    np.testing.assert_allclose(told[2][0], np.degrees([0.1, 0.8]))
