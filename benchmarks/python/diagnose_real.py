@@ -24,7 +24,7 @@ from numpy.typing import NDArray
 import bathyal
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "tests" / "python"))
-from real_arms import hilti, hilti_tilts, sockets, trailblazer, ur10
+from real_arms import hilti, hilti_tilts, moved_onto, sockets, trailblazer, ur10
 
 MM = 1e3
 AT_START = {"time": 0.0}  # before anything drifted or slipped
@@ -62,19 +62,6 @@ def diagnosed(name: str) -> tuple[bathyal.Diagnosis, float]:
 
 def rms(errors: NDArray[np.float64]) -> float:
     return float(np.sqrt((errors**2).sum(axis=1).mean()))
-
-
-def moved_onto(
-    points: NDArray[np.float64],
-    places: NDArray[np.float64],
-    told: NDArray[np.bool_] | slice = slice(None),
-) -> NDArray[np.float64]:
-    """The points by the rigid motion that brings those `told` nearest to their places (Kabsch
-    1976): another session's tracker frame is another."""
-    centers = points[told].mean(axis=0), places[told].mean(axis=0)
-    u, _, vt = np.linalg.svd((points[told] - centers[0]).T @ (places[told] - centers[1]))
-    turn = vt.T @ np.diag([1.0, 1.0, np.linalg.det(vt.T @ u.T)]) @ u.T
-    return (points - centers[0]) @ turn.T + centers[1]
 
 
 def line(name: str) -> str:

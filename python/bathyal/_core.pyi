@@ -2037,7 +2037,8 @@ class CorrectedArm:
     lengths from there.
     
     An effect counts in a row where its own arguments lie within the support: in the ranges that taught
-    it, and in no gap between joint values wider than its period (the shortest of those of its cause).
+    it, and in no gap between joint values wider than its period (of waves and curves along one joint,
+    which were found together, the shortest).
     Where one lies beyond (a joint, a temperature, a load) and would change what the effect does, the
     effect is held: a wave or curve along its joint at its average over what was taught, for beyond that
     it may do anything; what is smooth at what it does in the nearest row within. An effect that needs

@@ -3,18 +3,32 @@
 
 from __future__ import annotations
 
+import warnings
 from functools import cache
 
 import numpy as np
+import pytest
 
 import bathyal
-from real_arms import sockets, ur10
+from real_arms import Array, hilti, moved_onto, sockets, trailblazer, ur10
+
+
+def _rms(errors: Array) -> float:
+    return float(np.sqrt((errors**2).sum(axis=1).mean()))
 
 
 @cache
 def _report_of_ur10() -> bathyal.Diagnosis:
     every = ur10("C")
     return bathyal.diagnose(bathyal.arms.ur10(), bathyal.Tracked(every.q[::8], every.position[::8]))
+
+
+@cache
+def _report_of_another_session() -> bathyal.Diagnosis:
+    every = ur10("A")
+    return bathyal.diagnose(
+        bathyal.arms.ur10(), bathyal.Tracked(every.q[::30], every.position[::30])
+    )
 
 
 def test_gears_of_the_ur10_are_found() -> None:
@@ -35,9 +49,33 @@ def test_the_ur10s_model_foretells_poses_that_were_not_used() -> None:
     within = report.model.in_support(q).all(axis=1)
     error = report.model.forward(q[within])[:, :3, 3] - position[within]
     rigid = report.fit.arm.forward(q[within])[:, :3, 3] - position[within]
-    rms = [float(np.sqrt((e**2).sum(axis=1).mean())) for e in (rigid, error)]
     assert within.mean() > 0.8
-    assert rms[1] < 0.35 * rms[0]
+    assert _rms(error) < 0.35 * _rms(rigid)
+
+
+@pytest.mark.parametrize("within", [True, False])
+def test_what_one_session_teaches_helps_in_another(within: bool) -> None:
+    report, other = _report_of_another_session(), ur10("B")
+    known = report.model.in_support(other.q).all(axis=1)
+    assert 0.1 < known.mean() < 0.9
+    q, places = other.q[known == within], other.position[known == within]
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", bathyal.SupportWarning)
+        rigid, corrected = (
+            _rms(moved_onto(arm.forward(q)[:, :3, 3], places) - places)
+            for arm in (report.fit.arm, report.model)
+        )
+    assert corrected < (0.75 if within else 0.9) * rigid
+
+
+def test_the_column_that_bends_is_named() -> None:
+    data, _ = hilti("flat")
+    report = bathyal.diagnose(trailblazer(), data)
+    assert (report.effects[0].name, report.effects[0].joint) == ("link_compliance", 0)
+    assert report.effects[0].p_value < 1e-6
+    assert report.held_out.rms_before > 3e-3
+    assert report.held_out.rms_after < 1.5e-3
+    assert "bending under its load" in report.summary()
 
 
 def test_the_panda_with_a_probe_is_better_with_what_is_named() -> None:
