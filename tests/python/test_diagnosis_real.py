@@ -27,7 +27,7 @@ def _report_of_ur10() -> bathyal.Diagnosis:
 def _report_of_another_session() -> bathyal.Diagnosis:
     every = ur10("A")
     return bathyal.diagnose(
-        bathyal.arms.ur10(), bathyal.Tracked(every.q[::30], every.position[::30])
+        bathyal.arms.ur10(), bathyal.Tracked(every.q[::20], every.position[::20])
     )
 
 
@@ -83,3 +83,12 @@ def test_the_panda_with_a_probe_is_better_with_what_is_named() -> None:
     assert report.verdict in ("named", "ambiguous")
     assert report.held_out.rms_before < 0.22e-3
     assert report.held_out.rms_after < 0.175e-3
+
+
+def test_structure_whose_names_foretell_nothing_is_unknown() -> None:
+    every = ur10("A")
+    report = bathyal.diagnose(
+        bathyal.arms.ur10(), bathyal.Tracked(every.q[::30], every.position[::30])
+    )
+    assert min(shown.p_value for shown in report.shown) < 1e-9
+    assert report.verdict == "unknown" or report.held_out.rms_after < 0.2e-3

@@ -55,6 +55,7 @@ class Examiner {
   void weigh_noise();
   void look_beyond_names();
   void drop_what_is_not_needed();
+  void look_at_what_dropped_names_leave();
   void drop_what_foretells_nothing();
   double chance(const Pool& pool, int member, const SetFit& fit, std::size_t i) const;
   void tell_evidence();
@@ -244,6 +245,17 @@ void Examiner::drop_what_foretells_nothing() {
   }
 }
 
+/// Structure that names stood for which foretold nothing is still there.
+void Examiner::look_at_what_dropped_names_leave() {
+  for (int round = 0; round < kMostRounds; ++round) {
+    std::vector<int> standing = names_;
+    standing.insert(standing.end(), probes_.begin(), probes_.end());
+    const std::vector<Dependence> beyond = vantage_.dependences(vantage_.ground(standing));
+    if (beyond.empty() || beyond.front().p > kBeyondNoise) return;
+    probes_.push_back(beyond.front().form);
+  }
+}
+
 void Examiner::tell_evidence() {
   std::vector<int> all = names_;
   all.insert(all.end(), probes_.begin(), probes_.end());
@@ -336,7 +348,9 @@ Examination Examiner::run() {
   tell(0.6, "looking for what is left");
   look_beyond_names();
   tell(0.8, "measuring the gain");
+  const std::vector<int> promised = names_;
   drop_what_foretells_nothing();
+  if (names_ != promised) look_at_what_dropped_names_leave();
   tell_evidence();
   tell_rivals();
   for (Index i = 0; i < trust_.size(); ++i) {
