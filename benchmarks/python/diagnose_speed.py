@@ -30,7 +30,7 @@ SERIES_A = "arms/ipa-ur10/Series_A/measurements_grid.csv"
 JOINTS = ["shoulder_pan", "shoulder_lift", "elbow", "wrist_1", "wrist_2", "wrist_3"]
 NOISE = 1e-4  # per axis [m]
 HIDDEN = (2, 3.0, 4e-4, -3e-4)  # joint, order, cos, sin: a harmonic of the elbow
-COUNTS = (500, 1000, 2000, 4000)
+COUNTS = (500, 1000, 2000, 4000, 8000)
 
 
 def timed(call: Callable[[], Any]) -> tuple[float, Any]:

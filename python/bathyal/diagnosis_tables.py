@@ -232,7 +232,8 @@ def _gaps(report: Diagnosis, joint: int) -> NDArray[np.float64]:
     """(g, 2) of a joint, from and to: where the corrected arm holds its waves and curves."""
     gaps = report.model.support.gaps[joint]
     periods = [found.period for found in report.model.effects if found.joint == joint]
-    return gaps[np.ptp(gaps, axis=1) > min(periods, default=math.inf)]
+    wide: NDArray[np.bool_] = np.ptp(gaps, axis=1) > min(periods, default=math.inf)
+    return np.asarray(gaps[wide], dtype=float)
 
 
 def supports(report: Diagnosis) -> list[Support]:
@@ -242,11 +243,13 @@ def supports(report: Diagnosis) -> list[Support]:
     joints = zip(joint_values(arm, report.data), arm.joint_types, arm.lower, arm.upper, strict=True)
     for number, (joint, kind, lower, upper) in enumerate(joints, 1):
         factor = 1e3 if kind == "prismatic" else math.degrees(1.0)
-        ends = [factor * float(end) if math.isfinite(end) else None for end in (lower, upper)]
+        least, most = (
+            factor * float(end) if math.isfinite(end) else None for end in (lower, upper)
+        )
         low, high = float(joint.values.min()), float(joint.values.max())
         name = joint_label(number, joint.name)
-        gaps = tuple(factor * gap for gap in _gaps(report, number - 1))
-        found.append(Support(name, joint.unit, low, high, *ends, gaps))
+        gaps = tuple((factor * a, factor * b) for a, b in _gaps(report, number - 1).tolist())
+        found.append(Support(name, joint.unit, low, high, least, most, gaps))
     for name in ("temperature", "payload"):
         values = report.data.covariates.get(name)
         if values is not None:

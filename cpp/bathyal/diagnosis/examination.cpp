@@ -245,17 +245,6 @@ void Examiner::drop_what_foretells_nothing() {
   }
 }
 
-/// Structure that names stood for which foretold nothing is still there.
-void Examiner::look_at_what_dropped_names_leave() {
-  for (int round = 0; round < kMostRounds; ++round) {
-    std::vector<int> standing = names_;
-    standing.insert(standing.end(), probes_.begin(), probes_.end());
-    const std::vector<Dependence> beyond = vantage_.dependences(vantage_.ground(standing));
-    if (beyond.empty() || beyond.front().p > kBeyondNoise) return;
-    probes_.push_back(beyond.front().form);
-  }
-}
-
 void Examiner::tell_evidence() {
   std::vector<int> all = names_;
   all.insert(all.end(), probes_.begin(), probes_.end());
@@ -300,6 +289,27 @@ void Examiner::tell_evidence() {
       *std::find_if(out_.names.begin(), out_.names.end(),
                     [&](const Chosen& c) { return c.form == chosen.form; }) = chosen;
     }
+  }
+}
+
+/// Structure that names stood for which foretold nothing is still there.
+void Examiner::look_at_what_dropped_names_leave() {
+  const auto rows = static_cast<double>(subject_.linearization().misfit.size());
+  std::vector<int> standing = names_;
+  standing.insert(standing.end(), probes_.begin(), probes_.end());
+  for (int round = 0; round < kMostRounds; ++round) {
+    const std::vector<Dependence> beyond = vantage_.dependences(vantage_.ground(standing));
+    if (beyond.empty() || beyond.front().p > kBeyondNoise) return;
+    const Dependence& most = beyond.front();
+    Chosen probe;
+    probe.form = most.form;
+    probe.explained = most.explained;
+    probe.width = most.width;
+    probe.size = most.size;
+    probe.p = most.p;
+    out_.probes.push_back(probe);
+    out_.left_over += most.size * most.size * rows;
+    standing.push_back(most.form);
   }
 }
 
@@ -350,8 +360,8 @@ Examination Examiner::run() {
   tell(0.8, "measuring the gain");
   const std::vector<int> promised = names_;
   drop_what_foretells_nothing();
-  if (names_ != promised) look_at_what_dropped_names_leave();
   tell_evidence();
+  if (names_ != promised) look_at_what_dropped_names_leave();
   tell_rivals();
   for (Index i = 0; i < trust_.size(); ++i) {
     if (!(trust_[i] > 0.0)) out_.odd.push_back(static_cast<int>(i));
