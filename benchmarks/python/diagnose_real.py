@@ -24,7 +24,7 @@ from numpy.typing import NDArray
 import bathyal
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "tests" / "python"))
-from real_arms import hilti, hilti_tilts, moved_onto, sockets, trailblazer, ur10
+from real_arms import hilti, hilti_tilts, sockets, trailblazer, ur10
 
 MM = 1e3
 AT_START = {"time": 0.0}  # before anything drifted or slipped
@@ -107,11 +107,26 @@ def transfer(taught: str, asked: str) -> str:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", bathyal.SupportWarning)  # that is what is asked
             before, after = (
-                rms(moved_onto(arm.forward(q)[:, :3, 3], places) - places)
+                bathyal.verify_arm(arm, q, places).rms_after
                 for arm in (report.fit.arm, report.model)
             )
         cells += [f"{before * MM:.3f}", f"{after * MM:.3f}", f"{1 - after / before:.0%}"]
     return f"| {' | '.join(cells)} |"
+
+
+def stationed_error(
+    arm: bathyal.Arm | bathyal.CorrectedArm,
+    data: bathyal.Tracked,
+    stationing: NDArray[np.bool_],
+    covariates: dict[str, float] | None,
+) -> float:
+    """Of the rows that the site was not stationed by."""
+    there = bathyal.verify_arm(
+        arm, data.q[stationing], data.position[stationing], covariates=covariates
+    ).measured_from_predicted
+    told = {} if covariates is None else {"covariates": covariates}
+    tips = arm.forward(data.q[~stationing], **told)[:, :3, 3] @ there[:3, :3].T + there[:3, 3]
+    return rms(tips - data.position[~stationing])
 
 
 def at_site(site: str) -> str:
@@ -123,14 +138,10 @@ def at_site(site: str) -> str:
     cells = [site, f"{len(data.q)}", f"{within.mean():.0%}"]
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", bathyal.SupportWarning)
-        tips = (
-            report.fit.arm.forward(data.q)[:, :3, 3],
-            report.model.forward(data.q, covariates=AT_START)[:, :3, 3],
+        before, after = (
+            stationed_error(arm, data, stationing, told)
+            for arm, told in ((report.fit.arm, None), (report.model, AT_START))
         )
-    before, after = (
-        rms((moved_onto(tip, data.position, stationing) - data.position)[~stationing])
-        for tip in tips
-    )
     cells += [f"{before * MM:.2f}", f"{after * MM:.2f}", f"{1 - after / before:.0%}"]
     return f"| {' | '.join(cells)} |"
 
@@ -160,7 +171,10 @@ def two_temperatures(one: str, other: str) -> str:
     arm = trailblazer()
     first, second = hilti(one)[0], hilti(other)[0]
     arm_there = bathyal.identify_arm(arm, first).arm
-    there = moved_onto(second.position, arm_there.forward(second.q)[:, :3, 3])
+    away = np.linalg.inv(
+        bathyal.verify_arm(arm_there, second.q, second.position).measured_from_predicted
+    )
+    there = second.position @ away[:3, :3].T + away[:3, 3]
     count = len(first), len(second)
     data = bathyal.Tracked(
         np.vstack([first.q, second.q]),

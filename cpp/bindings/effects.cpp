@@ -215,10 +215,6 @@ void bind_found_effect(py::module_& module) {
            py::arg("scales") = std::map<std::string, double>{}, py::arg("cause") = "")
       .def_property_readonly("name", [](const FoundEffect& f) { return f.variant.effect; })
       .def_property_readonly(
-          "period", [](const FoundEffect& f) { return f.effect->period(f.variant); },
-          "The shortest stretch of joint values over which it comes and goes [rad] or [m]; inf of "
-          "what is smooth.")
-      .def_property_readonly(
           "effect", [](const FoundEffect& f) { return std::const_pointer_cast<Effect>(f.effect); },
           "The Effect itself.")
       .def_property_readonly(

@@ -1963,11 +1963,6 @@ class FoundEffect:
         Name to value.
         """
     @property
-    def period(self) -> float:
-        """
-        The shortest stretch of joint values over which it comes and goes [rad] or [m]; inf of what is smooth.
-        """
-    @property
     def scales(self) -> dict:
         """
         Name to an ordinary size.
@@ -2212,6 +2207,11 @@ class CorrectedArm:
     def effort(self) -> typing.Any:
         """
         As of `Arm`: `arm`'s own.
+        """
+    @property
+    def gaps(self) -> list:
+        """
+        Of each coordinate (g, 2) from and to: gaps of the support in which a wave or curve along it is held.
         """
     @property
     def joint_names(self) -> typing.Any:

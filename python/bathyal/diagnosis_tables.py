@@ -218,7 +218,7 @@ class Support:
     high: float
     least: float | None
     most: float | None
-    gaps: tuple[tuple[float, float], ...] = ()  # wider than what was found there comes and goes
+    gaps: tuple[tuple[float, float], ...] = ()  # in which the corrected arm holds its effects
 
     @property
     def share(self) -> float | None:
@@ -226,14 +226,6 @@ class Support:
         if self.least is None or self.most is None or self.most <= self.least:
             return None
         return (self.high - self.low) / (self.most - self.least)
-
-
-def _gaps(report: Diagnosis, joint: int) -> NDArray[np.float64]:
-    """(g, 2) of a joint, from and to: where the corrected arm holds its waves and curves."""
-    gaps = report.model.support.gaps[joint]
-    periods = [found.period for found in report.model.effects if found.joint == joint]
-    wide: NDArray[np.bool_] = np.ptp(gaps, axis=1) > min(periods, default=math.inf)
-    return np.asarray(gaps[wide], dtype=float)
 
 
 def supports(report: Diagnosis) -> list[Support]:
@@ -248,7 +240,7 @@ def supports(report: Diagnosis) -> list[Support]:
         )
         low, high = float(joint.values.min()), float(joint.values.max())
         name = joint_label(number, joint.name)
-        gaps = tuple((factor * a, factor * b) for a, b in _gaps(report, number - 1).tolist())
+        gaps = tuple((factor * a, factor * b) for a, b in report.model.gaps[number - 1].tolist())
         found.append(Support(name, joint.unit, low, high, least, most, gaps))
     for name in ("temperature", "payload"):
         values = report.data.covariates.get(name)

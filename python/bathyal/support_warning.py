@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from bathyal._core import CorrectedArm, Support
+from bathyal._core import CorrectedArm
 
 Floats = NDArray[np.float64]
 
@@ -51,8 +51,7 @@ def warn(
             reasons.append(f"{name} left out of all rows, for want of {' and '.join(untold)}")
         else:
             reasons.append(f"{name} in {missing} of {len(mask)} rows")
-    period = min(found.period for found in model.effects)
-    beyond = _beyond(model.support, period, q, covariates)
+    beyond = _beyond(model, q, covariates)
     text = f"Asked beyond the data that taught it: {'; '.join(reasons)}."
     if beyond:
         text += f" Beyond: {'; '.join(beyond)}."
@@ -64,8 +63,9 @@ def warn(
     warnings.warn(SupportWarning(text, counts, beyond, mask), stacklevel=2)
 
 
-def _beyond(support: Support, period: float, q: Floats, covariates: Mapping[str, Any]) -> list[str]:
-    """Each column that leaves its range, and gaps wider than a period, in words."""
+def _beyond(model: CorrectedArm, q: Floats, covariates: Mapping[str, Any]) -> list[str]:
+    """Each column that leaves its range, and gaps in which effects are held, in words."""
+    support = model.support
     columns = [(f"joint {j + 1}", q[:, j], support.joints[:, j]) for j in range(q.shape[1])]
     for name, values in covariates.items():
         if name == "session":
@@ -83,13 +83,12 @@ def _beyond(support: Support, period: float, q: Floats, covariates: Mapping[str,
                 f"{name}, asked {known.min():.4g} to {known.max():.4g}, taught {low:.4g} to "
                 f"{high:.4g}"
             )
-    for j, gaps in enumerate(support.gaps):
-        low, high = gaps[:, :1], gaps[:, 1:]
-        rows = np.count_nonzero((q[:, j] > low) & (q[:, j] < high), axis=1)
-        wide = (rows > 0) & (np.ptp(gaps, axis=1) > period)
+    for j, gaps in enumerate(model.gaps):
+        rows = np.count_nonzero((q[:, j] > gaps[:, :1]) & (q[:, j] < gaps[:, 1:]), axis=1)
         words += [
-            f"joint {j + 1} in a gap from {gap[0]:.4g} to {gap[1]:.4g} in {n} rows"
-            for gap, n in zip(gaps[wide], rows[wide], strict=True)
+            f"joint {j + 1} in a gap from {low:.4g} to {high:.4g} in {n} rows"
+            for (low, high), n in zip(gaps, rows, strict=True)
+            if n
         ]
     if len(support.sessions) and "session" in covariates:
         strange = np.setdiff1d(np.asarray(covariates["session"], dtype=float), support.sessions)

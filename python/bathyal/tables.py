@@ -157,3 +157,8 @@ def _split(lines: list[str]) -> list[list[str]]:
         return [re.sub(r"\s+([\[(])", r"\1", line).split() for line in lines]
     rows = csv.reader(io.StringIO("\n".join(lines), newline=""), delimiter=delimiter)
     return [[cell.strip() for cell in row] for row in rows]
+
+
+def check_unit(name: str, unit: str | None, units: dict[str, float]) -> None:
+    if unit is not None and unit not in units:
+        raise ValueError(f"`{name}`: expected one of {', '.join(units)}, got {unit!r}")

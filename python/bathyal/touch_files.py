@@ -13,28 +13,11 @@ from numpy.typing import NDArray
 
 from bathyal._core import Error, Touches, Tracked
 from bathyal.errors import argument_error
-from bathyal.tables import (
-    ACCELERATIONS,
-    ANGLES,
-    LENGTHS,
-    MASSES,
-    TEMPERATURES,
-    TIMES,
-    Table,
-    read_table,
-)
+from bathyal.orientation_columns import QUATERNION, rotations
+from bathyal.tables import LENGTHS, check_unit, read_table
+from bathyal.touch_columns import beside, joined, touch_columns, tracked_columns
 
 PathLike = str | os.PathLike[str]
-
-_JOINT = re.compile(r"^(?:q|j|joint|theta|axis)[ _]?(\d+)$")
-_COVARIATES: dict[str, tuple[dict[str, float], str]] = {
-    "temperature": (TEMPERATURES, "c"),
-    "time": (TIMES, "s"),
-    "payload": (MASSES, "kg"),
-}
-_GRAVITY = ("gravity_x", "gravity_y", "gravity_z")
-_DIRECTION = re.compile(r"^direction[ _]?(\d+)$")
-_QUATERNION = ("qx", "qy", "qz", "qw")
 
 
 def read_touches(
@@ -106,13 +89,13 @@ def read_touches(
         raise ValueError("`path`: expected a file or one a point, got an empty dict")
     numbers = _numbered(labels)
     rows = np.array([numbers[str(label).strip()] for label in labels], dtype=np.int32)
-    columns = [_touch_columns(table, joints, unit, covariates or {}) for _, table in tables]
+    columns = [touch_columns(table, joints, unit, covariates or {}) for _, table in tables]
     return Touches(
         np.vstack([column.pop("q") for column in columns]),
         rows,
         **{
             "names": {number: text for text, number in numbers.items() if text != str(number)},
-            **_joined([table for _, table in tables], columns),
+            **joined([table for _, table in tables], columns),
             **touches,
             **_known(touches, numbers),
             **_planes(planes, numbers, rows),
@@ -183,20 +166,20 @@ def read_tracked(
     files = [path] if isinstance(path, (str, os.PathLike)) else list(path)
     if not files:
         raise argument_error("path", "a file, or one a session", "none")
-    _check_unit("position_unit", position_unit, LENGTHS)
+    check_unit("position_unit", position_unit, LENGTHS)
     tables = [read_table(file) for file in files]
     columns = []
     for table in tables:
         if not table.has_header:
             raise Error(f"{table.file}: expected a header that names the columns, got numbers")
-        columns.append(_tracked_columns(table, joints, unit, position, position_unit))
-        columns[-1] |= _beside(table, covariates or {})
+        columns.append(tracked_columns(table, joints, unit, position, position_unit))
+        columns[-1] |= beside(table, covariates or {})
         turns = orientation
-        if turns is None and all(table.find(name) is not None for name in _QUATERNION):
-            turns = _QUATERNION
+        if turns is None and all(table.find(name) is not None for name in QUATERNION):
+            turns = QUATERNION
         if turns is not None:
-            columns[-1]["orientation"] = _rotations(table, turns, orientation_unit, euler)
-    settings = _joined(tables, columns)
+            columns[-1]["orientation"] = rotations(table, turns, orientation_unit, euler)
+    settings = joined(tables, columns)
     q, place, turned = (settings.pop(name, None) for name in ("q", "position", "orientation"))
     settings = {"covariates": {}, **settings}
     if len(files) > 1:
@@ -212,176 +195,6 @@ def read_tracked(
     pose[:, :3, 3] = place
     pose[:, 3, 3] = 1.0
     return Tracked(q, pose=pose, **settings)
-
-
-# Columns ------------------------------------------------------------------------------------------
-
-
-Named = Mapping[str, str | Sequence[str]]
-
-
-def _touch_columns(
-    table: Table, joints: Sequence[str] | None, unit: str | None, named: Named
-) -> dict[str, NDArray[Any]]:
-    columns: dict[str, NDArray[Any]] = {"q": _joint_values(table, joints, unit)}
-    columns |= _beside(table, named)
-    for name in ("tool", "station"):
-        if table.has_header and table.find(name) is not None:
-            columns[name] = _whole(table, name)
-    if table.has_header and table.find("weight") is not None:
-        columns["weights"] = table.numbers("weight", {}, "")
-    return columns
-
-
-def _tracked_columns(
-    table: Table,
-    joints: Sequence[str] | None,
-    unit: str | None,
-    position: Sequence[str],
-    position_unit: str | None,
-) -> dict[str, NDArray[Any]]:
-    place = [table.numbers(name, LENGTHS, position_unit) for name in position]
-    return {"q": _joint_values(table, joints, unit), "position": np.column_stack(place)}
-
-
-def _beside(table: Table, named: Named) -> dict[str, NDArray[Any]]:
-    """What was recorded beside the joints, and the session."""
-    columns: dict[str, NDArray[Any]] = {
-        f"covariate {name}": values for name, values in _covariates(table, named).items()
-    }
-    if "session" in named or (table.has_header and table.find("session") is not None):
-        columns["session"] = _sessions(table, _one(named.get("session", "session"), "session"))
-    return columns
-
-
-def _joined(tables: list[Table], columns: list[dict[str, NDArray[Any]]]) -> dict[str, Any]:
-    """One array of each column; one that only some of the files hold is an error."""
-    names = {name for column in columns for name in column}
-    for table, column in zip(tables, columns, strict=True):
-        for name in sorted(names - column.keys()):
-            raise Error(f"{table.file}: expected a column `{name.removeprefix('covariate ')}` as "
-                        "in the other files, got none")  # fmt: skip
-    joined = {name: np.concatenate([column[name] for column in columns]) for name in names}
-    covariates = {name.removeprefix("covariate "): joined.pop(name)
-                  for name in sorted(names) if name.startswith("covariate ")}  # fmt: skip
-    return {**joined, **({"covariates": covariates} if covariates else {})}
-
-
-def _joint_values(
-    table: Table, joints: Sequence[str] | None, unit: str | None
-) -> NDArray[np.float64]:
-    _check_unit("unit", unit, {**ANGLES, **LENGTHS})
-    if joints is None:
-        joints = table.titles if not table.has_header else _numbered_joints(table)
-    try:
-        return np.column_stack([table.numbers(n, {**ANGLES, **LENGTHS}, unit) for n in joints])
-    except Error as error:
-        if "expected a unit" in str(error):
-            raise Error(f'{error}; unit="rad" or unit="deg" says it for all joints') from None
-        raise
-
-
-def _numbered_joints(table: Table) -> list[str]:
-    found = _numbered_columns(table, _JOINT)
-    if not found:
-        raise Error(
-            f"{table.file}: expected columns q1 q2 … (or their names as `joints`), "
-            f"got {', '.join(table.titles)}"
-        )
-    return found
-
-
-def _numbered_columns(table: Table, pattern: re.Pattern[str]) -> list[str]:
-    """Titles of the columns whose names match, in the order of their numbers."""
-    matches = [pattern.match(name) for name in table.names]
-    found = {
-        int(match[1]): title
-        for match, title in zip(matches, table.titles, strict=True)
-        if match is not None
-    }
-    return [found[number] for number in sorted(found)]
-
-
-def _covariates(table: Table, named: Named) -> dict[str, NDArray[np.float64]]:
-    found: dict[str, NDArray[np.float64]] = {}
-    if named and not table.has_header:
-        raise Error(f"{table.file}: expected a header that names the columns, got numbers")
-    if not table.has_header:
-        return found
-    for name, (units, default) in _COVARIATES.items():
-        if name not in named and table.find(name) is not None:
-            found[name] = _finite(table, name, units, default)
-    if "gravity" not in named and all(table.find(name) is not None for name in _GRAVITY):
-        found["gravity"] = _together(table, _GRAVITY, ACCELERATIONS, "m/s2")
-    directions = _numbered_columns(table, _DIRECTION)
-    if "direction" not in named and directions:
-        found["direction"] = _together(table, directions, {}, "")
-    for name, column in named.items():
-        if name == "session":
-            continue
-        units, default = _COVARIATES.get(name, ({}, ""))
-        if name == "gravity":
-            units, default = ACCELERATIONS, "m/s2"
-        if isinstance(column, str) and name != "direction":
-            found[name] = _finite(table, column, units, default)
-        else:
-            columns = [column] if isinstance(column, str) else column
-            found[name] = _together(table, columns, units, default)
-    return found
-
-
-def _together(
-    table: Table, columns: Sequence[str], units: dict[str, float], default: str
-) -> NDArray[np.float64]:
-    return np.column_stack([_finite(table, column, units, default) for column in columns])
-
-
-def _finite(table: Table, name: str, units: dict[str, float], default: str) -> NDArray[np.float64]:
-    """A column of which nothing is missing."""
-    values = table.numbers(name, units, default)
-    wrong = np.flatnonzero(~np.isfinite(values))
-    if wrong.size:
-        raise Error(f"{table.file}, line {table.lines[wrong[0]]}: `{name}`: expected a number in "
-                    f"every row, got {values[wrong[0]]}")  # fmt: skip
-    return values
-
-
-def _sessions(table: Table, name: str) -> NDArray[np.int32]:
-    """Whole numbers as they are; words by the order in which they first appear."""
-    texts = [text.strip() for text in table.text(name)]
-    empty = next((row for row, text in enumerate(texts) if not text), None)
-    if empty is not None:
-        raise Error(f"{table.file}, line {table.lines[empty]}: `{name}`: expected a session, got "
-                    "nothing")  # fmt: skip
-    try:
-        [float(text.replace(",", ".")) for text in texts]
-    except ValueError:
-        numbers = {text: number for number, text in enumerate(dict.fromkeys(texts))}
-        return np.array([numbers[text] for text in texts], dtype=np.int32)
-    return _whole(table, name)
-
-
-def _one(column: str | Sequence[str], name: str) -> str:
-    if isinstance(column, str):
-        return column
-    raise argument_error("covariates", f"one column as {name}", repr(list(column)))
-
-
-def _whole(table: Table, name: str) -> NDArray[np.int32]:
-    values = table.numbers(name, {}, "")
-    wrong = np.flatnonzero(~np.isfinite(values) | (values != np.floor(values)))
-    if wrong.size:
-        raise Error(f"{table.file}, line {table.lines[wrong[0]]}: `{name}`: expected a whole "
-                    f"number, got {values[wrong[0]]:g}")  # fmt: skip
-    return values.astype(np.int32)
-
-
-def _check_unit(name: str, unit: str | None, units: dict[str, float]) -> None:
-    if unit is not None and unit not in units:
-        raise ValueError(f"`{name}`: expected one of {', '.join(units)}, got {unit!r}")
-
-
-# Labels -------------------------------------------------------------------------------------------
 
 
 def _numbered(labels: Sequence[Any]) -> dict[str, int]:
@@ -419,53 +232,3 @@ def _number(name: str, numbers: Mapping[str, int], label: Any) -> int:
     if text not in numbers:
         raise argument_error(name, f"labels among {', '.join(numbers)}", repr(label))
     return numbers[text]
-
-
-# Orientations -------------------------------------------------------------------------------------
-
-
-def _rotations(
-    table: Table, columns: Sequence[str], unit: str | None, euler: str | None
-) -> NDArray[np.float64]:
-    """(N, 3, 3)"""
-    if len(columns) == 4:
-        return _from_quaternions(table, [table.numbers(name, {}, "") for name in columns])
-    if len(columns) != 3:
-        raise ValueError(f"`orientation`: expected three or four columns, got {len(columns)}")
-    if euler is None or sorted(euler.lower()) not in (["x", "y", "z"],) or (
-        euler not in (euler.lower(), euler.upper())
-    ):  # fmt: skip
-        raise ValueError(
-            "`euler`: expected the order of three angles, such as 'XYZ' (about the frame's own "
-            f"axes) or 'xyz' (about the fixed ones), got {euler!r}"
-        )
-    _check_unit("orientation_unit", unit, ANGLES)
-    turns = [_about(axis, table.numbers(name, ANGLES, unit))
-             for axis, name in zip(euler.lower(), columns, strict=True)]  # fmt: skip
-    first, second, third = turns if euler.isupper() else reversed(turns)
-    return np.asarray(first @ second @ third)
-
-
-def _about(axis: str, angle: NDArray[np.float64]) -> NDArray[np.float64]:
-    i, j = {"x": (1, 2), "y": (2, 0), "z": (0, 1)}[axis]
-    rotation = np.broadcast_to(np.eye(3), (len(angle), 3, 3)).copy()
-    rotation[:, i, i] = rotation[:, j, j] = np.cos(angle)
-    rotation[:, j, i] = np.sin(angle)
-    rotation[:, i, j] = -np.sin(angle)
-    return rotation
-
-
-def _from_quaternions(table: Table, columns: list[NDArray[np.float64]]) -> NDArray[np.float64]:
-    q = np.column_stack(columns)
-    length = np.linalg.norm(q, axis=1)
-    wrong = np.flatnonzero(~(np.abs(length - 1.0) < 1e-2))
-    if wrong.size:
-        raise Error(f"{table.file}, line {table.lines[wrong[0]]}: expected a unit quaternion, got "
-                    f"one of length {length[wrong[0]]:.3g}")  # fmt: skip
-    x, y, z, w = (q / length[:, None]).T
-    rows = [
-        [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
-        [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
-        [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
-    ]
-    return np.moveaxis(np.array(rows), 2, 0)

@@ -3,16 +3,24 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from typing import Any
+
 import numpy as np
 from numpy.typing import ArrayLike
 
 from bathyal import _core, optional
-from bathyal._core import Arm, Verification
+from bathyal._core import Arm, CorrectedArm, Verification
 from bathyal.errors import argument_error
 
 
 def verify_arm(
-    arm: Arm, q: ArrayLike, positions: ArrayLike, *, pairing: str = "exact"
+    arm: Arm | CorrectedArm,
+    q: ArrayLike,
+    positions: ArrayLike,
+    *,
+    pairing: str = "exact",
+    covariates: Mapping[str, Any] | None = None,
 ) -> Verification:
     """Compare where the arm says its tool centre point is with where an instrument saw it.
 
@@ -24,7 +32,7 @@ def verify_arm(
 
     Parameters
     ----------
-    arm : Arm
+    arm : Arm or CorrectedArm
     q : (N, n) array
         Joints [rad] or [m].
     positions : (N, 3) array
@@ -34,6 +42,8 @@ def verify_arm(
         PCL's iterative closest point leaves nearest, for positions in any order, of which there may
         be more than poses; it needs the optional extension ``_pcl`` and clouds that lie close from
         the start.
+    covariates : dict, optional
+        Of a `CorrectedArm`, as its `forward` takes them.
 
     Returns
     -------
@@ -45,7 +55,7 @@ def verify_arm(
     ------
     ValueError
         For fewer than three positions, positions on one line, other numbers of rows, numbers that
-        are not finite.
+        are not finite; covariates of an arm that has no use for them.
     Error
         For "icp" without the extension, when it does not converge, or pairs two poses with one
         position.
@@ -59,7 +69,13 @@ def verify_arm(
     >>> bool(bathyal.verify_arm(arm, q, seen).rms_after < 1e-12)
     True
     """
-    predicted = arm.forward(q)[..., :3, 3]
+    if covariates is None:
+        poses = arm.forward(q)
+    elif isinstance(arm, CorrectedArm):
+        poses = arm.forward(q, covariates=covariates)
+    else:
+        raise argument_error("covariates", "none of a rigid arm", ", ".join(covariates))
+    predicted = poses[..., :3, 3]
     if predicted.ndim != 2 or len(predicted) < 3:
         raise argument_error("q", "three rows or more", f"shape {np.shape(q)}")
     if pairing == "exact":

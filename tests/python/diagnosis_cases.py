@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from functools import cache
 from types import SimpleNamespace
-from typing import Any
 
 import numpy as np
 
@@ -30,9 +29,7 @@ class Estimate(SimpleNamespace):
 class Arm:
     """The corrected arm, as far as a report needs it: its file, and what it was taught."""
 
-    def __init__(self, effects: tuple[Any, ...] = (), gaps: list[Any] | None = None) -> None:
-        self.effects = effects
-        self.support = SimpleNamespace(gaps=gaps or [np.empty((0, 2))] * 7)
+    gaps = (np.empty((0, 2)),) * 7
 
     def write(self, path: object) -> None:
         with open(path, "w", encoding="utf-8") as stream:

@@ -88,19 +88,6 @@ def blocks(count: int, number: int = 10) -> NDArray[np.bool_]:
     return np.arange(count) * number // count % 2 == 0
 
 
-def moved_onto(
-    points: Array,
-    places: Array,
-    told: NDArray[np.bool_] | slice = slice(None),
-) -> Array:
-    """The points by the rigid motion that brings those `told` nearest to their places (Kabsch
-    1976): another session's tracker frame is another."""
-    centers = points[told].mean(axis=0), places[told].mean(axis=0)
-    u, _, vt = np.linalg.svd((points[told] - centers[0]).T @ (places[told] - centers[1]))
-    turn = vt.T @ np.diag([1.0, 1.0, np.linalg.det(vt.T @ u.T)]) @ u.T
-    return (points - centers[0]) @ turn.T + centers[1]
-
-
 @cache
 def _hilti_rows(site: str) -> list[tuple[dict[str, Any], str]]:
     yaml = pytest.importorskip("yaml")

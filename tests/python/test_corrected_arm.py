@@ -1,9 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""An arm with effects inside: used as any other, never trusted beyond its data, kept in files."""
+"""An arm with effects inside: used as any other, kept in files."""
 
 import copy
 import json
-import warnings
 from pathlib import Path
 from typing import Any
 
@@ -12,40 +11,7 @@ import pytest
 
 import bathyal
 from bathyal.effects import Effect, FoundEffect, Support
-
-RNG = np.random.default_rng(11)
-Q = RNG.uniform(-1, 1, (200, 6))
-COVARIATES = {
-    "temperature": RNG.uniform(10, 30, 200),
-    "session": np.arange(200) // 100 + 1,
-    "time": np.arange(200.0),
-    "payload": RNG.uniform(0, 2, 200),
-}
-ALL = {"temperature": 25.0, "session": 2, "time": 150.0, "payload": 1.0}
-
-
-def harmonic(joint: int = 2, order: float = 2.0) -> FoundEffect:
-    return FoundEffect(
-        "joint_harmonic", {"cos": 1e-3, "sin": 5e-4}, joint=joint, settings={"order": order}
-    )
-
-
-def effects() -> list[FoundEffect]:
-    shift = dict(zip(("shift_x", "shift_y", "shift_z"), (1e-3, 2e-3, 3e-3), strict=True))
-    axes = ["shift_x_2", "shift_y_2", "shift_z_2", "turn_x_2", "turn_y_2", "turn_z_2"]
-    return [
-        harmonic(),
-        FoundEffect("thermal", {"expansion": 2e-5}, settings={"mean_temperature": 20.0}),
-        FoundEffect("base_shift", dict.fromkeys(axes, 1e-3), settings={"from": 2.0}),
-        FoundEffect("tool_slip", shift, settings={"moment": 101.0, "time": 100.5}),
-    ]
-
-
-def model(found: list[FoundEffect] | None = None) -> Any:
-    arm = bathyal.arms.ur10e()
-    arm.tool = [[1, 0, 0, 0.01], [0, 1, 0, 0], [0, 0, 1, 0.2], [0, 0, 0, 1]]
-    data = bathyal.Tracked(Q, arm.forward(Q)[:, :3, 3], covariates=COVARIATES)
-    return bathyal.CorrectedArm(arm, effects() if found is None else found, data)
+from corrected_arm_cases import ALL, COVARIATES, RNG, Q, effects, harmonic, model
 
 
 def test_forward_puts_the_effects_in_the_chain() -> None:
@@ -134,101 +100,14 @@ def test_verify_arm_takes_it_like_any_other() -> None:
     assert bathyal.verify_arm(arm.arm, Q, seen).rms_after > 1e-4
 
 
-def test_beyond_the_support_it_says_so_and_falls_back() -> None:
+def test_verify_arm_tells_it_its_covariates() -> None:
     arm = model()
-    q = Q[:4].copy()
-    q[1, 2] = 1.5
-    told = ALL | {"temperature": [25, 25, 45, np.nan], "session": [1, 1, 1, 7]}
-    with pytest.warns(bathyal.SupportWarning) as caught:
-        poses = arm.forward(q, covariates=told)
-    assert len(caught) == 1
-    warning = caught[0].message
-    assert isinstance(warning, bathyal.SupportWarning)
-    assert warning.counts == {"joint_harmonic of joint 3": 1, "thermal": 2, "base_shift": 1}
-    assert "joint_harmonic of joint 3 in 1 of 4 rows; thermal in 2 of" in str(warning)
-    assert [text.split(",")[0] for text in warning.beyond] == [
-        "joint 3",
-        "temperature",
-        "session 7",
-    ]
-    assert "temperature, asked 25 to 45, taught 10." in str(warning)
-    assert caught[0].filename == __file__
-    expected = [[1, 1, 1, 1], [0, 1, 1, 1], [1, 0, 1, 1], [1, 0, 0, 1]]
-    assert warning.in_support.astype(int).tolist() == expected
-    assert arm.in_support(q, covariates=told).astype(int).tolist() == expected
-    # The wave at its average, the temperature at the highest that was taught.
-    row = {name: np.ravel(v)[1] if np.ndim(v) else v for name, v in told.items()}
-    places = np.linspace(*np.quantile(Q[:, 2], [0, 1]), 10001)
-    average = np.mean(1e-3 * np.cos(2 * places) + 5e-4 * np.sin(2 * places))
-    held = model(effects()[1:]).forward(q[1] + average * np.eye(6)[2], covariates=row)
-    np.testing.assert_allclose(poses[1], held, atol=1e-7)
-    hot = ALL | {"temperature": COVARIATES["temperature"].max(), "session": 1}
-    assert np.array_equal(poses[2], arm.forward(q[2], covariates=hot))
-
-
-def test_where_no_effect_is_known_it_is_the_rigid_arm() -> None:
-    arm = model(effects()[1:3])
-    for call in (arm.forward, arm.jacobian):
-        with pytest.warns(bathyal.SupportWarning, match="thermal left out of all rows, for want"):
-            call(Q[:3])
-    with pytest.warns(bathyal.SupportWarning):
-        poses = arm.forward(Q[:3])
-    assert np.array_equal(poses, arm.arm.forward(Q[:3]))
-    with pytest.warns(bathyal.SupportWarning):
-        found = arm.inverse(poses, start=Q[:3])
-    np.testing.assert_allclose(found.q, Q[:3], atol=1e-7)
-
-
-def test_a_gap_is_beyond_the_support() -> None:
-    arm = bathyal.arms.ur10e()
-    q = np.random.default_rng(4).uniform(-2, 2, (400, 6))
-    q[:, 2] += np.sign(q[:, 2])
-    data = bathyal.Tracked(q, arm.forward(q)[:, :3, 3])
-    arm = bathyal.CorrectedArm(arm, [harmonic(order=4.0)], data)
-    widest = max(arm.support.gaps[2], key=np.ptp)
-    assert widest[0] < -1 < 1 < widest[1]
-    asked = np.zeros((3, 6))
-    asked[:, 2] = [0.1, -0.4, 1.2]
-    with pytest.warns(bathyal.SupportWarning, match="joint 3 in a gap from -1.* to 1.* in 2 rows"):
-        arm.forward(asked)
-    assert arm.in_support(asked).ravel().tolist() == [False, False, True]
-    assert bathyal.CorrectedArm(arm.arm, [harmonic(order=2.0)], data).in_support(asked).all()
-    assert arm.effects[0].period == pytest.approx(np.pi / 2)
-
-
-def test_an_effect_of_ones_own_tells_its_period() -> None:
-    def teeth(data: Any, joint: int) -> Any:
-        return np.sin(9 * data.q[:, joint])
-
-    fine = Effect("teeth", teeth, parameters={"size": "rad"}, joints=[1], period=2 * np.pi / 9)
-    support = Support([[-2.0] * 6, [2.0] * 6], gaps=[[]] + [[[-1.0, 1.0]]] * 5)
-    arm = bathyal.CorrectedArm(
-        bathyal.arms.ur10e(), [FoundEffect(fine, {"size": 1e-3}, joint=1)], support
-    )
-    assert arm.in_support(np.full((1, 6), 1.5)).all()
-    assert not arm.in_support(np.full((1, 6), 0.5)).any()
-    with pytest.raises(ValueError, match=r"`period`: expected a length above 0, got 0"):
-        Effect("teeth", teeth, parameters={"size": "rad"}, joints=[1], period=0.0)
-    with pytest.raises(ValueError, match="support gaps"):
-        Support([[-2.0] * 6, [2.0] * 6], gaps=[[[1.0, 0.5]]] * 6)
-    with pytest.raises(ValueError, match="support gaps"):
-        Support([[-2.0] * 6, [2.0] * 6], gaps=[[]])
-
-
-def test_inside_the_support_nothing_is_said() -> None:
-    with warnings.catch_warnings():
-        warnings.simplefilter("error")
-        model().forward(Q, covariates=COVARIATES)
-        model([harmonic()]).forward(Q)  # needs nothing
-        model(effects()[3:]).forward(Q)  # a tool that slipped has slipped
-
-
-def test_a_tool_that_slipped_has_slipped_unless_time_says_otherwise() -> None:
-    arm = model(effects()[3:])
-    moved = arm.forward(Q[0])
-    assert np.array_equal(moved, arm.forward(Q[0], covariates={"time": 150.0}))
-    assert np.array_equal(moved, arm.forward(Q[0], covariates={"time": 1e6}))
-    assert np.array_equal(arm.arm.forward(Q[0]), arm.forward(Q[0], covariates={"time": 3.0}))
+    seen = arm.forward(Q, covariates=COVARIATES)[:, :3, 3] + [4.0, 5.0, 6.0]
+    assert bathyal.verify_arm(arm, Q, seen, covariates=COVARIATES).rms_after < 1e-12
+    with pytest.warns(bathyal.SupportWarning, match="thermal left out"):
+        assert bathyal.verify_arm(arm, Q, seen).rms_after > 1e-4
+    with pytest.raises(ValueError, match="`covariates`: expected none of a rigid arm, got temp"):
+        bathyal.verify_arm(arm.arm, Q, seen, covariates={"temperature": 20.0})
 
 
 @pytest.mark.parametrize(
@@ -319,17 +198,6 @@ def test_identification_holds_the_effects() -> None:
     again = bathyal.CorrectedArm(fit.arm, true.effects, true.support)
     tips = again.forward(Q, covariates=COVARIATES)[:, :3, 3]
     np.testing.assert_allclose(tips, seen, atol=1e-7)
-
-
-def test_identification_holds_effects_beyond_their_support() -> None:
-    arm = model([harmonic(1, 1.7)])
-    data = bathyal.Tracked(Q + 3.0, arm.arm.forward(Q + 3.0)[:, :3, 3])
-    fit = bathyal.identify_arm(arm, data)
-    assert fit.rms_after < 1e-9
-    again = bathyal.CorrectedArm(fit.arm, arm.effects, arm.support)
-    with pytest.warns(bathyal.SupportWarning):
-        places = again.forward(data.q)[:, :3, 3]
-    np.testing.assert_allclose(places, data.position, atol=1e-9)
 
 
 def test_identification_takes_touches_too() -> None:

@@ -3,15 +3,13 @@
 
 from __future__ import annotations
 
-from types import SimpleNamespace
-
 import numpy as np
 import pytest
 
 import diagnosis_cases as cases
 from bathyal import diagnosis_curves as curves
 from bathyal import diagnosis_tables as tables
-from bathyal.diagnosis_figure import curve_figure, diagnosis_figure, show_figure
+from bathyal.diagnosis_figure import curve_figure, diagnosis_figure, show_figure, support_figure
 from bathyal.diagnosis_words import effect_text
 
 
@@ -119,13 +117,14 @@ def test_sheet_has_a_panel_for_each_step():
     assert curve_figure(cases.clean()) is None
 
 
-def test_gaps_wider_than_a_wave_are_cut_out_of_the_range():
+def test_gaps_are_cut_out_of_the_range() -> None:
     report = cases.named()
-    wave = SimpleNamespace(joint=2, period=0.5)
-    gaps = [np.empty((0, 2))] * 7
-    gaps[1] = gaps[2] = np.array([[-0.9, -0.6], [0.1, 0.8]])
-    report.model = cases.Arm((wave,), gaps)
+    report.model.gaps = (*cases.Arm.gaps[:2], np.array([[0.1, 0.8]]), *cases.Arm.gaps[3:])
     told = [one.gaps for one in tables.supports(report)]
     assert told[1] == ()
     assert len(told[2]) == 1
     np.testing.assert_allclose(told[2][0], np.degrees([0.1, 0.8]))
+    figure = support_figure(report)
+    bars = figure.axes[0].patches
+    figure_before = support_figure(cases.named())
+    assert len(bars) == len(figure_before.axes[0].patches) + 1

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import bathyal
-from real_arms import Array, hilti, moved_onto, sockets, trailblazer, ur10
+from real_arms import Array, hilti, sockets, trailblazer, ur10
 
 
 def _rms(errors: Array) -> float:
@@ -62,8 +62,7 @@ def test_what_one_session_teaches_helps_in_another(within: bool) -> None:
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", bathyal.SupportWarning)
         rigid, corrected = (
-            _rms(moved_onto(arm.forward(q)[:, :3, 3], places) - places)
-            for arm in (report.fit.arm, report.model)
+            bathyal.verify_arm(arm, q, places).rms_after for arm in (report.fit.arm, report.model)
         )
     assert corrected < (0.75 if within else 0.9) * rigid
 

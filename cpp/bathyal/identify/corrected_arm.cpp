@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "bathyal/base/check.hpp"
@@ -223,6 +224,19 @@ CorrectedJacobians CorrectedArm::jacobian(JointView q, const Covariates& covaria
     }
   });
   return result;
+}
+
+std::vector<std::vector<Support::Gap>> CorrectedArm::gaps() const {
+  std::vector<std::vector<Support::Gap>> gaps;
+  for (Index j = 0; j < size(); ++j) {
+    double period = std::numeric_limits<double>::infinity();
+    for (std::size_t e = 0; e < effects_.size(); ++e) {
+      const int joint = effects_[e].variant.joint;
+      if (joint == j || joint < 0) period = std::min(period, periods_[e]);
+    }
+    gaps.push_back(support_.gaps_wider_than(period, j));
+  }
+  return gaps;
 }
 
 SupportMask CorrectedArm::in_support(JointView q, const Covariates& covariates) const {

@@ -90,6 +90,9 @@ class CorrectedArm {
                            const Covariates& covariates = {},
                            const InverseOptions& options = {}) const;
 
+  /// Of each joint the gaps that an effect along it is held in, or any joint's where it has none.
+  std::vector<std::vector<Support::Gap>> gaps() const;
+
   /// Which effects count in which row, (N, effects).
   SupportMask in_support(JointView q, const Covariates& covariates = {}) const;
 

@@ -127,12 +127,14 @@ void Support::check(Index coordinates) const {
     throw_argument("support gaps", "a list for each of " + std::to_string(coordinates) + " joints",
                    std::to_string(gaps.size()));
   }
-  for (const std::vector<Gap>& of_joint : gaps) {
-    double end = -std::numeric_limits<double>::infinity();
-    for (const Gap& gap : of_joint) {
-      if (!(end <= gap.low && gap.low < gap.high) || !std::isfinite(gap.high)) {
-        throw_argument("support gaps", "finite stretches that rise, each low below its high",
-                       "others");
+  for (std::size_t j = 0; j < gaps.size(); ++j) {
+    double end = joints.low[static_cast<Index>(j)];
+    for (const Gap& gap : gaps[j]) {
+      if (!(end <= gap.low && gap.low < gap.high &&
+            gap.high <= joints.high[static_cast<Index>(j)])) {
+        throw_argument("support gaps",
+                       "stretches that rise within their joint's range, each low below its high",
+                       "others, of joint " + std::to_string(j + 1));
       }
       end = gap.high;
     }
@@ -145,16 +147,23 @@ void Support::check(Index coordinates) const {
   }
 }
 
+std::vector<Support::Gap> Support::gaps_wider_than(double period, Index joint) const {
+  if (gaps.empty()) return {};
+  std::vector<Gap> wide = gaps[static_cast<std::size_t>(joint)];
+  std::erase_if(wide, [&](const Gap& gap) { return gap.high - gap.low <= period; });
+  return wide;
+}
+
 bool Support::leave_gaps(double period, RowMatrix& q) const {
   bool moved = false;
-  for (std::size_t j = 0; j < gaps.size(); ++j) {
-    for (double& value : q.col(static_cast<Index>(j))) {
-      const auto after = std::upper_bound(gaps[j].begin(), gaps[j].end(), value,
+  for (Index j = 0; j < q.cols(); ++j) {
+    const std::vector<Gap> wide = gaps_wider_than(period, j);
+    for (double& value : q.col(j)) {
+      const auto after = std::upper_bound(wide.begin(), wide.end(), value,
                                           [](double v, const Gap& gap) { return v < gap.low; });
-      if (after == gaps[j].begin()) continue;
+      if (after == wide.begin()) continue;
       const Gap& gap = *std::prev(after);
-      const double inside = std::min(value - gap.low, gap.high - value);
-      if (gap.high - gap.low <= period || inside <= kRounding) continue;
+      if (std::min(value - gap.low, gap.high - value) <= kRounding) continue;
       value = value - gap.low < gap.high - value ? gap.low : gap.high;
       moved = true;
     }
@@ -163,15 +172,9 @@ bool Support::leave_gaps(double period, RowMatrix& q) const {
 }
 
 Eigen::VectorXd Support::taught(Index joint, double period, Index count) const {
-  std::vector<Gap> wide;
+  const std::vector<Gap> wide = gaps_wider_than(period, joint);
   double width = joints.high[joint] - joints.low[joint];
-  if (!gaps.empty()) {
-    for (const Gap& gap : gaps[static_cast<std::size_t>(joint)]) {
-      if (gap.high - gap.low <= period) continue;
-      wide.push_back(gap);
-      width -= gap.high - gap.low;
-    }
-  }
+  for (const Gap& gap : wide) width -= gap.high - gap.low;
   Eigen::VectorXd values(count);
   auto gap = wide.begin();
   double skipped = 0.0;

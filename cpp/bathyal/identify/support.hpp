@@ -30,8 +30,11 @@ struct Support {
   std::vector<double> sessions;  ///< that were seen, rising; empty where none were told
 
   /// \throw std::invalid_argument for ranges and gaps that are crossed, not finite, or of another
-  ///        width.
+  ///        width; gaps beyond their joint's range.
   void check(Index coordinates) const;
+
+  /// Of `joint`, those wider than `period`.
+  std::vector<Gap> gaps_wider_than(double period, Index joint) const;
 
   /// Brings joint values (N, n) out of gaps wider than `period`, to the nearer edge. True where any
   /// was in one.
