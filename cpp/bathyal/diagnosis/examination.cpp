@@ -218,8 +218,20 @@ void Examiner::drop_what_foretells_nothing() {
         }
       }
       const double squares = held.squares(all).sum();
-      // Some that only make up for each other may each be needed, and together gain nothing.
-      if (!own.empty() && (!(least > 0.0) || squares >= before.of_block.sum())) {
+      const bool gains_nothing = squares >= before.of_block.sum();
+      if (least > 0.0 && gains_nothing) {
+        // Some that only make up for each other are each needed. One that sends held-out rows far
+        // away spoils what the others gain.
+        double fewest = std::numeric_limits<double>::infinity();
+        for (std::size_t i = 0; i < own.size(); ++i) {
+          const double left = held.squares(all_but(i)).sum();
+          if (left < fewest) {
+            fewest = left;
+            worst = i;
+          }
+        }
+      }
+      if (!own.empty() && (!(least > 0.0) || gains_nothing)) {
         kept.erase(kept.begin() + static_cast<std::ptrdiff_t>(worst));
         own.erase(own.begin() + static_cast<std::ptrdiff_t>(worst));
         continue;
