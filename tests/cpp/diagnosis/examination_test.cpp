@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bathyal/diagnosis/examination.hpp"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+#include <string>
+#include <vector>
+
+#include "bathyal/base/random.hpp"
+
+namespace bathyal {
+namespace {
+
+constexpr Index kRows = 200, kOfBlock = 20;
+
+/// A linear model of one base column, with noise of 1: nothing of an arm.
+class LinearSubject final : public Subject {
+ public:
+  LinearSubject() {
+    units_.order.resize(kRows);
+    std::iota(units_.order.begin(), units_.order.end(), 0);
+    units_.twin = units_.order;
+    units_.session.assign(kRows, 0);
+    units_.point.assign(kRows, -1);
+    RandomStream random(7);
+    at_.misfit.resize(kRows);
+    for (double& value : at_.misfit) value = random.normal();
+    at_.base = Eigen::VectorXd::Ones(kRows);
+    at_.unit = units_.order;
+    at_.noise_rows = kRows;
+  }
+
+  /// A form whose parameter does `column`.
+  void add(const std::string& effect, const Eigen::VectorXd& column, bool probe = false) {
+    forms_.push_back({effect, -1, effect, effect, 1.0, false, false, probe});
+    columns_.push_back(column);
+  }
+  Eigen::VectorXd& data() { return at_.misfit; }
+  void set_base(const Eigen::VectorXd& column) { at_.base = column; }
+
+  const Units& units() const override { return units_; }
+  const std::vector<Form>& forms() const override { return forms_; }
+  const std::vector<std::vector<int>>& scans() const override { return scans_; }
+  const std::vector<NoiseForm>& noise_forms() const override { return noise_forms_; }
+  std::vector<int> finer(int) override { return {}; }
+  std::vector<Eigen::MatrixXd> columns(std::span<const int> forms) const override {
+    std::vector<Eigen::MatrixXd> out;
+    for (const int form : forms) out.emplace_back(columns_[static_cast<std::size_t>(form)]);
+    return out;
+  }
+  const Linearization& linearization() const override { return at_; }
+  void settle(const std::vector<int>&) override {}
+  void set_trust(const Eigen::VectorXd&) override {}
+  double noise() const override { return 1e-3; }
+
+ private:
+  Units units_;
+  Linearization at_;
+  std::vector<Form> forms_;
+  std::vector<Eigen::MatrixXd> columns_;
+  std::vector<std::vector<int>> scans_;
+  std::vector<NoiseForm> noise_forms_;
+};
+
+Eigen::VectorXd in_block(Index block, double size) {
+  Eigen::VectorXd column = Eigen::VectorXd::Zero(kRows);
+  column.segment(block * kOfBlock, kOfBlock).setConstant(size);
+  return column;
+}
+
+Eigen::VectorXd swing(std::uint64_t seed, double size) {
+  Eigen::VectorXd column(kRows);
+  RandomStream random(seed);
+  for (double& value : column) value = size * random.normal();
+  return column;
+}
+
+std::vector<std::string> names_of(const LinearSubject& subject, const Examination& found) {
+  std::vector<std::string> names;
+  for (const Chosen& name : found.names) names.push_back(subject.forms()[name.form].effect);
+  return names;
+}
+
+TEST(Examine, WhatARefutedNameStoodForIsLeftOver) {
+  LinearSubject subject;
+  Eigen::VectorXd base = Eigen::VectorXd::Ones(kRows);
+  base.segment(5 * kOfBlock, kOfBlock).setZero();
+  subject.set_base(base);
+  // No other block knows of it: what is held out there cannot be foretold.
+  subject.add("bump", in_block(5, 10.0));
+  subject.add("somewhere", in_block(5, 10.0), true);
+  subject.data() += in_block(5, 8.0);
+  const Examination found = examine(subject, {1, 10}, {});
+  EXPECT_TRUE(found.names.empty());
+  ASSERT_EQ(found.probes.size(), 1u);
+  EXPECT_EQ(subject.forms()[found.probes[0].form].effect, "somewhere");
+  EXPECT_GT(found.left_over, 0.9 * 20 * 64.0);
+}
+
+TEST(Examine, ANameThatForetellsBadlyGoesByItself) {
+  LinearSubject subject;
+  const Eigen::VectorXd one = swing(1, 20.0), other = swing(2, 20.0);
+  subject.add("one", one);
+  subject.add("other", other);
+  // What block 0 tells of it is little, and wrong for block 5: it is foretold far off there, as is
+  // to be expected, and outweighs in squares what the other two gain.
+  const Eigen::VectorXd faint = in_block(0, 0.7), strong = in_block(5, 220.0);
+  subject.add("spoiler", faint + strong);
+  subject.data() += 0.2 * one + 0.2 * other + 0.1 * strong - 2.0 * faint;
+  const Examination found = examine(subject, {1, 10}, {});
+  EXPECT_EQ(names_of(subject, found), (std::vector<std::string>{"one", "other"}));
+}
+
+}  // namespace
+}  // namespace bathyal
