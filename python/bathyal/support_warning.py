@@ -86,7 +86,7 @@ def _beyond(model: CorrectedArm, q: Floats, covariates: Mapping[str, Any]) -> li
     for j, gaps in enumerate(model.gaps):
         rows = np.count_nonzero((q[:, j] > gaps[:, :1]) & (q[:, j] < gaps[:, 1:]), axis=1)
         words += [
-            f"joint {j + 1} in a gap from {low:.4g} to {high:.4g} in {n} rows"
+            f"joint {j + 1} in a gap from {low:.4g} to {high:.4g} in {n} of {len(q)} rows"
             for (low, high), n in zip(gaps, rows, strict=True)
             if n
         ]

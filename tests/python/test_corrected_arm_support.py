@@ -67,7 +67,9 @@ def test_a_gap_is_beyond_the_support() -> None:
     assert widest[0] < -1 < 1 < widest[1]
     asked = np.zeros((3, 6))
     asked[:, 2] = [0.1, -0.4, 1.2]
-    with pytest.warns(bathyal.SupportWarning, match="joint 3 in a gap from -1.* to 1.* in 2 rows"):
+    with pytest.warns(
+        bathyal.SupportWarning, match="joint 3 in a gap from -1.* to 1.* in 2 of 3 rows"
+    ):
         arm.forward(asked)
     assert arm.in_support(asked).ravel().tolist() == [False, False, True]
     assert len(arm.support.gaps[2]) > 1
@@ -83,7 +85,7 @@ def test_a_gap_of_another_joint_is_not_told() -> None:
     assert [len(gaps) for gaps in arm.gaps] == [0, 0, 1, 0, 0, 0]
     with pytest.warns(bathyal.SupportWarning) as caught:
         arm.forward(np.full((1, 6), 0.5))
-    assert "joint 3 in a gap from -1 to 1 in 1 rows" in str(caught[0].message)
+    assert "joint 3 in a gap from -1 to 1 in 1 of 1 rows" in str(caught[0].message)
     assert str(caught[0].message).count("in a gap") == 1
 
 

@@ -90,7 +90,8 @@ class CorrectedArm {
                            const Covariates& covariates = {},
                            const InverseOptions& options = {}) const;
 
-  /// Of each joint the gaps that an effect along it is held in, or any joint's where it has none.
+  /// Of each joint the gaps of the support in which effects are held: wider than the shortest
+  /// period of those along it, and of those that are along no joint.
   std::vector<std::vector<Support::Gap>> gaps() const;
 
   /// Which effects count in which row, (N, effects).
