@@ -3,8 +3,8 @@
 
     python benchmarks/python/diagnose_real.py [NAME ...]
 
-Reads ../shared/data; names are those of RUNS ("UR10 C"), TRANSFERS ("A-B") and SITES, by default
-all.
+Reads ../shared/data; names are those of RUNS ("UR10 C"), TRANSFERS ("A-B"), SITES, and "quarters",
+by default all.
 Errors are 3-D rms in millimetres, of rows or poses that taught nothing.
 """
 
@@ -91,14 +91,29 @@ def causes(name: str) -> Iterable[str]:
 
 
 def transfer(taught: str, asked: str) -> str:
+    report, _ = diagnosed(f"UR10 {taught}")
+    return f"| {' | '.join([f'{taught} → {asked}', *carried(report, asked)])} |"
+
+
+def quarter(start: int) -> str:
+    """What hangs on which rows were taken: each fourth pose of A by itself, asked for B."""
+    data = tracked("A")
+    some = bathyal.Tracked(data.q[start::4], data.position[start::4])
+    begin = time.perf_counter()
+    report = bathyal.diagnose(bathyal.arms.ur10(), some)
+    seconds = time.perf_counter() - begin
+    held = f"{report.held_out.rms_after * MM:.3f}"
+    return f"| {start + 1} | {held} | {' | '.join(carried(report, 'B'))} | {seconds:.0f} |"
+
+
+def carried(report: bathyal.Diagnosis, asked: str) -> list[str]:
     """Geometry and effects of one session at the poses of another, within the support and beyond.
 
     A motion of the whole base is fitted to each alike: the tracker stood elsewhere.
     """
-    report, _ = diagnosed(f"UR10 {taught}")
     data = tracked(asked)
     within = report.model.in_support(data.q).all(axis=1)
-    cells = [f"{taught} → {asked}", f"{within.mean():.1%}"]
+    cells = [f"{within.mean():.1%}"]
     for rows in (within, ~within):
         if rows.sum() < FEWEST_ROWS:
             cells += ["none", "", ""]
@@ -111,7 +126,7 @@ def transfer(taught: str, asked: str) -> str:
                 for arm in (report.fit.arm, report.model)
             )
         cells += [f"{before * MM:.3f}", f"{after * MM:.3f}", f"{1 - after / before:.0%}"]
-    return f"| {' | '.join(cells)} |"
+    return cells
 
 
 def stationed_error(
@@ -197,8 +212,9 @@ def two_temperatures(one: str, other: str) -> str:
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     transfers = {f"{a}-{b}": (a, b) for a, b in TRANSFERS}
-    parser.add_argument("names", nargs="*", choices=[[], *RUNS, *transfers, *SITES], default=[])
-    names = parser.parse_args().names or [*RUNS, *transfers, *SITES]
+    every = [*RUNS, *transfers, "quarters", *SITES]
+    parser.add_argument("names", nargs="*", choices=[[], *every], default=[])
+    names = parser.parse_args().names or every
     print("## Diagnosis of real arms\n")
     print(
         "| data | rows | verdict | geometry alone, held out | with what is named | within the "
@@ -220,6 +236,13 @@ def main() -> None:
     for name, pair in transfers.items():
         if name in names:
             print(transfer(*pair), flush=True)
+    if "quarters" in names:
+        print(
+            "\n| quarter of A | held out | A → B: within the support | geometry | with effects "
+            "| below | beyond it: geometry | with effects | below | s |\n|" + "---|" * 10
+        )
+        for start in range(4):
+            print(quarter(start), flush=True)
     if any(name in names for name in SITES):
         print(
             "\n| Hilti flat → | rows | within the support | geometry | with effects | below |\n|"

@@ -229,8 +229,7 @@ class ProbeMaker {
 
   void of_approach() {
     const int n = static_cast<int>(data_.q.cols());
-    std::vector<int> row(data_.order.size());
-    for (std::size_t i = 0; i < row.size(); ++i) row[data_.order[i]] = static_cast<int>(i);
+    const std::vector<int>& row = data_.order;
     for (int j = 0; j < n; ++j) {
       on_joint("the last move of joint " + number(j),
                "a play of joint " + number(j) + " that depends on where it came from", j, n,

@@ -23,6 +23,7 @@ constexpr std::size_t kScanFrom = 9;     ///< so many forms of one cause of one 
 constexpr double kSeenDirection = 1e-5;  ///< of the largest singular value, per mm and mrad
 constexpr double kOrdinaryMove = 1e-3;   ///< [m]
 constexpr double kRounding = 1e-7;
+constexpr int kMomentsNear = 8;       ///< on either side
 constexpr double kPlausible = 100.0;  ///< of a parameter's scale, where nobody told
 /// Of the equations more than unknowns, that one effect may use up: beyond a third, freedom that
 /// explains nothing costs less than it seems to gain.
@@ -38,11 +39,38 @@ std::vector<int> numbered(const Eigen::VectorXd& values) {
   return out;
 }
 
+/// Of rows in their order in time, the place of each.
+std::vector<int> places_of(const std::vector<int>& order) {
+  std::vector<int> out(order.size());
+  for (std::size_t i = 0; i < order.size(); ++i) out[order[i]] = static_cast<int>(i);
+  return out;
+}
+
+EffectData some_of(const EffectData& all, const std::vector<int>& rows) {
+  EffectData out = all;
+  out.q = all.q(rows, Eigen::all);
+  out.gravity = all.gravity(rows, Eigen::all);
+  for (auto& [name, values] : out.covariates) values = RowMatrix(values(rows, Eigen::all));
+  const std::vector<int> place = places_of(all.order);
+  out.order.resize(rows.size());
+  std::iota(out.order.begin(), out.order.end(), 0);
+  std::stable_sort(out.order.begin(), out.order.end(),
+                   [&](int a, int b) { return place[rows[a]] < place[rows[b]]; });
+  return out;
+}
+
+std::unique_ptr<const Measurement> own_rows(const Measurement& all, const std::vector<int>& rows) {
+  auto out = std::make_unique<Measurement>(some_of(all, rows));
+  out->actions.clear();
+  return out;
+}
+
 }  // namespace
 
-ArmSubject::ArmSubject(const Arm& arm, const Measurement& measurement, const Covariates& covariates,
-                       const IdentifyOptions& options, const Effects& effects)
+ArmSubject::ArmSubject(const Arm& arm, const Measurement& measurement,
+                       std::unique_ptr<const Measurement>&& own, const IdentifyOptions& options)
     : nominal_(arm),
+      own_(std::move(own)),
       m_(measurement),
       problem_(arm, measurement, options),
       seen_(observe(*problem_.system, problem_.start)),
@@ -50,14 +78,41 @@ ArmSubject::ArmSubject(const Arm& arm, const Measurement& measurement, const Cov
   if (problem_.drop_size_prior(seen_.unseen)) seen_ = observe(*problem_.system, problem_.start);
   start_ = search(problem_, seen_);
   fit_ = report(problem_, seen_, start_);
-  geometry_doubts_ = examine(measurement, *problem_.system, arm, fit_);
   geometry_ = problem_.columns.columns.size();
   free_what_is_seen();
+}
+
+ArmSubject::ArmSubject(const Arm& arm, const Measurement& measurement, const Covariates& covariates,
+                       const IdentifyOptions& options, const Effects& effects)
+    : ArmSubject(arm, measurement, nullptr, options) {
+  geometry_doubts_ = examine(measurement, *problem_.system, arm, fit_);
   gather_data(covariates);
   gather_units();
   gather_forms(effects);
   gather_noise_forms();
   stand_at(x_);
+}
+
+ArmSubject::ArmSubject(const ArmSubject& whole, const std::vector<int>& rows)
+    : ArmSubject(whole, rows, own_rows(whole.m_, rows)) {}
+
+ArmSubject::ArmSubject(const ArmSubject& whole, const std::vector<int>& rows,
+                       std::unique_ptr<const Measurement>&& some)
+    : ArmSubject(whole.nominal_, *some, std::move(some), whole.problem_.options) {
+  data_ = some_of(whole.data_, rows);
+  record_ = &whole.data_;
+  rows_ = rows;
+  gather_units();
+  take_forms(whole);
+  find_those_that_need_the_record();
+  stand_at(x_);
+}
+
+void ArmSubject::take_forms(const ArmSubject& some) {
+  forms_ = some.forms_;
+  sources_ = some.sources_;
+  scans_ = some.scans_;
+  neighbours_ = some.neighbours_;
 }
 
 /// All that the caller does not hold, along the directions that the data or priors see where the
@@ -84,7 +139,7 @@ void ArmSubject::gather_data(const Covariates& covariates) {
 }
 
 void ArmSubject::gather_units() {
-  units_.order = data_.order;
+  units_.order = places_of(data_.order);
   units_.timed = data_.has("time");
   units_.twin = find_twins(m_.q, kTwins);
   units_.session = m_.station;
@@ -127,9 +182,9 @@ void ArmSubject::gather_forms(const Effects& effects) {
     for (EffectVariant& variant : variants) {
       by_cause[{variant.joint, variant.cause}].push_back(static_cast<int>(forms_.size()));
       forms_.push_back({variant.effect, variant.joint, variant.cause, words_of(variant, nominal_),
-                        static_cast<double>(variants.size()), has_whole_order(variant), false,
-                        false});
+                        static_cast<double>(variants.size()), has_whole_order(variant)});
       forms_.back().shares = effect->info().adds_up;
+      forms_.back().moves = variant.settings.contains("order") && !has_whole_order(variant);
       sources_.push_back({effect, std::move(variant), -1});
     }
     for (auto& [cause, family] : by_cause) {
@@ -146,8 +201,8 @@ void ArmSubject::gather_forms(const Effects& effects) {
   for (int p = 0; p < static_cast<int>(probes_.size()); ++p) {
     const Probe& probe = probes_[p];
     if (probe.family >= 0) families[probe.family].push_back(static_cast<int>(forms_.size()));
-    forms_.push_back(
-        {probe.against, -1, "probe " + probe.words, probe.words, probe.trials, false, false, true});
+    forms_.push_back({probe.against, -1, "probe " + probe.words, probe.words, probe.trials});
+    forms_.back().probe = true;
     sources_.push_back({nullptr, {}, p});
   }
   for (auto& [number, family] : families) scans_.push_back(std::move(family));
@@ -175,11 +230,12 @@ std::vector<int> ArmSubject::finer(int form) {
   const auto add_between = [&](int from, int to) {
     if (from < 0 || to < 0) return;
     const Source here = sources_[form];
-    for (EffectVariant& variant :
-         here.effect->between(sources_[from].variant, sources_[to].variant, data_)) {
+    for (EffectVariant& variant : here.effect->between(sources_[from].variant, sources_[to].variant,
+                                                       record_ ? *record_ : data_)) {
       Form about = forms_[form];
       about.words = words_of(variant, nominal_);
       about.plain = has_whole_order(variant);
+      about.moves = variant.settings.contains("order") && !about.plain;
       chain.push_back(static_cast<int>(forms_.size()));
       forms_.push_back(std::move(about));
       sources_.push_back({here.effect, std::move(variant), -1});
@@ -195,12 +251,62 @@ std::vector<int> ArmSubject::finer(int form) {
     neighbours_[chain[i]] = {i > 0 ? chain[i - 1] : -1, i + 1 < chain.size() ? chain[i + 1] : -1};
   }
   std::erase_if(chain, [&](int f) { return f == lower || f == upper || f == form; });
+  if (!chain.empty() || forms_[form].moves || forms_[form].plain) return chain;
+  // There is nothing between moments that follow one another: the next ones themselves.
+  for (const bool below : {true, false}) {
+    int at = form;
+    for (int step = 0; step < kMomentsNear; ++step) {
+      at = below ? neighbours_[at].first : neighbours_[at].second;
+      if (at < 0) break;
+      chain.push_back(at);
+    }
+  }
   return chain;
+}
+
+std::vector<std::vector<Action>> ArmSubject::actions_of(const Effect& effect,
+                                                        const EffectVariant& variant) const {
+  if (!needs_record_.contains(&effect)) return bathyal::actions_of(effect, variant, data_);
+  return actions_in_record(effect, variant);
+}
+
+/// Of a row that is seen among all rows of the record.
+std::vector<std::vector<Action>> ArmSubject::actions_in_record(const Effect& effect,
+                                                               const EffectVariant& variant) const {
+  std::vector<std::vector<Action>> out = bathyal::actions_of(effect, variant, *record_);
+  for (std::vector<Action>& actions : out) {
+    for (Action& action : actions) action.values = RowMatrix(action.values(rows_, Eigen::all));
+  }
+  return out;
+}
+
+/// Effects whose rows look at others (speeds, places in a list): their first and last forms are
+/// tried.
+void ArmSubject::find_those_that_need_the_record() {
+  std::map<const Effect*, std::vector<const EffectVariant*>> forms;
+  for (const Source& source : sources_) {
+    if (source.effect) forms[source.effect.get()].push_back(&source.variant);
+  }
+  const auto same = [](const std::vector<std::vector<Action>>& a,
+                       const std::vector<std::vector<Action>>& b) {
+    return std::equal(a.begin(), a.end(), b.begin(), [](const auto& first, const auto& second) {
+      return std::equal(first.begin(), first.end(), second.begin(),
+                        [](const Action& x, const Action& y) { return x.values == y.values; });
+    });
+  };
+  for (const auto& [effect, variants] : forms) {
+    for (const EffectVariant* variant : {variants.front(), variants.back()}) {
+      if (!same(bathyal::actions_of(*effect, *variant, data_),
+                actions_in_record(*effect, *variant))) {
+        needs_record_.insert(effect);
+      }
+    }
+  }
 }
 
 std::vector<std::vector<Action>> ArmSubject::actions_of(int form) const {
   const Source& source = sources_[form];
-  if (source.probe < 0) return bathyal::actions_of(*source.effect, source.variant, data_);
+  if (source.probe < 0) return actions_of(*source.effect, source.variant);
   std::vector<std::vector<Action>> out;
   for (Action& action : probes_[source.probe].actions()) out.push_back({std::move(action)});
   return out;

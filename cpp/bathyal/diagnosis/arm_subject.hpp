@@ -3,6 +3,7 @@
 
 #include <map>
 #include <memory>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -23,19 +24,27 @@ class ArmSubject final : public Subject {
 
   ArmSubject(const Arm& arm, const Measurement& measurement, const Covariates& covariates,
              const IdentifyOptions& options, const Effects& effects);
+  /// The same beside some rows of `whole`, with the same forms, for a quick look; it has no probes
+  /// and no forms of noise. `whole` must outlive it.
+  ArmSubject(const ArmSubject& whole, const std::vector<int>& rows);
 
   const Units& units() const override { return units_; }
   const std::vector<Form>& forms() const override { return forms_; }
   const std::vector<std::vector<int>>& scans() const override { return scans_; }
   const std::vector<NoiseForm>& noise_forms() const override { return noise_forms_; }
   std::vector<int> finer(int form) override;
+  /// Those that a look at some rows has made and moved.
+  void take_forms(const ArmSubject& some);
   std::vector<Eigen::MatrixXd> columns(std::span<const int> forms) const override;
   const Linearization& linearization() const override { return linearization_; }
   void settle(const std::vector<int>& forms) override;
+  std::shared_ptr<const Place> place() const override;
+  void return_to(const Place& place) override;
   void set_trust(const Eigen::VectorXd& trust) override;
   double noise() const override { return problem_.system->noise().position; }
 
   const ArmFit& geometry() const { return fit_; }
+  bool is_tracked() const { return m_.tracked; }
   /// Poses of touches are those of exact ones.
   const EffectData& data() const { return data_; }
   /// Probes have none.
@@ -58,11 +67,16 @@ class ArmSubject final : public Subject {
   const Eigen::Matrix3Xd& bare_deviations() const { return bare_; }
 
  private:
+  ArmSubject(const Arm& arm, const Measurement& measurement,
+             std::unique_ptr<const Measurement>&& own, const IdentifyOptions& options);
+  ArmSubject(const ArmSubject& whole, const std::vector<int>& rows,
+             std::unique_ptr<const Measurement>&& some);
   struct Source {
     std::shared_ptr<const Effect> effect;
     EffectVariant variant;
     int probe = -1;
   };
+  struct ArmPlace;
   struct ActingVariant {
     EffectVariant variant;
     std::vector<std::vector<Action>> actions;
@@ -76,21 +90,28 @@ class ArmSubject final : public Subject {
   Family family_of(int form) const { return {forms_[form].effect, forms_[form].joint}; }
   void free_what_is_seen();
   void fit(const std::vector<int>& forms);
+  void stand_with(const std::vector<int>& forms);
   bool move_orders();
   std::map<Family, std::vector<Index>> large_families() const;
-  bool learn_sizes();
+  bool learn_sizes(const Eigen::VectorXd& x);
+  double freedom_of_rows() const;
   void gather_data(const Covariates& covariates);
   void gather_units();
   void gather_forms(const Effects& effects);
   void gather_noise_forms();
   bool is_too_wide(const EffectVariant& variant);
   std::vector<std::vector<Action>> actions_of(int form) const;
+  std::vector<std::vector<Action>> actions_of(const Effect& effect,
+                                              const EffectVariant& variant) const;
+  std::vector<std::vector<Action>> actions_in_record(const Effect& effect,
+                                                     const EffectVariant& variant) const;
+  void find_those_that_need_the_record();
   double plausible(int form, std::size_t parameter, double scale) const;
   std::vector<ParameterColumns> columns_of(std::vector<ActingVariant> acting) const;
   Eigen::MatrixXd by_scanned() const;
   Eigen::VectorXd nearest_minimum(Eigen::VectorXd x) const;
   Eigen::VectorXd without_size_draw(Eigen::VectorXd x);
-  Eigen::VectorXd step_of(const Eigen::MatrixXd& square) const;
+  Eigen::VectorXd step_of(const Eigen::MatrixXd& square, double damping) const;
   Eigen::MatrixXd derivatives(const Eigen::VectorXd& x) const;
   Eigen::MatrixXd moves() const;
   void stand_at(const Eigen::VectorXd& x);
@@ -101,12 +122,17 @@ class ArmSubject final : public Subject {
   Eigen::Matrix3Xd tips_from_base() const;
 
   const Arm& nominal_;
+  std::unique_ptr<const Measurement> own_;  ///< of a subject beside some rows of another's
   const Measurement& m_;
   ArmProblem problem_;
   Observability seen_;
   SearchResult start_;
   ArmFit fit_;
   EffectData data_;
+  // Of a subject beside some rows of another's:
+  const EffectData* record_ = nullptr;  ///< all of them
+  std::vector<int> rows_;
+  std::set<const Effect*> needs_record_;
   std::vector<Probe> probes_;
   Units units_;
   std::vector<Form> forms_;
@@ -124,6 +150,7 @@ class ArmSubject final : public Subject {
   Eigen::VectorXd x_;               ///< of all columns, effects' last
   RowMatrix exact_;                 ///< joints at which derivatives are taken: of exact touches
   Linearization linearization_;
+  Eigen::MatrixXd by_standing_;  ///< (M, k) d modelled / d effects' values, beside it
   Eigen::Matrix3Xd bare_;
 };
 

@@ -17,16 +17,21 @@ namespace {
 
 constexpr int kMostRounds = 12;  ///< of finding values, their noise and their sizes
 constexpr int kMostSteps = 20;
+constexpr double kFirstDamping = 1e-2;  ///< 1 / (10 mm or mrad)²
+constexpr double kLeastDamping = 1e-6;
+constexpr double kMostDamping = 1e8;
 constexpr double kSettledStep = 1e-6;  ///< in units of the columns' scale: nm and nrad
-constexpr double kSettledCost = 1e-7;  ///< of the sum of squares
+constexpr double kSettledCost = 1e-2;  ///< of the mean square of a row
 constexpr int kOrderRounds = 4;
 constexpr double kOrderSettled = 0.05;  ///< standard deviations
 constexpr double kFarOrder = 3.0;       ///< over the span: half a wave
 constexpr double kOrderStep = 1e-4;     ///< relative
-constexpr double kNoiseSettled = 1e-3;  ///< relative
+constexpr double kNoiseSettled = 5e-3;  ///< relative
 constexpr std::size_t kRigid = 6;       ///< values of a rigid motion: more of a kind are learned
 constexpr double kSizeSettled = 0.2;    ///< relative
-constexpr double kLeastSize = 1e-3;     ///< of what the effect's description calls plausible
+constexpr int kSizeRounds = 40;
+constexpr double kSizeFound = 0.02;  ///< relative
+constexpr double kLeastSize = 1e-3;  ///< of what the effect's description calls plausible
 
 }  // namespace
 
@@ -42,7 +47,8 @@ bool ArmSubject::move_orders() {
   const Eigen::MatrixXd by_order = by_scanned();
   if (by_order.cols() == 0) return false;
   const int threads = problem_.system->num_threads();
-  Eigen::MatrixXd basis = product(derivatives(x_), moves(), threads);
+  Eigen::MatrixXd basis = linearization_.base.leftCols(held_.cols());
+  append(basis, by_standing_);
   scale_to_length_1(basis);
   Eigen::MatrixXd square = inner_products(basis, threads);
   square.diagonal().array() += kSwallowed * kSwallowed;
@@ -63,7 +69,14 @@ bool ArmSubject::move_orders() {
     const double far =
         kFarOrder / (data_.q.col(variant.joint).maxCoeff() - data_.q.col(variant.joint).minCoeff());
     const double order = variant.settings["order"] + step;
-    if (std::abs(step) * sure[at] > kOrderSettled && std::abs(step) < far && order > 0.0) {
+    // Two that meet are one.
+    const bool alone = std::none_of(standing_.begin(), standing_.end(), [&](int other) {
+      const EffectVariant& beside = sources_[other].variant;
+      const auto own = beside.settings.find("order");
+      return other != form && beside.joint == variant.joint && own != beside.settings.end() &&
+             std::abs(own->second - order) < 0.5 * far;
+    });
+    if (std::abs(step) * sure[at] > kOrderSettled && std::abs(step) < far && order > 0.0 && alone) {
       variant.settings["order"] = order;
       forms_[form].words = words_of(variant, nominal_);
       moved = true;
@@ -85,8 +98,30 @@ void ArmSubject::fit(const std::vector<int>& forms) {
   standing_ = forms;
   const auto families = large_families();
   std::erase_if(sizes_, [&](const auto& size) { return !families.contains(size.first); });
-  truncate_columns(problem_.columns, geometry_);
+  stand_with(forms);
   Eigen::VectorXd x = x_.head(static_cast<Index>(geometry_));
+  for (const int form : forms) {
+    const auto wide = static_cast<Index>(sources_[form].variant.parameters.size());
+    x.conservativeResize(x.size() + wide);
+    x.tail(wide).setZero();
+    if (known.contains(form)) x.tail(wide) = known[form];
+  }
+  bool other_noise = true;
+  for (int round = 0; round < kMostRounds; ++round) {
+    if (!learn_sizes(x) && !other_noise) break;
+    x = nearest_minimum(std::move(x));
+    if (!m_.tracked) x = without_size_draw(std::move(x));
+    x_ = x;
+    other_noise = update_noise();
+  }
+  stand_at(x);
+  if (forms.empty()) bare_ = deviations();
+}
+
+/// The columns of `forms` behind those of the geometry, held to what is plausible.
+void ArmSubject::stand_with(const std::vector<int>& forms) {
+  standing_ = forms;
+  truncate_columns(problem_.columns, geometry_);
   std::vector<int> free = base_free_;
   for (const int form : forms) {
     const int begin = add_effect(problem_.columns, sources_[form].variant, actions_of(form));
@@ -96,20 +131,42 @@ void ArmSubject::fit(const std::vector<int>& forms) {
       column.prior_std = plausible(form, static_cast<std::size_t>(c - begin), column.scale);
       free.push_back(c);
     }
-    x.conservativeResize(end);
-    x.tail(end - begin).setZero();
-    if (known.contains(form)) x.tail(end - begin) = known[form];
   }
   problem_.system->set_free(std::move(free));
-  for (int round = 0; round < kMostRounds; ++round) {
-    x = nearest_minimum(std::move(x));
-    if (!m_.tracked) x = without_size_draw(std::move(x));
-    x_ = x;
-    const bool other_noise = update_noise();
-    if (!learn_sizes() && !other_noise) break;
+}
+
+/// All that a fit finds.
+struct ArmSubject::ArmPlace final : Place {
+  std::vector<int> standing;
+  std::vector<EffectVariant> variants;  ///< of those: orders move
+  std::map<Family, double> sizes;
+  Eigen::VectorXd x;
+  std::vector<double> trust;
+  Noise noise;
+};
+
+std::shared_ptr<const Subject::Place> ArmSubject::place() const {
+  auto out = std::make_shared<ArmPlace>();
+  out->standing = standing_;
+  for (const int form : standing_) out->variants.push_back(sources_[form].variant);
+  out->sizes = sizes_;
+  out->x = x_;
+  out->trust = problem_.system->trust();
+  out->noise = problem_.system->noise();
+  return out;
+}
+
+void ArmSubject::return_to(const Place& place) {
+  const auto& to = dynamic_cast<const ArmPlace&>(place);
+  for (std::size_t i = 0; i < to.standing.size(); ++i) {
+    sources_[to.standing[i]].variant = to.variants[i];
+    forms_[to.standing[i]].words = words_of(to.variants[i], nominal_);
   }
-  stand_at(x);
-  if (forms.empty()) bare_ = deviations();
+  sizes_ = to.sizes;
+  stand_with(to.standing);
+  problem_.system->set_trust(to.trust);
+  problem_.system->set_noise(to.noise, to.x);
+  stand_at(to.x);
 }
 
 /// Standing ones whose sizes can be learned: the places of their values among the effects'.
@@ -128,33 +185,83 @@ std::map<ArmSubject::Family, std::vector<Index>> ArmSubject::large_families() co
 /// Many values of one kind along one joint (a curve where it moves little, a dozen waves) have
 /// directions that the data hardly tell. They are held to the size that the others show: the
 /// evidence's own (MacKay 1992), Σ value² over the number of values that the data tell rather than
-/// the prior.
-bool ArmSubject::learn_sizes() {
+/// the prior. Sizes, noise and values are found together where the model is as at `x`, so that no
+/// fit sets out with sizes at which weak directions run off to where it is another.
+bool ArmSubject::learn_sizes(const Eigen::VectorXd& x) {
   const auto families = large_families();
   if (families.empty()) return false;
   const ArmSystem& system = *problem_.system;
-  const Eigen::VectorXd y = system.scaled(x_);
+  const Eigen::VectorXd y = system.scaled(x);
   const Eigen::MatrixXd to_free = moves();
-  const Index wide = system.columns();
-  const Eigen::MatrixXd own = inner_products(
-      to_free, product(system.square(y.data()).topLeftCorner(wide, wide), to_free, 1), 1);
-  const Eigen::VectorXd variance =
-      own.llt().solve(Eigen::MatrixXd::Identity(own.rows(), own.rows())).diagonal();
-  bool learned = false;
-  for (const auto& [family, values] : families) {
-    double& size = sizes_.try_emplace(family, 1.0).first->second;
-    double squares = 0.0, told = 0.0;
-    for (const Index i : values) {
-      const Column& column = problem_.columns.columns[geometry_ + static_cast<std::size_t>(i)];
-      const double held = column.prior_std / column.scale;
-      squares += std::pow(y[held_.rows() + i] / held, 2);
-      told += 1.0 - variance[held_.cols() + i] / (held * held);
+  const Index wide = system.columns(), effects = wide - held_.rows(), last = held_.cols() + effects;
+  Eigen::MatrixXd to_all = Eigen::MatrixXd::Zero(wide + 1, last + 1);
+  to_all.topLeftCorner(wide, last) = to_free;
+  to_all(wide, last) = 1.0;
+  // By the data alone, about values of 0.
+  Eigen::MatrixXd data = inner_products(to_all, product(system.square(y.data()), to_all, 1), 1);
+  const Eigen::VectorXd values = y.tail(effects);
+  Eigen::VectorXd held(effects);
+  for (Index i = 0; i < effects; ++i) {
+    const Column& column = problem_.columns.columns[geometry_ + static_cast<std::size_t>(i)];
+    held[i] = column.prior_std / column.scale;
+  }
+  const auto own = Eigen::seqN(held_.cols(), effects);
+  Eigen::VectorXd weight = held.cwiseAbs2().cwiseInverse();
+  data.diagonal()(own) -= weight;
+  data(own, last) -= weight.cwiseProduct(values);
+  data(last, last) -= weight.dot(values.cwiseAbs2());
+  data(last, last) += values.dot(data(own, own) * values) - 2.0 * values.dot(data(own, last));
+  data.col(last).head(last) -= data(Eigen::seqN(0, last), own) * values;
+
+  const double freedom = freedom_of_rows() - static_cast<double>(last);
+  double noise = 1.0;
+  std::map<Family, double> sizes;
+  for (const auto& [family, places] : families) {
+    sizes[family] = sizes_.try_emplace(family, 1.0).first->second;
+  }
+  for (int round = 0; round < kSizeRounds; ++round) {
+    bool settled = true;
+    const auto solve = [&] {
+      Eigen::MatrixXd square = data.topLeftCorner(last, last) / (noise * noise);
+      square.diagonal()(own) += weight;
+      square.diagonal() *= 1.0 + kSwallowed * kSwallowed;
+      return Eigen::LLT<Eigen::MatrixXd>(square);
+    };
+    const auto root = solve();
+    const Eigen::VectorXd found = root.solve(-data.col(last).head(last) / (noise * noise));
+    if (!problem_.options.noise && freedom > 0.5) {
+      const double left = data(last, last) + 2.0 * found.dot(data.col(last).head(last)) +
+                          found.dot(data.topLeftCorner(last, last) * found);
+      const double next = std::sqrt(std::max(left, 0.0) / freedom);
+      settled = std::abs(next / noise - 1.0) < kNoiseSettled;
+      const bool far = std::abs(next / noise - 1.0) > kSizeFound;
+      noise = std::max(next, kLeastNoise);
+      if (far) continue;  // with too much noise, all sizes look like none
     }
-    const double next =
-        std::clamp(size * std::sqrt(squares / std::max(told, 1.0)), kLeastSize, 1.0);
+    const Eigen::VectorXd variance =
+        solve().matrixL().solve(Eigen::MatrixXd::Identity(last, last)).colwise().squaredNorm();
+    for (const auto& [family, places] : families) {
+      double squares = 0.0, told = 0.0;
+      for (const Index i : places) {
+        squares += std::pow(found[held_.cols() + i], 2) * weight[i];
+        told += 1.0 - variance[held_.cols() + i] * weight[i];
+      }
+      double& size = sizes[family];
+      const double next =
+          std::clamp(size * std::sqrt(squares / std::max(told, 1.0)), kLeastSize, 1.0);
+      settled = settled && std::abs(next / size - 1.0) < kSizeFound;
+      for (const Index i : places) weight[i] *= std::pow(size / next, 2);
+      size = next;
+    }
+    if (settled) break;
+  }
+  bool learned = false;
+  for (const auto& [family, places] : families) {
+    double& size = sizes_[family];
+    const double next = sizes[family];
     if (std::abs(next / size - 1.0) < kSizeSettled) continue;
     learned = true;
-    for (const Index i : values) {
+    for (const Index i : places) {
       problem_.columns.columns[geometry_ + static_cast<std::size_t>(i)].prior_std *= next / size;
     }
     size = next;
@@ -183,7 +290,7 @@ Eigen::VectorXd ArmSubject::without_size_draw(Eigen::VectorXd x) {
     system.evaluate(y.data(), residuals.data(), nullptr);
     Eigen::MatrixXd both(system.rows(), system.columns() + 1);
     both << derivatives(x), residuals;
-    const Eigen::VectorXd move = step_of(inner_products(both, system.num_threads()));
+    const Eigen::VectorXd move = step_of(inner_products(both, system.num_threads()), 0.0);
     if (!(move.norm() < last)) return step < 2 ? least : x;
     last = move.norm();
     x = system.values(y + move);
@@ -194,11 +301,12 @@ Eigen::VectorXd ArmSubject::without_size_draw(Eigen::VectorXd x) {
 
 /// The step that Gauss and Newton would take, from [J r]ᵀ[J r]. What hardly moves the residuals by
 /// itself is damped, and nothing runs off.
-Eigen::VectorXd ArmSubject::step_of(const Eigen::MatrixXd& square) const {
+Eigen::VectorXd ArmSubject::step_of(const Eigen::MatrixXd& square, double damping) const {
   const Index wide = square.cols() - 1;
   const Eigen::MatrixXd to_free = moves();
   Eigen::MatrixXd own =
       inner_products(to_free, product(square.topLeftCorner(wide, wide), to_free, 1), 1);
+  own.diagonal().array() += damping;
   const Eigen::VectorXd scale = own.diagonal().unaryExpr(
       [](double value) { return value > 0.0 ? 1.0 / std::sqrt(value) : 0.0; });
   own = scale.asDiagonal() * own * scale.asDiagonal();
@@ -208,23 +316,27 @@ Eigen::VectorXd ArmSubject::step_of(const Eigen::MatrixXd& square) const {
   return to_free * (scale.asDiagonal() * own.ldlt().solve(-against));
 }
 
-/// A step that makes things worse is halved.
+/// Levenberg's way. Damping is the same for all unknowns, in units of their scales: what the rows
+/// hardly tell (a valley that is curved, along which a full step leads out of it) goes no farther
+/// than arms differ, and all else goes as Gauss and Newton have it.
 Eigen::VectorXd ArmSubject::nearest_minimum(Eigen::VectorXd x) const {
   const ArmSystem& system = *problem_.system;
   Eigen::VectorXd y = system.scaled(x);
+  double damping = kFirstDamping;
   for (int step = 0; step < kMostSteps; ++step) {
     const Eigen::MatrixXd square = system.square(y.data());
-    const Eigen::VectorXd full = step_of(square);
     const double before = square(square.rows() - 1, square.cols() - 1);
-    double share = 1.0;
-    double after = system.cost(Eigen::VectorXd(y + full).data());
-    while (!(after <= before) && share > 1e-3) {
-      share *= 0.5;
-      after = system.cost(Eigen::VectorXd(y + share * full).data());
+    Eigen::VectorXd next;
+    double after = std::numeric_limits<double>::infinity();
+    for (; damping < kMostDamping; damping *= 10.0) {
+      next = y + step_of(square, damping);
+      after = system.cost(next.data());
+      if (after <= before) break;
     }
     if (!(after <= before)) break;
-    y += share * full;
-    if (before - after < kSettledCost * before) break;
+    y = next;
+    if (before - after < kSettledCost * before / static_cast<double>(system.data_rows())) break;
+    damping = std::max(damping / 10.0, kLeastDamping);
   }
   return system.values(y);
 }
@@ -249,9 +361,10 @@ void ArmSubject::stand_at(const Eigen::VectorXd& x) {
   system.evaluate(y.data(), residuals.data(), nullptr);
   exact_ = exact_joints(system, x);
   // What follows recorded joints would follow their scatter, and explain it by itself.
-  data_.q = exact_;
+  if (!m_.tracked) data_.q = exact_;
   const Eigen::MatrixXd jacobian = derivatives(x);
-  linearization_.misfit = jacobian.rightCols(system.columns() - wide) * y.tail(y.size() - wide);
+  by_standing_ = jacobian.rightCols(system.columns() - wide);
+  linearization_.misfit = by_standing_ * y.tail(y.size() - wide);
   linearization_.misfit -= residuals;
   const Index points = m_.tracked ? 0 : m_.points();
   const Index seen = held_.cols();
@@ -281,6 +394,17 @@ void ArmSubject::stand_at(const Eigen::VectorXd& x) {
       }
     }
   }
+}
+
+/// Of positions and orientations that are not left out.
+double ArmSubject::freedom_of_rows() const {
+  double rows = free_position_rows(m_) + static_cast<double>(problem_.system->rotation_rows());
+  for (Index i = 0; i < m_.rows(); ++i) {
+    if (problem_.system->trust()[i] >= kLeftOut * 2.0) continue;
+    rows -= !m_.tracked && m_.plane[i] >= 0 ? 1.0 : 3.0;
+    if (m_.has_rotation()) rows -= 3.0;
+  }
+  return rows;
 }
 
 bool ArmSubject::update_noise() {
@@ -329,28 +453,34 @@ void ArmSubject::set_trust(const Eigen::VectorXd& trust) {
 /// What a change of each standing order does to the residuals: the values beside it are no surer
 /// than the order is.
 Eigen::MatrixXd ArmSubject::by_scanned() const {
-  std::vector<Eigen::VectorXd> out;
+  std::vector<ActingVariant> acting;
+  std::vector<Eigen::VectorXd> values;
+  std::vector<double> changes;
   auto at = static_cast<Index>(geometry_);
   for (const int form : standing_) {
     const EffectVariant& here = sources_[form].variant;
     const auto wide = static_cast<Index>(here.parameters.size());
-    const Eigen::VectorXd values = x_.segment(at, wide);
-    at += wide;
     const auto order = here.settings.find("order");
-    if (order == here.settings.end() || has_whole_order(here)) continue;
-    const auto moved = [&](double change) {
-      EffectVariant other = here;
-      other.settings["order"] += change;
-      auto actions = bathyal::actions_of(*sources_[form].effect, other, data_);
-      return Eigen::VectorXd(columns_of({{std::move(other), std::move(actions)}})[0].columns *
-                             values);
-    };
-    const double change = kOrderStep * order->second;
-    out.push_back((moved(change) - moved(-change)) / (2.0 * change));
+    if (order != here.settings.end() && !has_whole_order(here)) {
+      values.emplace_back(x_.segment(at, wide));
+      changes.push_back(kOrderStep * order->second);
+      for (const double change : {changes.back(), -changes.back()}) {
+        EffectVariant other = here;
+        other.settings["order"] += change;
+        auto actions = actions_of(*sources_[form].effect, other);
+        acting.push_back({std::move(other), std::move(actions)});
+      }
+    }
+    at += wide;
   }
-  Eigen::MatrixXd columns(linearization_.misfit.size(), static_cast<Index>(out.size()));
-  for (std::size_t i = 0; i < out.size(); ++i) columns.col(static_cast<Index>(i)) = out[i];
-  return columns;
+  Eigen::MatrixXd out(linearization_.misfit.size(), static_cast<Index>(values.size()));
+  if (values.empty()) return out;
+  const std::vector<ParameterColumns> moved = columns_of(std::move(acting));
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    out.col(static_cast<Index>(i)) =
+        (moved[2 * i].columns - moved[2 * i + 1].columns) * (values[i] / (2.0 * changes[i]));
+  }
+  return out;
 }
 
 }  // namespace bathyal

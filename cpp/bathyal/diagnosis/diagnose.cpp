@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bathyal/diagnosis/diagnose.hpp"
 
+#include <algorithm>
+#include <numeric>
 #include <set>
 
 #include "bathyal/base/check.hpp"
+#include "bathyal/base/random.hpp"
 #include "bathyal/diagnosis/arm_subject.hpp"
 #include "bathyal/diagnosis/copies.hpp"
 #include "bathyal/diagnosis/doubts_of_record.hpp"
@@ -28,6 +31,27 @@ void check_positions_differ(const RowMatrix& position) {
   throw_argument("position", "positions that differ", "the same in all rows");
 }
 
+/// Of a long record of tracked poses, what a search in some rows finds; else nothing. They are
+/// drawn, so that they follow no grid of the record.
+FirstLook look_at_some_rows(ArmSubject& subject, int num_threads,
+                            const DiagnosisProgress& progress) {
+  constexpr int kLong = 6000, kLookedAt = 3000;
+  const int count = static_cast<int>(subject.units().count());
+  if (count <= kLong || !subject.is_tracked()) return {};
+  std::vector<int> rows(static_cast<std::size_t>(count));
+  std::iota(rows.begin(), rows.end(), 0);
+  RandomStream random(0);
+  for (int i = 0; i < kLookedAt; ++i) {
+    std::swap(rows[i], rows[i + static_cast<int>(random.uniform(0.0, count - i))]);
+  }
+  rows.resize(kLookedAt);
+  std::sort(rows.begin(), rows.end());
+  ArmSubject some(subject, rows);
+  FirstLook found = find_forms(some, num_threads, progress);
+  subject.take_forms(some);
+  return found;
+}
+
 Diagnosis run(const Arm& arm, const Measurement& measurement, const Covariates& covariates,
               const DiagnoseOptions& options,
               const std::vector<std::shared_ptr<const Effect>>& effects,
@@ -41,7 +65,8 @@ Diagnosis run(const Arm& arm, const Measurement& measurement, const Covariates& 
   make_effect_data(arm, measurement.q, covariates, measurement.has_rotation());
   ArmSubject subject(arm, measurement, covariates, identify, effects);
   const ExaminationOptions asked{options.num_threads, options.blocks};
-  const Examination found = examine(subject, asked, progress);
+  const FirstLook look = look_at_some_rows(subject, options.num_threads, progress);
+  const Examination found = examine(subject, asked, progress, look);
   Diagnosis out = report(subject, measurement, arm, found, options);
   for (const auto& sentences :
        {subject.geometry_doubts(), subject.untried(), doubt_record(subject.data(), effects)}) {

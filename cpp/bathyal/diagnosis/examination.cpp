@@ -8,8 +8,7 @@
 #include <set>
 #include <utility>
 
-#include "bathyal/diagnosis/explainer.hpp"
-#include "bathyal/diagnosis/hold_out.hpp"
+#include "bathyal/diagnosis/forms_held_out.hpp"
 #include "bathyal/diagnosis/orthonormal.hpp"
 #include "bathyal/diagnosis/set_search.hpp"
 #include "bathyal/identify/f_distribution.hpp"
@@ -19,6 +18,7 @@ namespace {
 
 constexpr int kMostRounds = 4;  ///< of looking for structure beside names
 constexpr int kMostProbes = 6;  ///< that are asked at once
+constexpr std::size_t kManyNames = 6;
 constexpr double kLeastFreedom = 10.0;
 constexpr double kChance = 0.05;  ///< corrected p-value from which a name is no better than luck
 
@@ -37,7 +37,7 @@ class Examiner {
     effects_ = static_cast<double>(effects.size());
   }
 
-  Examination run();
+  Examination run(const FirstLook& look);
 
  private:
   void tell(double done, const std::string& stage) {
@@ -51,11 +51,15 @@ class Examiner {
   }
   bool is_probe(int form) const { return vantage_.form(form).probe; }
 
-  void choose_explanation();
+  void choose_explanation(const FirstLook& look);
   void weigh_noise();
   void look_beyond_names();
+  double foretold_by(const std::vector<int>& forms) const;
+  void drop_probes_that_foretell_nothing(const std::vector<int>& standing, std::vector<int>& asked,
+                                         std::size_t known);
   void drop_what_is_not_needed();
   void look_at_what_dropped_names_leave();
+  void tell_other_structure();
   void drop_what_foretells_nothing();
   double chance(const Pool& pool, int member, const SetFit& fit, std::size_t i) const;
   void tell_evidence();
@@ -70,19 +74,20 @@ class Examiner {
   double effects_;  ///< that could be named
   std::vector<int> names_;
   std::vector<int> probes_;
+  std::vector<int> other_structure_;  ///< beyond noise, that takes no name's place
   Eigen::VectorXd trust_;
   Examination out_;
   double done_ = 0.0;
   std::string stage_;
 };
 
-void Examiner::choose_explanation() {
+void Examiner::choose_explanation(const FirstLook& look) {
   vantage_.set_trust(Eigen::VectorXd::Ones(subject_.units().count()));
   vantage_.settle({});
   out_.shown = vantage_.dependences(vantage_.ground());
   out_.base_noise = subject_.noise();
-  tell(0.2, "looking for causes");
-  const Explanation best = explainer_.best();
+  tell(look.forms.empty() ? 0.2 : 0.5, "looking for causes");
+  const Explanation best = look.forms.empty() ? explainer_.best() : explainer_.best_from(look);
   names_ = best.forms;
   trust_ = best.trust;
 }
@@ -104,6 +109,32 @@ void Examiner::weigh_noise() {
   }
 }
 
+/// ln of how likely held-out rows are, comparable from place to place.
+double Examiner::foretold_by(const std::vector<int>& forms) const {
+  const FormsHeldOut held(vantage_, forms, out_.blocks);
+  return held.density() - held.rows() * std::log(subject_.noise());
+}
+
+/// Structure takes the place of names only where it foretells, as they must.
+void Examiner::drop_probes_that_foretell_nothing(const std::vector<int>& standing,
+                                                 std::vector<int>& asked, std::size_t known) {
+  std::vector<int> all = standing;
+  all.insert(all.end(), asked.begin() + static_cast<std::ptrdiff_t>(known), asked.end());
+  const FormsHeldOut held(vantage_, all, out_.blocks);
+  const double without = held.density_of(standing);
+  other_structure_.clear();
+  for (std::size_t i = known; i < asked.size();) {
+    std::vector<int> with = standing;
+    with.push_back(asked[i]);
+    if (held.density_of(with) > without) {
+      ++i;
+    } else {
+      other_structure_.push_back(asked[i]);
+      asked.erase(asked.begin() + static_cast<std::ptrdiff_t>(i));
+    }
+  }
+}
+
 /// Structure that the names leave: probes take part in the search, and may show that a name was
 /// only the nearest thing to what it is.
 void Examiner::look_beyond_names() {
@@ -120,6 +151,13 @@ void Examiner::look_beyond_names() {
       asked.push_back(d.form);
     }
     if (asked.size() == known) return;
+    if (names_.size() > kManyNames) {
+      // So many describe more than they explain, and structure beside them is told as that.
+      other_structure_.assign(asked.begin() + static_cast<std::ptrdiff_t>(known), asked.end());
+      return;
+    }
+    drop_probes_that_foretell_nothing(standing, asked, known);
+    if (asked.size() == known) return;
     const Pool pool = vantage_.pool_of(asked);
     const std::vector<int> set =
         standing.empty() ? find_best_set(pool) : improve_set(pool, members_of(pool, standing));
@@ -127,13 +165,18 @@ void Examiner::look_beyond_names() {
     for (const int form : forms_of(pool, set)) {
       (is_probe(form) ? probes : names).push_back(form);
     }
-    if (names == names_ && probes == probes_) return;
+    if (probes == probes_) return;
     if (names != names_) {
       // What the search promised must hold where the fit ends.
+      const std::vector<int> all = forms_of(pool, set);
       const double before = vantage_.score_of(standing, trust_);
+      const double foretold = foretold_by(standing);
+      const auto place = vantage_.place();
       vantage_.settle(names);
-      if (!(vantage_.score_of(forms_of(pool, set), trust_) > before)) {
-        vantage_.settle(names_);
+      if (!(vantage_.score_of(all, trust_) > before && foretold_by(all) > foretold)) {
+        vantage_.return_to(*place);
+        other_structure_.insert(other_structure_.end(),
+                                asked.begin() + static_cast<std::ptrdiff_t>(known), asked.end());
         return;
       }
     }
@@ -179,79 +222,55 @@ void Examiner::drop_what_is_not_needed() {
 void Examiner::drop_what_foretells_nothing() {
   for (;;) {
     drop_what_is_not_needed();
-    const Linearization& at = subject_.linearization();
-    const Ground& base = vantage_.ground();
-    const Pool pool = vantage_.pool_of(names_);
-    Eigen::MatrixXd columns = base.basis;
-    std::vector<Index> basis(static_cast<std::size_t>(base.basis.cols()));
-    std::iota(basis.begin(), basis.end(), Index{0});
-    std::vector<int> kept;
-    std::vector<std::vector<Index>> own;
-    for (int m = 0; m < pool.size(); ++m) {
-      const Index old = columns.cols();
-      append(columns, pool.columns(m));
-      own.emplace_back(static_cast<std::size_t>(pool.width(m)));
-      std::iota(own.back().begin(), own.back().end(), old);
-      kept.push_back(pool.form(m));
-    }
-    Eigen::VectorXd held_by = Eigen::VectorXd::Zero(columns.cols());
-    held_by.tail(pool.held_by().size()) = pool.held_by();
-    const HoldOut held(at.misfit, columns, held_by, at.unit, out_.blocks, options_.num_threads);
-    const HeldOutErrors before = held.errors(basis);
-    const auto all_but = [&](std::size_t without) {
-      std::vector<Index> which = basis;
-      for (std::size_t i = 0; i < own.size(); ++i) {
-        if (i != without) which.insert(which.end(), own[i].begin(), own[i].end());
-      }
-      return which;
-    };
-    std::size_t worst = own.size();
+    FormsHeldOut held(vantage_, names_, out_.blocks);
+    const std::size_t promised = held.forms().size();
+    const HeldOutErrors before = held.errors_of_base();
     for (;;) {
-      const std::vector<Index> all = all_but(own.size());
-      const double with = held.density(all);
+      const std::size_t count = held.forms().size();
+      const double with = held.density();
+      std::size_t worst = count;
       double least = std::numeric_limits<double>::infinity();
-      for (std::size_t i = 0; i < own.size(); ++i) {
-        const double gain = with - held.density(all_but(i));
+      for (std::size_t i = 0; i < count; ++i) {
+        const double gain = with - held.density(i);
         if (gain < least) {
           least = gain;
           worst = i;
         }
       }
-      const double squares = held.squares(all).sum();
+      const double squares = held.squares();
       const bool gains_nothing = squares >= before.of_block.sum();
       if (least > 0.0 && gains_nothing) {
         // Some that only make up for each other are each needed. One that sends held-out rows far
         // away spoils what the others gain.
         double fewest = std::numeric_limits<double>::infinity();
-        for (std::size_t i = 0; i < own.size(); ++i) {
-          const double left = held.squares(all_but(i)).sum();
+        for (std::size_t i = 0; i < count; ++i) {
+          const double left = held.squares(i);
           if (left < fewest) {
             fewest = left;
             worst = i;
           }
         }
       }
-      if (!own.empty() && (!(least > 0.0) || gains_nothing)) {
-        kept.erase(kept.begin() + static_cast<std::ptrdiff_t>(worst));
-        own.erase(own.begin() + static_cast<std::ptrdiff_t>(worst));
+      if (count > 0 && (!(least > 0.0) || gains_nothing)) {
+        held.drop(worst);
         continue;
       }
-      if (static_cast<int>(kept.size()) < pool.size()) break;
+      if (count < promised) break;
       out_.names.clear();
-      for (std::size_t i = 0; i < kept.size(); ++i) {
+      for (std::size_t i = 0; i < count; ++i) {
         Chosen chosen;
-        chosen.form = kept[i];
+        chosen.form = held.forms()[i];
         chosen.held_out_with = squares / held.rows();
-        chosen.held_out_without = held.squares(all_but(i)).sum() / held.rows();
+        chosen.held_out_without = held.squares(i) / held.rows();
         out_.names.push_back(chosen);
       }
-      const HeldOutErrors after = held.errors(all);
+      const HeldOutErrors after = held.errors();
       out_.error_before = before.error;
       out_.error_after = after.error;
       out_.luck = sign_flip_p(before.of_block - after.of_block);
       return;
     }
-    names_ = kept;
+    names_ = held.forms();
     std::sort(names_.begin(), names_.end());
     vantage_.settle(names_);
   }
@@ -304,6 +323,37 @@ void Examiner::tell_evidence() {
   }
 }
 
+/// Structure that takes no name's place is there all the same, where it is worth its freedom beside
+/// what stands.
+void Examiner::tell_other_structure() {
+  std::vector<int> standing = names_;
+  standing.insert(standing.end(), probes_.begin(), probes_.end());
+  std::vector<int> asked = standing;
+  asked.insert(asked.end(), other_structure_.begin(), other_structure_.end());
+  const Pool pool = vantage_.pool_of(asked);
+  std::vector<int> set = members_of(pool, standing);
+  const auto rows = static_cast<double>(subject_.linearization().misfit.size());
+  for (const int m : members_of(pool, other_structure_)) {
+    const auto now = pool.judge(set);
+    set.push_back(m);
+    const auto with = pool.judge(set);
+    if (!now || !with || !(with->score > now->score)) {
+      set.pop_back();
+      continue;
+    }
+    Chosen probe;
+    probe.form = pool.form(m);
+    probe.f = with->f.back();
+    probe.width = with->width.back();
+    probe.explained = now->left - with->left;
+    const double beyond = std::max(probe.explained - probe.width * with->noise(), 0.0);
+    probe.size = std::sqrt(beyond / rows);
+    probe.p = chance(pool, m, *with, set.size() - 1);
+    out_.probes.push_back(probe);
+    out_.left_over += beyond;
+  }
+}
+
 /// Structure that names stood for which foretold nothing is still there.
 void Examiner::look_at_what_dropped_names_leave() {
   const auto rows = static_cast<double>(subject_.linearization().misfit.size());
@@ -345,10 +395,10 @@ void Examiner::tell_detectable() {
   out_.detectable = std::sqrt(explained / rows);
 }
 
-Examination Examiner::run() {
-  tell(0.1, "looking at what geometry leaves");
+Examination Examiner::run(const FirstLook& look) {
+  tell(look.forms.empty() ? 0.1 : 0.4, "looking at what geometry leaves");
   out_.blocks = make_blocks(subject_.units(), options_.blocks);
-  choose_explanation();
+  choose_explanation(look);
   tell_detectable();
   out_.trust = trust_;
   const Ground& whole = vantage_.ground(names_);
@@ -373,7 +423,11 @@ Examination Examiner::run() {
   const std::vector<int> promised = names_;
   drop_what_foretells_nothing();
   tell_evidence();
-  if (names_ != promised) look_at_what_dropped_names_leave();
+  if (names_ == promised) {
+    tell_other_structure();
+  } else {
+    look_at_what_dropped_names_leave();
+  }
   tell_rivals();
   for (Index i = 0; i < trust_.size(); ++i) {
     if (!(trust_[i] > 0.0)) out_.odd.push_back(static_cast<int>(i));
@@ -384,8 +438,19 @@ Examination Examiner::run() {
 
 }  // namespace
 
-Examination examine(Subject& subject, const ExaminationOptions& options, const Progress& progress) {
-  return Examiner(subject, options, progress).run();
+Examination examine(Subject& subject, const ExaminationOptions& options, const Progress& progress,
+                    const FirstLook& look) {
+  return Examiner(subject, options, progress).run(look);
+}
+
+FirstLook find_forms(Subject& subject, int num_threads, const Progress& progress) {
+  Vantage vantage(subject, num_threads);
+  vantage.set_trust(Eigen::VectorXd::Ones(subject.units().count()));
+  vantage.settle({});
+  Explainer explainer(vantage, [&progress] {
+    if (progress) progress(0.1, "looking for causes in some of the rows");
+  });
+  return explainer.look_at(explainer.best().forms);
 }
 
 }  // namespace bathyal

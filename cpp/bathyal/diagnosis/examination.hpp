@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "bathyal/diagnosis/blocks.hpp"
+#include "bathyal/diagnosis/explainer.hpp"
 #include "bathyal/diagnosis/odd_units.hpp"
 #include "bathyal/diagnosis/subject.hpp"
 #include "bathyal/diagnosis/vantage.hpp"
@@ -63,7 +64,13 @@ struct Examination {
   double luck = 1.0;              ///< probability that the gain is
 };
 
-/// Shows, names and measures; leaves the subject standing at what it named.
-Examination examine(Subject& subject, const ExaminationOptions& options, const Progress& progress);
+/// Shows, names and measures; leaves the subject standing at what it named. The search goes on from
+/// what a look at some of the units has found, where there was one.
+Examination examine(Subject& subject, const ExaminationOptions& options, const Progress& progress,
+                    const FirstLook& look = {});
+
+/// Forms that explain what the base model of `subject` leaves, before any proof. What is done is
+/// told as the first part of an examination of the whole.
+FirstLook find_forms(Subject& subject, int num_threads, const Progress& progress);
 
 }  // namespace bathyal

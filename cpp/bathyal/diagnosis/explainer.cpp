@@ -11,9 +11,11 @@
 namespace bathyal {
 namespace {
 
-constexpr int kMostPasses = 4;  ///< of naming and standing at what was named
-constexpr int kMostScans = 4;   ///< in the first of them; later ones start where it ended
-constexpr int kPeaks = 4;       ///< of each scan that are looked at closely
+constexpr int kMostPasses = 6;         ///< of naming and standing at what was named
+constexpr double kSettledScore = 0.5;  ///< log evidence: less is no better
+constexpr double kFarBehind = 20.0;    ///< the same: four times the units make up for no more
+constexpr int kMostScans = 4;          ///< in the first of them; later ones start where it ended
+constexpr int kPeaks = 4;              ///< of each scan that are looked at closely
 constexpr int kFinerRounds = 3;
 /// Log evidence: two and a half standard deviations of an order.
 constexpr double kPlainBonus = 3.0;
@@ -50,39 +52,68 @@ void Explainer::add_peaks(const Ground& beside) {
   }
 }
 
-/// Each form of a scan where it fits best, between the points of its grid.
+/// Each form of a scan where it fits best, between the points of its grid. All of them move at
+/// once, each beside the others as they stand; a move that the set does not gain by is not made.
 std::vector<int> Explainer::sharpened(std::vector<int> forms) {
-  for (int& form : forms) {
-    if (!is_sharp_.insert(form).second) continue;
-    for (int round = 0; round < kFinerRounds; ++round) {
-      std::vector<int> near = vantage_.finer(form);
-      if (near.empty()) break;
-      std::vector<int> others = forms;
-      std::erase(others, form);
-      const Ground& beside = vantage_.ground(others);
-      near.push_back(form);
-      const std::vector<ScannedForm> scanned =
-          scan(vantage_.subject(), near, beside.basis, vantage_.subject().linearization().misfit,
-               beside.freedom, vantage_.num_threads());
-      const auto worth = [&](const ScannedForm& s) {
-        return s.gain + (vantage_.form(s.form).plain ? kPlainBonus : 0.0);
-      };
-      const auto best = std::max_element(
-          scanned.begin(), scanned.end(),
-          [&](const ScannedForm& a, const ScannedForm& b) { return worth(a) < worth(b); });
-      form = best->form;
-      if (vantage_.form(form).plain) break;
-    }
-    is_sharp_.insert(form);
-    remember(form);
+  std::vector<std::size_t> moving;
+  for (std::size_t i = 0; i < forms.size(); ++i) {
+    if (is_sharp_.insert(forms[i]).second) moving.push_back(i);
   }
+  for (int round = 0; round < kFinerRounds && !moving.empty(); ++round) {
+    still_at_it_();
+    std::vector<int> asked = forms;
+    std::vector<std::vector<int>> near;
+    for (const std::size_t i : moving) {
+      near.push_back(vantage_.finer(forms[i]));
+      asked.insert(asked.end(), near.back().begin(), near.back().end());
+    }
+    const Pool pool = vantage_.pool_of(asked);
+    std::vector<int> set = members_of(pool, forms);
+    const auto now = pool.judge(set);
+    if (!now) break;
+    const auto worth = [&](double score, int form) {
+      return score + (vantage_.form(form).plain ? kPlainBonus : 0.0);
+    };
+    double best = now->score;
+    const Eigen::MatrixXd instead = pool.scores_instead(set);
+    std::vector<std::size_t> still;
+    for (std::size_t k = 0; k < moving.size(); ++k) {
+      int& form = forms[moving[k]];
+      const auto place =
+          std::find_if(set.begin(), set.end(), [&](int m) { return pool.form(m) == form; });
+      if (place == set.end()) continue;
+      const Eigen::VectorXd scores = instead.row(place - set.begin());
+      int chosen = *place;
+      double most = worth(now->score, form);
+      for (const int m : members_of(pool, near[k])) {
+        if (worth(scores[m], pool.form(m)) > most) {
+          chosen = m;
+          most = worth(scores[m], pool.form(m));
+        }
+      }
+      if (chosen != *place) {
+        const int old = std::exchange(*place, chosen);
+        const auto moved = pool.judge(set);
+        if (moved && worth(moved->score, pool.form(chosen)) > worth(best, form)) {
+          best = moved->score;
+          form = pool.form(chosen);
+          is_sharp_.insert(form);
+        } else {
+          *place = old;
+        }
+      }
+      if (!near[k].empty() && !vantage_.form(form).plain) still.push_back(moving[k]);
+    }
+    moving = still;
+  }
+  for (const int form : forms) remember(form);
   std::sort(forms.begin(), forms.end());
   return forms;
 }
 
 std::vector<int> Explainer::best_forms(std::vector<int> start, int scans) {
   std::vector<int> forms = std::move(start);
-  for (int round = 0; round < scans; ++round) {
+  for (int round = 0; round < std::max(scans, 1); ++round) {
     still_at_it_();
     const Pool pool = vantage_.pool_of(candidates_);
     const std::vector<int> set =
@@ -90,6 +121,7 @@ std::vector<int> Explainer::best_forms(std::vector<int> start, int scans) {
     const bool same = forms == forms_of(pool, set);
     forms = forms_of(pool, set);
     if (forms.empty() || (same && round > 0)) break;
+    if (scans == 0) break;
     const std::size_t known = candidates_.size();
     add_peaks(vantage_.ground(forms));
     if (candidates_.size() == known) break;
@@ -97,30 +129,39 @@ std::vector<int> Explainer::best_forms(std::vector<int> start, int scans) {
   return sharpened(std::move(forms));
 }
 
-/// Names and odd units in turn, until both stay.
-Explanation Explainer::explain(Eigen::VectorXd trust) {
-  Explanation out{{}, trust, 0.0};
-  vantage_.set_trust(trust);
-  vantage_.settle({});
-  for (int pass = 0; pass < kMostPasses; ++pass) {
+/// Names and odd units in turn, until both stay; the best that was seen, for they may go in rounds.
+Explanation Explainer::explain(Eigen::VectorXd trust, const std::vector<int>& start, int passes) {
+  Explanation now{start, std::move(trust)};
+  vantage_.set_trust(now.trust);
+  vantage_.settle(start);
+  Explanation best = now;
+  int worse = 0;
+  for (int pass = 0; pass < passes; ++pass) {
     still_at_it_();
-    const std::vector<int> forms = best_forms(out.forms, pass == 0 ? kMostScans : 1);
+    int scans = now.forms.empty() ? kMostScans : 1;
+    if (!start.empty()) scans = 0;
+    const std::vector<int> forms = best_forms(now.forms, scans);
     vantage_.settle(forms);
     const Ground& whole = vantage_.ground(forms);
     const Eigen::VectorXd next =
-        leave_out_odd(vantage_.subject().linearization(), whole.basis, out.trust, whole.freedom);
-    const bool same = next == out.trust;
-    const bool settled = same && (forms == out.forms || forms.empty());
-    out.forms = forms;
-    out.trust = next;
+        leave_out_odd(vantage_.subject().linearization(), whole.basis, now.trust, whole.freedom);
+    const bool same = next == now.trust;
+    const bool settled = same && (forms == now.forms || forms.empty());
+    now.forms = forms;
+    now.trust = next;
     if (!same) {
       vantage_.set_trust(next);
       vantage_.settle(forms);
     }
-    if (settled) break;
+    now.score = vantage_.score_of(now.forms, now.trust);
+    worse = pass == 0 || now.score > best.score + kSettledScore ? 0 : worse + 1;
+    if (pass == 0 || now.score > best.score) {
+      best = now;
+      best.place = vantage_.place();
+    }
+    if (settled || worse == 2) break;
   }
-  out.score = vantage_.score_of(out.forms, out.trust);
-  return out;
+  return best;
 }
 
 Explanation Explainer::best() {
@@ -130,14 +171,42 @@ Explanation Explainer::best() {
   const Eigen::VectorXd all = Eigen::VectorXd::Ones(vantage_.subject().units().count());
   const Eigen::VectorXd without_odd = leave_out_odd(at, base.basis, all, base.freedom);
   // Gross errors hide causes, and causes look like gross errors: both orders are tried.
-  Explanation best = explain(all);
+  Explanation best = explain(all, {}, kMostPasses);
   if (without_odd != all) {
-    Explanation other = explain(without_odd);
+    Explanation other = explain(without_odd, {}, kMostPasses);
     if (other.score > best.score) best = std::move(other);
   }
-  vantage_.set_trust(best.trust);
-  vantage_.settle(best.forms);
+  vantage_.return_to(*best.place);
   return best;
+}
+
+Explanation Explainer::best_from(const FirstLook& look) {
+  candidates_ = look.candidates;
+  // What a fit does not move (the moment of a slip) is looked at again where there are more units.
+  for (const int form : candidates_) {
+    const Form& about = vantage_.form(form);
+    if (about.moves || about.plain) is_sharp_.insert(form);
+  }
+  const Eigen::VectorXd all = Eigen::VectorXd::Ones(vantage_.subject().units().count());
+  Explanation best = explain(all, look.forms, 1);
+  vantage_.return_to(*best.place);
+  return best;
+}
+
+FirstLook Explainer::look_at(const std::vector<int>& forms) const {
+  const Pool pool = vantage_.pool_of(candidates_);
+  const std::vector<int> set = members_of(pool, forms);
+  const auto now = pool.judge(set);
+  if (!now) return {forms, candidates_};
+  const Eigen::VectorXd beside = pool.scores_beside(set);
+  const Eigen::MatrixXd instead = pool.scores_instead(set);
+  FirstLook out{forms, forms};
+  for (int m = 0; m < pool.size(); ++m) {
+    const bool stands = std::find(set.begin(), set.end(), m) != set.end();
+    const double best = set.empty() ? beside[m] : std::max(beside[m], instead.col(m).maxCoeff());
+    if (!stands && best > now->score - kFarBehind) out.candidates.push_back(pool.form(m));
+  }
+  return out;
 }
 
 }  // namespace bathyal

@@ -15,6 +15,13 @@ struct Explanation {
   std::vector<int> forms;
   Eigen::VectorXd trust;  ///< (units,) 0 of those that are left out
   double score = -std::numeric_limits<double>::infinity();
+  std::shared_ptr<const Subject::Place> place = nullptr;  ///< where the subject stood
+};
+
+/// What a look at some of the units finds.
+struct FirstLook {
+  std::vector<int> forms;
+  std::vector<int> candidates;  ///< that more units may put in their place, and they themselves
 };
 
 /// Looks for explanations among the forms of the library: those of scans by their peaks, looked at
@@ -27,7 +34,11 @@ class Explainer {
   /// The best explanation; the subject stands at it. The subject must stand without forms, all
   /// units trusted.
   Explanation best();
-  /// The best set where the subject stands, from `start` on; scans look again beside it.
+  /// The same from what a look at some of the units found: no forms but its own are asked.
+  Explanation best_from(const FirstLook& look);
+  /// What stands, and what may take a place in it where there are more units.
+  FirstLook look_at(const std::vector<int>& forms) const;
+  /// The best set where the subject stands, from `start` on; so many `scans` look again beside it.
   std::vector<int> best_forms(std::vector<int> start, int scans);
 
   /// Library forms that are worth a pool.
@@ -37,7 +48,7 @@ class Explainer {
  private:
   void add_peaks(const Ground& beside);
   std::vector<int> sharpened(std::vector<int> forms);
-  Explanation explain(Eigen::VectorXd trust);
+  Explanation explain(Eigen::VectorXd trust, const std::vector<int>& start, int passes);
 
   Vantage& vantage_;
   std::function<void()> still_at_it_;

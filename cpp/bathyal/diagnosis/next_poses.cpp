@@ -29,9 +29,8 @@ RowMatrix draw_poses(const Support& support) {
 
 /// What was recorded with the last row in time: poses to come are taken after it.
 Covariates last_of(const EffectData& data) {
-  const auto last = std::max_element(data.order.begin(), data.order.end()) - data.order.begin();
   Covariates out;
-  for (const auto& [name, table] : data.covariates) out[name] = table.row(last);
+  for (const auto& [name, table] : data.covariates) out[name] = table.row(data.order.back());
   return out;
 }
 

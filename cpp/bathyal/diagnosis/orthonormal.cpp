@@ -75,24 +75,26 @@ std::vector<Beside> orthonormal_beside(const Eigen::MatrixXd& basis,
                    for (std::size_t g = begin; g < end; ++g) body(g);
                  });
   };
+  const int inside = groups.size() == 1 ? num_threads : 1;
   take_from(groups, basis, num_threads);
   for_each([&](std::size_t g) {
     if (groups[g].cols() == 0) return;
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(inner_products(groups[g], 1));
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(inner_products(groups[g], inside));
     const Eigen::VectorXd& squares = eigen.eigenvalues();
     Index none = 0;
     while (none < squares.size() && !(squares[none] > least[g] * least[g])) ++none;
     const Index kept = squares.size() - none;
     out[g].length = squares.tail(kept).cwiseSqrt();
-    groups[g] = groups[g] *
-                (eigen.eigenvectors().rightCols(kept) * out[g].length.cwiseInverse().asDiagonal());
+    groups[g] = product(
+        groups[g], eigen.eigenvectors().rightCols(kept) * out[g].length.cwiseInverse().asDiagonal(),
+        inside);
   });
   // What rounding has left of the basis and of one another; nothing is turned by that.
   take_from(groups, basis, num_threads);
   for_each([&](std::size_t g) {
     if (groups[g].cols() > 0) {
-      const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> skew(inner_products(groups[g], 1));
-      groups[g] *= skew.operatorInverseSqrt();
+      const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> skew(inner_products(groups[g], inside));
+      groups[g] = product(groups[g], skew.operatorInverseSqrt(), inside);
     }
     out[g].columns = std::move(groups[g]);
   });

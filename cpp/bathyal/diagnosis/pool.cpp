@@ -45,7 +45,8 @@ Pool::Pool(const Eigen::MatrixXd& basis, const Eigen::VectorXd& misfit, double f
            std::vector<Eigen::MatrixXd> columns, int num_threads)
     : misfit_(misfit - basis * (basis.transpose() * misfit)),
       total_(misfit_.squaredNorm()),
-      freedom_(freedom) {
+      freedom_(freedom),
+      num_threads_(num_threads) {
   const std::vector<Beside> beside = orthonormal_beside(basis, std::move(columns), num_threads);
   Index wide = 0;
   std::map<std::string, int> causes;

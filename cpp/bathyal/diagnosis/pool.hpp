@@ -53,6 +53,7 @@ class Pool {
   const Eigen::VectorXd& held_by() const { return held_by_; }
   double total() const { return total_; }      ///< sum of squares beside the base model
   double freedom() const { return freedom_; }  ///< of it
+  int num_threads() const { return num_threads_; }
 
   /// The set, fitted; nothing when its members are not independent.
   ///
@@ -108,6 +109,7 @@ class Pool {
   Eigen::VectorXd held_by_;  ///< (W,) 1 / variance of the columns' values before the data
   Eigen::MatrixXd square_;   ///< (W, W) stackᵀ stack, and held_by on the diagonal
   Eigen::VectorXd against_;  ///< (W,) stackᵀ misfit
+  int num_threads_;
 };
 
 }  // namespace bathyal

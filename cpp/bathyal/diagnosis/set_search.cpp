@@ -5,8 +5,11 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <optional>
 #include <set>
 #include <string>
+
+#include "bathyal/base/parallel.hpp"
 
 namespace bathyal {
 namespace {
@@ -78,11 +81,14 @@ constexpr double kQuickScoreLacks = 6.0;
 Scored better_of(const Pool& pool, const std::vector<int>& base, Scored best,
                  const SetSearchOptions& options) {
   const Eigen::VectorXd scores = pool.scores_beside(base);
-  for (const int m : best_of(scores, options.extensions)) {
-    if (scores[m] < best.score - kQuickScoreLacks) break;
-    std::vector<int> members = with(base, m);
-    const auto fit = pool.judge(members);
-    if (fit && fit->score > best.score) best = {std::move(members), fit->score};
+  std::vector<int> asked = best_of(scores, options.extensions);
+  std::erase_if(asked, [&](int m) { return scores[m] < best.score - kQuickScoreLacks; });
+  std::vector<std::optional<SetFit>> fits(asked.size());
+  parallel_for(asked.size(), 1, pool.num_threads(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) fits[k] = pool.judge(with(base, asked[k]));
+  });
+  for (std::size_t k = 0; k < asked.size(); ++k) {
+    if (fits[k] && fits[k]->score > best.score) best = {with(base, asked[k]), fits[k]->score};
   }
   return best;
 }
@@ -102,9 +108,12 @@ Scored exchanged(const Pool& pool, const std::vector<int>& members, Scored best,
   }
   std::stable_sort(worth.begin(), worth.end());
   if (worth.size() > options.exchanges) worth.resize(options.exchanges);
-  for (auto& [quick, exchange] : worth) {
-    const auto fit = pool.judge(exchange);
-    if (fit && fit->score > best.score) best = {std::move(exchange), fit->score};
+  std::vector<std::optional<SetFit>> fits(worth.size());
+  parallel_for(worth.size(), 1, pool.num_threads(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) fits[k] = pool.judge(worth[k].second);
+  });
+  for (std::size_t k = 0; k < worth.size(); ++k) {
+    if (fits[k] && fits[k]->score > best.score) best = {worth[k].second, fits[k]->score};
   }
   return best;
 }

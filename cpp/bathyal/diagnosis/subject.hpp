@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -22,6 +23,7 @@ struct Form {
   double trials = 1.0;  ///< how many forms of its effect are tried beside it, itself counted
   bool plain = false;   ///< among its neighbours of a scan, the one to take when they fit alike
   bool shares = false;  ///< may stand beside others of its cause that it is not made of
+  bool moves = false;   ///< along its scan, with every fit
   bool probe = false;   ///< shows that structure is there, and is no cause
 };
 
@@ -70,8 +72,8 @@ class Subject {
   virtual const std::vector<std::vector<int>>& scans() const = 0;
   virtual const std::vector<NoiseForm>& noise_forms() const = 0;
 
-  /// Forms between `form` of a scan and its neighbours there, made on demand and in their order;
-  /// empty where there is nothing between.
+  /// Forms between `form` of a scan and its neighbours there, made on demand, or near it; empty
+  /// where there are none.
   virtual std::vector<int> finer(int form) = 0;
 
   /// (M, k) of each of `forms`: d modelled / d parameters where the model stands, each parameter in
@@ -80,8 +82,17 @@ class Subject {
   virtual std::vector<Eigen::MatrixXd> columns(std::span<const int> forms) const = 0;
   virtual const Linearization& linearization() const = 0;
 
-  /// Fits the base model together with `forms` and stands there.
+  /// Fits the base model together with `forms` and stands there. A scanned form may move along its
+  /// scan.
   virtual void settle(const std::vector<int>& forms) = 0;
+
+  /// Where it stands, to come back to without a fit.
+  struct Place {
+    virtual ~Place() = default;
+  };
+  virtual std::shared_ptr<const Place> place() const = 0;
+  virtual void return_to(const Place& place) = 0;
+
   /// Factors on the weight (1 / variance) of each unit; 0 leaves it out. Counts from the next
   /// `settle` on.
   virtual void set_trust(const Eigen::VectorXd& trust) = 0;

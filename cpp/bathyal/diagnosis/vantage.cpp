@@ -40,6 +40,12 @@ void Vantage::settle(const std::vector<int>& forms) {
   subject_.settle(forms);
 }
 
+void Vantage::return_to(const Subject::Place& place) {
+  bare_.reset();
+  last_.reset();
+  subject_.return_to(place);
+}
+
 const Ground& Vantage::ground(const std::vector<int>& forms) const {
   const Linearization& at = subject_.linearization();
   const auto with = [&](Eigen::MatrixXd basis) {

@@ -38,6 +38,8 @@ class Vantage {
 
   /// Fits and stands there. What was seen from the last place is forgotten.
   void settle(const std::vector<int>& forms);
+  std::shared_ptr<const Subject::Place> place() const { return subject_.place(); }
+  void return_to(const Subject::Place& place);
   /// Counts from the next `settle` on.
   void set_trust(const Eigen::VectorXd& trust) { subject_.set_trust(trust); }
   /// Forms of a scan between `form` and its neighbours, made on demand.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -66,7 +67,8 @@ struct ArmColumns {
   std::vector<Column> columns;
   std::vector<Place> places;  ///< of each column
   /// What effects' columns do (effect_columns.hpp), a list for each; their columns stand last.
-  std::vector<std::vector<Action>> actions = {};
+  /// Copies share them: a number for each row of the data is much.
+  std::vector<std::shared_ptr<const std::vector<Action>>> actions = {};
 
   Eigen::VectorXd nominal() const;
 };

@@ -38,6 +38,7 @@ ArmSystem::ArmSystem(const ArmColumns& columns, const Measurement& measurement, 
 }
 
 void ArmSystem::set_joints(const RowMatrix& q) {
+  if (joints_ && joints_->q == q) return;
   const std::vector<Joint>& chain = columns_.arm.joints();
   auto joints = std::make_shared<Joints>(Joints{q, {}});
   joints->motions.resize(static_cast<std::size_t>(q.rows()) * chain.size());

@@ -41,7 +41,7 @@ int add_effect(ArmColumns& columns, const EffectVariant& variant,
     columns.columns.push_back({name + "." + parameter.name, parameter.name + " of " + name,
                                parameter.unit, name, 0.0, scale_of(actions[p], parameter)});
     columns.places.push_back({Part::kEffect, static_cast<int>(columns.actions.size()), 0});
-    columns.actions.push_back(std::move(actions[p]));
+    columns.actions.push_back(std::make_shared<const std::vector<Action>>(std::move(actions[p])));
   }
   return first;
 }

@@ -64,31 +64,25 @@ double pair_sum(const Measurement& m, const Eigen::Matrix3Xd& deviations) {
   return sum;
 }
 
-Measurement every(const Measurement& m, Index stride) {
-  const auto thinned = [stride](const auto& all) {
+Measurement some_of(const Measurement& m, const std::vector<int>& rows) {
+  const auto picked = [&rows](const auto& all) {
     std::decay_t<decltype(all)> some;
-    for (std::size_t i = 0; i < all.size(); i += static_cast<std::size_t>(stride)) {
-      some.push_back(all[i]);
+    for (const int row : rows) {
+      if (!all.empty()) some.push_back(all[row]);
     }
     return some;
   };
   Measurement out = m;
+  out.weights = picked(m.weights);
+  out.tool = picked(m.tool);
+  out.station = picked(m.station);
+  out.point = picked(m.point);
+  out.plane = picked(m.plane);
+  out.rotation = picked(m.rotation);
   out.actions.clear();
-  out.weights = thinned(m.weights);
-  out.tool = thinned(m.tool);
-  out.station = thinned(m.station);
-  out.point = thinned(m.point);
-  out.plane = thinned(m.plane);
-  out.rotation = thinned(m.rotation);
-  for (Index i = 0; i < m.rows(); i += stride) {
-    out.actions.push_back(static_cast<int>(m.action_row(i)));
-  }
-  out.q.resize(static_cast<Index>(out.weights.size()), m.q.cols());
-  if (m.tracked) out.position.resize(3, out.q.rows());
-  for (Index i = 0; i < out.q.rows(); ++i) {
-    out.q.row(i) = m.q.row(stride * i);
-    if (m.tracked) out.position.col(i) = m.position.col(stride * i);
-  }
+  for (const int row : rows) out.actions.push_back(static_cast<int>(m.action_row(row)));
+  out.q = m.q(rows, Eigen::all);
+  if (m.tracked) out.position = m.position(Eigen::all, rows);
   return out;
 }
 

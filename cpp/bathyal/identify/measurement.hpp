@@ -58,8 +58,8 @@ double free_position_rows(const Measurement& measurement);
 /// m Σ about the mean. Touches count alike whatever their weights.
 double pair_sum(const Measurement& measurement, const Eigen::Matrix3Xd& deviations);
 
-/// Rows 0, stride, 2 stride … of it, with all that is known of the points.
-Measurement every(const Measurement& measurement, Index stride);
+/// Some rows of it, with all that is known of the points.
+Measurement some_of(const Measurement& measurement, const std::vector<int>& rows);
 
 /// \throw std::invalid_argument when the data are bad by themselves, or have another number of
 ///        joints than the arm.

@@ -228,11 +228,15 @@ JointStructure find_structure(const ArmSystem& system, const Eigen::VectorXd& x,
     return test(asked, x);
   }
   const Index stride = (all.rows() + kMostPoses - 1) / kMostPoses;
-  Measurement some = every(all, stride);
+  std::vector<int> rows;
+  std::vector<double> some_trust;
+  for (Index i = 0; i < all.rows(); i += stride) {
+    rows.push_back(static_cast<int>(i));
+    some_trust.push_back(trust[i]);
+  }
+  Measurement some = some_of(all, rows);
   some.distances.clear();  // a point may have lost its touches
   some.known_points.clear();
-  std::vector<double> some_trust;
-  for (Index i = 0; i < all.rows(); i += stride) some_trust.push_back(trust[i]);
   ArmSystem asked(system.arm_columns(), some, Criterion::kCentroid, false, 1);
   asked.set_free(system.free());
   asked.set_trust(std::move(some_trust));

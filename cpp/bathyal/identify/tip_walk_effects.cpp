@@ -16,7 +16,7 @@ using Vector6 = Eigen::Matrix<double, 6, 1>;
 
 void TipWalk::find_pulls(const Eigen::VectorXd& x) {
   const auto pulls_of = [&](int column, std::vector<Pull>& out) {
-    for (const Action& action : columns_.actions[columns_.places[column].index]) {
+    for (const Action& action : *columns_.actions[columns_.places[column].index]) {
       out.push_back({action.site, action.index, action.values.data(), x[column]});
     }
   };

@@ -65,5 +65,83 @@ TEST(ArmSubject, NumbersThatTheDataHardlyTellAreHeldToTheSizeOfTheOthers) {
   EXPECT_LT(largest_value(1e-4), 1e-3);
 }
 
+int wave_of_joint_1(const ArmSubject& subject) {
+  for (int form = 0; form < static_cast<int>(subject.forms().size()); ++form) {
+    if (subject.forms()[form].effect == "joint_harmonic" && subject.forms()[form].joint == 0) {
+      return form;
+    }
+  }
+  return -1;
+}
+
+TEST(ArmSubject, StandsAgainWhereItStood) {
+  const Arm arm = three_joints();
+  const IdentifyOptions options;
+  const Measurement measurement = to_measurement(arm, little_moved(1e-3));
+  ArmSubject subject(arm, measurement, {}, options, library_effects());
+  const int form = wave_of_joint_1(subject);
+  ASSERT_GE(form, 0);
+  subject.settle({form});
+  const Linearization there = subject.linearization();
+  const Eigen::VectorXd values = subject.found().front().values;
+  const auto place = subject.place();
+  subject.set_trust(Eigen::VectorXd::Constant(measurement.rows(), 0.5));
+  subject.settle({form, form + 3});
+  ASSERT_EQ(subject.found().size(), 2u);
+  subject.return_to(*place);
+  EXPECT_LT((subject.found().front().values - values).norm(), 1e-12);
+  EXPECT_LT((subject.linearization().misfit - there.misfit).norm(), 1e-8 * there.misfit.norm());
+  EXPECT_LT((subject.linearization().base - there.base).norm(), 1e-8 * there.base.norm());
+}
+
+/// Rows of a subject, seen alone or among all: an effect that looks at neighbours in time (clocks
+/// out of step) does the same in both.
+TEST(ArmSubject, SomeRowsSeeWhatTheRecordSees) {
+  const Arm arm = three_joints();
+  const IdentifyOptions options;
+  const Tracked tracked = little_moved(1e-3);
+  const Measurement measurement = to_measurement(arm, tracked);
+  RowMatrix time(measurement.rows(), 1);
+  for (Index i = 0; i < measurement.rows(); ++i) time(i, 0) = 0.5 * static_cast<double>(i);
+  ArmSubject whole(arm, measurement, {{"time", time}}, options, library_effects());
+  std::vector<int> rows;
+  for (int i = 0; i < measurement.rows(); i += 2) rows.push_back(i);
+  const ArmSubject some(whole, rows);
+  ASSERT_EQ(some.forms().size(), whole.forms().size());
+  int asked = 0;
+  for (int form = 0; form < static_cast<int>(whole.forms().size()); ++form) {
+    const std::string& effect = whole.forms()[form].effect;
+    if (effect != "clock_shift" && effect != "tool_slip" && effect != "joint_map") continue;
+    const Eigen::MatrixXd all = whole.columns(std::vector<int>{form}).front();
+    const Eigen::MatrixXd part = some.columns(std::vector<int>{form}).front();
+    ASSERT_EQ(part.cols(), all.cols());
+    // In units of each one's noise, at geometries that differ a little.
+    for (Index c = 0; c < all.cols(); ++c) {
+      Eigen::VectorXd same(3 * static_cast<Index>(rows.size()));
+      for (Index i = 0; i < same.size() / 3; ++i) {
+        same.segment<3>(3 * i) = all.col(c).segment<3>(3 * rows[i]);
+      }
+      same *= whole.noise() / some.noise();
+      EXPECT_LT((part.col(c) - same).norm(), 0.05 * same.norm() + 1e-9) << effect << " " << c;
+    }
+    ++asked;
+  }
+  EXPECT_GT(asked, 3);
+}
+
+TEST(ArmSubject, RowsStandInTheOrderOfTheirTimes) {
+  const Arm arm = three_joints();
+  const IdentifyOptions options;
+  const Measurement measurement = to_measurement(arm, little_moved(1e-3));
+  RowMatrix time(measurement.rows(), 1);
+  for (Index i = 0; i < measurement.rows(); ++i) {
+    time(i, 0) = static_cast<double>((7 * i + 3) % measurement.rows());
+  }
+  const ArmSubject subject(arm, measurement, {{"time", time}}, options, {});
+  for (Index i = 0; i < measurement.rows(); ++i) {
+    ASSERT_EQ(subject.units().order[i], static_cast<int>(time(i, 0)));
+  }
+}
+
 }  // namespace
 }  // namespace bathyal

@@ -33,7 +33,8 @@ class LinearSubject final : public Subject {
 
   /// A form whose parameter does `column`.
   void add(const std::string& effect, const Eigen::VectorXd& column, bool probe = false) {
-    forms_.push_back({effect, -1, effect, effect, 1.0, false, false, probe});
+    forms_.push_back({effect, -1, effect, effect, 1.0});
+    forms_.back().probe = probe;
     columns_.push_back(column);
   }
   Eigen::VectorXd& data() { return at_.misfit; }
@@ -51,6 +52,8 @@ class LinearSubject final : public Subject {
   }
   const Linearization& linearization() const override { return at_; }
   void settle(const std::vector<int>&) override {}
+  std::shared_ptr<const Place> place() const override { return std::make_shared<Place>(); }
+  void return_to(const Place&) override {}
   void set_trust(const Eigen::VectorXd&) override {}
   double noise() const override { return 1e-3; }
 

@@ -168,13 +168,14 @@ TEST(Measurement, LabelsAreCountedInRisingOrder) {
   EXPECT_DOUBLE_EQ(free_position_rows(m), 9.0);
 }
 
-TEST(Measurement, EveryThirdRowIsThatRow) {
+TEST(Measurement, SomeRowsAreThoseRows) {
   const Measurement m = to_measurement(planar_arm(), good_tracked());
-  const Measurement some = every(m, 3);
+  const Measurement some = some_of(m, {0, 3});
   ASSERT_EQ(some.rows(), 2);
   EXPECT_EQ(some.q.row(1), m.q.row(3));
   EXPECT_EQ(some.position.col(1), m.position.col(3));
   EXPECT_EQ(some.station.size(), 2U);
+  EXPECT_EQ(some.actions, (std::vector<int>{0, 3}));
 }
 
 }  // namespace
