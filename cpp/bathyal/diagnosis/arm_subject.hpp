@@ -94,7 +94,9 @@ class ArmSubject final : public Subject {
   bool move_orders();
   std::map<Family, std::vector<Index>> large_families() const;
   bool learn_sizes(const Eigen::VectorXd& x);
-  double freedom_of_rows() const;
+  Eigen::MatrixXd told_by_data(const Eigen::VectorXd& x, const Eigen::VectorXd& weight) const;
+  /// Rows of positions and of orientations that are not left out, less what points take.
+  Eigen::Array2d free_rows() const;
   void gather_data(const Covariates& covariates);
   void gather_units();
   void gather_forms(const Effects& effects);

@@ -291,13 +291,13 @@ void ArmSubject::stand_at(const Eigen::VectorXd& x) {
   }
 }
 
-/// Of positions and orientations that are not left out.
-double ArmSubject::freedom_of_rows() const {
-  double rows = free_position_rows(m_) + static_cast<double>(problem_.system->rotation_rows());
+Eigen::Array2d ArmSubject::free_rows() const {
+  Eigen::Array2d rows(free_position_rows(m_),
+                      static_cast<double>(problem_.system->rotation_rows()));
   for (Index i = 0; i < m_.rows(); ++i) {
     if (problem_.system->trust()[i] >= kLeftOut * 2.0) continue;
-    rows -= !m_.tracked && m_.plane[i] >= 0 ? 1.0 : 3.0;
-    if (m_.has_rotation()) rows -= 3.0;
+    rows[0] -= !m_.tracked && m_.plane[i] >= 0 ? 1.0 : 3.0;
+    if (m_.has_rotation()) rows[1] -= 3.0;
   }
   return rows;
 }
@@ -310,13 +310,7 @@ bool ArmSubject::update_noise() {
   const Eigen::VectorXd y = system.scaled(x_);
   system.evaluate(y.data(), residuals.data(), nullptr);
   const double all = static_cast<double>(positions + system.rotation_rows());
-  double free = free_position_rows(m_);
-  double turning = static_cast<double>(system.rotation_rows());
-  for (Index i = 0; i < m_.rows(); ++i) {
-    if (system.trust()[i] >= kLeftOut * 2.0) continue;
-    free -= !m_.tracked && m_.plane[i] >= 0 ? 1.0 : 3.0;
-    if (m_.has_rotation()) turning -= 3.0;
-  }
+  const Eigen::Array2d free = free_rows();
   Noise noise = system.noise();
   const Noise old = noise;
   // Columns take of each kind of row its share.
@@ -325,12 +319,12 @@ bool ArmSubject::update_noise() {
     return freedom > 0.5 ? std::max(now * std::sqrt(squares / freedom), kLeastNoise) : now;
   };
   if (!problem_.options.noise) {
-    noise.position = estimate(residuals.head(positions).squaredNorm(), free,
+    noise.position = estimate(residuals.head(positions).squaredNorm(), free[0],
                               static_cast<double>(positions) / all, old.position);
   }
   if (m_.has_rotation() && !problem_.options.rotation_noise) {
     noise.rotation = estimate(residuals.segment(positions, system.rotation_rows()).squaredNorm(),
-                              turning, 1.0 - static_cast<double>(positions) / all, old.rotation);
+                              free[1], 1.0 - static_cast<double>(positions) / all, old.rotation);
   }
   system.set_noise(noise, x_);
   return std::abs(noise.position / old.position - 1.0) > kNoiseSettled ||

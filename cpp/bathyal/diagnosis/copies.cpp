@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 
+#include "bathyal/identify/measurement.hpp"
 #include "bathyal/identify/wording.hpp"
 
 namespace bathyal {
@@ -17,15 +18,6 @@ std::vector<int> firsts(const std::vector<int>& of) {
     if (of[i] == i) rows.push_back(i);
   }
   return rows;
-}
-
-template <class Item>
-std::vector<Item> picked(const std::vector<Item>& all, const std::vector<int>& rows) {
-  std::vector<Item> some;
-  for (const int row : rows) {
-    if (!all.empty()) some.push_back(all[row]);
-  }
-  return some;
 }
 
 using Numbers = std::vector<double>;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "bathyal/diagnosis/beyond_names.hpp"
 #include "bathyal/diagnosis/blocks.hpp"
 #include "bathyal/diagnosis/explainer.hpp"
 #include "bathyal/diagnosis/odd_units.hpp"
@@ -38,9 +39,6 @@ struct RivalForm {
   int instead = 0;  ///< form
   double odds = 0.0;
 };
-
-/// Corrected p-value below which structure is beyond noise.
-inline constexpr double kBeyondNoise = 0.002;
 
 /// Findings of one subject: which forms explain what its base model does not.
 struct Examination {

@@ -129,37 +129,36 @@ std::vector<int> Explainer::best_forms(std::vector<int> start, int scans) {
   return sharpened(std::move(forms));
 }
 
-/// Names and odd units in turn, until both stay; the best that was seen, for they may go in rounds.
-Explanation Explainer::explain(Eigen::VectorXd trust, const std::vector<int>& start, int passes) {
-  Explanation now{start, std::move(trust)};
+/// Names, then odd units, one step on from `now`, where the subject stands.
+Explanation Explainer::step_from(const Explanation& now, int scans) {
+  Explanation next{best_forms(now.forms, scans), now.trust};
+  vantage_.settle(next.forms);
+  const Ground& whole = vantage_.ground(next.forms);
+  next.trust =
+      leave_out_odd(vantage_.subject().linearization(), whole.basis, now.trust, whole.freedom);
+  if (next.trust != now.trust) {
+    vantage_.set_trust(next.trust);
+    vantage_.settle(next.forms);
+  }
+  return next;
+}
+
+/// Such steps until both stay; the best that was seen, for they may go in rounds.
+Explainer::Seen Explainer::explain(Eigen::VectorXd trust) {
+  Explanation now{{}, std::move(trust)};
   vantage_.set_trust(now.trust);
-  vantage_.settle(start);
-  Explanation best = now;
+  vantage_.settle({});
+  Seen best;
   int worse = 0;
-  for (int pass = 0; pass < passes; ++pass) {
+  for (int pass = 0; pass < kMostPasses && worse < 2; ++pass) {
     still_at_it_();
-    int scans = now.forms.empty() ? kMostScans : 1;
-    if (!start.empty()) scans = 0;
-    const std::vector<int> forms = best_forms(now.forms, scans);
-    vantage_.settle(forms);
-    const Ground& whole = vantage_.ground(forms);
-    const Eigen::VectorXd next =
-        leave_out_odd(vantage_.subject().linearization(), whole.basis, now.trust, whole.freedom);
-    const bool same = next == now.trust;
-    const bool settled = same && (forms == now.forms || forms.empty());
-    now.forms = forms;
-    now.trust = next;
-    if (!same) {
-      vantage_.set_trust(next);
-      vantage_.settle(forms);
-    }
-    now.score = vantage_.score_of(now.forms, now.trust);
-    worse = pass == 0 || now.score > best.score + kSettledScore ? 0 : worse + 1;
-    if (pass == 0 || now.score > best.score) {
-      best = now;
-      best.place = vantage_.place();
-    }
-    if (settled || worse == 2) break;
+    const Explanation next = step_from(now, now.forms.empty() ? kMostScans : 1);
+    const double score = vantage_.score_of(next.forms, next.trust);
+    worse = pass == 0 || score > best.score + kSettledScore ? 0 : worse + 1;
+    if (pass == 0 || score > best.score) best = {next, score, vantage_.place()};
+    const bool stays = next.trust == now.trust && (next.forms == now.forms || next.forms.empty());
+    if (stays) break;
+    now = next;
   }
   return best;
 }
@@ -171,13 +170,13 @@ Explanation Explainer::best() {
   const Eigen::VectorXd all = Eigen::VectorXd::Ones(vantage_.subject().units().count());
   const Eigen::VectorXd without_odd = leave_out_odd(at, base.basis, all, base.freedom);
   // Gross errors hide causes, and causes look like gross errors: both orders are tried.
-  Explanation best = explain(all, {}, kMostPasses);
+  Seen best = explain(all);
   if (without_odd != all) {
-    Explanation other = explain(without_odd, {}, kMostPasses);
+    Seen other = explain(without_odd);
     if (other.score > best.score) best = std::move(other);
   }
   vantage_.return_to(*best.place);
-  return best;
+  return best.explanation;
 }
 
 Explanation Explainer::best_from(const FirstLook& look) {
@@ -187,10 +186,10 @@ Explanation Explainer::best_from(const FirstLook& look) {
     const Form& about = vantage_.form(form);
     if (about.moves || about.plain) is_sharp_.insert(form);
   }
-  const Eigen::VectorXd all = Eigen::VectorXd::Ones(vantage_.subject().units().count());
-  Explanation best = explain(all, look.forms, 1);
-  vantage_.return_to(*best.place);
-  return best;
+  const Explanation found{look.forms, Eigen::VectorXd::Ones(vantage_.subject().units().count())};
+  vantage_.set_trust(found.trust);
+  vantage_.settle(found.forms);
+  return step_from(found, 0);
 }
 
 FirstLook Explainer::look_at(const std::vector<int>& forms) const {

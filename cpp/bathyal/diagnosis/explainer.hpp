@@ -2,7 +2,7 @@
 #pragma once
 
 #include <functional>
-#include <limits>
+#include <memory>
 #include <set>
 #include <vector>
 
@@ -14,8 +14,6 @@ namespace bathyal {
 struct Explanation {
   std::vector<int> forms;
   Eigen::VectorXd trust;  ///< (units,) 0 of those that are left out
-  double score = -std::numeric_limits<double>::infinity();
-  std::shared_ptr<const Subject::Place> place = nullptr;  ///< where the subject stood
 };
 
 /// What a look at some of the units finds.
@@ -46,9 +44,16 @@ class Explainer {
   void remember(int form);
 
  private:
+  /// An explanation, how good it is, and where the subject stood at it.
+  struct Seen {
+    Explanation explanation;
+    double score = 0.0;
+    std::shared_ptr<const Subject::Place> place;
+  };
   void add_peaks(const Ground& beside);
   std::vector<int> sharpened(std::vector<int> forms);
-  Explanation explain(Eigen::VectorXd trust, const std::vector<int>& start, int passes);
+  Explanation step_from(const Explanation& now, int scans);
+  Seen explain(Eigen::VectorXd trust);
 
   Vantage& vantage_;
   std::function<void()> still_at_it_;

@@ -84,7 +84,7 @@ std::vector<Dependence> Vantage::dependences(const Ground& beside) const {
   std::vector<Dependence> out;
   for (const ScannedForm& form : scanned) {
     if (form.width == 0.0 || !(beside.freedom > form.width + 1.0)) continue;
-    Dependence d{form.form, form.explained, form.width, 1.0, 0.0, 0.0};
+    Dependence d{form.form, form.explained, form.width};
     const double noise = (total - form.explained) / (beside.freedom - form.width);
     d.p = std::min(
         1.0, static_cast<double>(asked.size()) * f_tail(form.explained / form.width / noise,
@@ -92,6 +92,7 @@ std::vector<Dependence> Vantage::dependences(const Ground& beside) const {
     const double beyond = std::max(form.explained - form.width * noise, 0.0);
     d.size = std::sqrt(beyond / rows);
     d.share = total > 0.0 ? beyond / total : 0.0;
+    d.gain = form.gain - std::log(subject_.forms()[form.form].trials);
     out.push_back(d);
   }
   std::stable_sort(out.begin(), out.end(), [](const Dependence& a, const Dependence& b) {

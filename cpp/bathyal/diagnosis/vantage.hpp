@@ -24,6 +24,7 @@ struct Dependence {
   double p = 1.0;     ///< all probes counted
   double size = 0.0;  ///< per row [noise]
   double share = 0.0;
+  double gain = 0.0;  ///< in log evidence, its trials counted
 };
 
 /// A subject where it stands, and what is seen from there.

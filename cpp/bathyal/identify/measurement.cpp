@@ -65,20 +65,13 @@ double pair_sum(const Measurement& m, const Eigen::Matrix3Xd& deviations) {
 }
 
 Measurement some_of(const Measurement& m, const std::vector<int>& rows) {
-  const auto picked = [&rows](const auto& all) {
-    std::decay_t<decltype(all)> some;
-    for (const int row : rows) {
-      if (!all.empty()) some.push_back(all[row]);
-    }
-    return some;
-  };
   Measurement out = m;
-  out.weights = picked(m.weights);
-  out.tool = picked(m.tool);
-  out.station = picked(m.station);
-  out.point = picked(m.point);
-  out.plane = picked(m.plane);
-  out.rotation = picked(m.rotation);
+  out.weights = picked(m.weights, rows);
+  out.tool = picked(m.tool, rows);
+  out.station = picked(m.station, rows);
+  out.point = picked(m.point, rows);
+  out.plane = picked(m.plane, rows);
+  out.rotation = picked(m.rotation, rows);
   out.actions.clear();
   for (const int row : rows) out.actions.push_back(static_cast<int>(m.action_row(row)));
   out.q = m.q(rows, Eigen::all);

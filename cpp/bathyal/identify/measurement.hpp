@@ -58,6 +58,16 @@ double free_position_rows(const Measurement& measurement);
 /// m Σ about the mean. Touches count alike whatever their weights.
 double pair_sum(const Measurement& measurement, const Eigen::Matrix3Xd& deviations);
 
+/// Items of `all` at `rows`; none of a list that says nothing.
+template <class Item>
+std::vector<Item> picked(const std::vector<Item>& all, const std::vector<int>& rows) {
+  std::vector<Item> some;
+  for (const int row : rows) {
+    if (!all.empty()) some.push_back(all[row]);
+  }
+  return some;
+}
+
 /// Some rows of it, with all that is known of the points.
 Measurement some_of(const Measurement& measurement, const std::vector<int>& rows);
 

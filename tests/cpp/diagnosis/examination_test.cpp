@@ -31,11 +31,11 @@ class LinearSubject final : public Subject {
     at_.noise_rows = kRows;
   }
 
-  /// A form whose parameter does `column`.
-  void add(const std::string& effect, const Eigen::VectorXd& column, bool probe = false) {
+  /// A form whose parameters do `columns`.
+  void add(const std::string& effect, const Eigen::MatrixXd& columns, bool probe = false) {
     forms_.push_back({effect, -1, effect, effect, 1.0});
     forms_.back().probe = probe;
-    columns_.push_back(column);
+    columns_.push_back(columns);
   }
   Eigen::VectorXd& data() { return at_.misfit; }
   void set_base(const Eigen::VectorXd& column) { at_.base = column; }
@@ -47,7 +47,7 @@ class LinearSubject final : public Subject {
   std::vector<int> finer(int) override { return {}; }
   std::vector<Eigen::MatrixXd> columns(std::span<const int> forms) const override {
     std::vector<Eigen::MatrixXd> out;
-    for (const int form : forms) out.emplace_back(columns_[static_cast<std::size_t>(form)]);
+    for (const int form : forms) out.push_back(columns_[static_cast<std::size_t>(form)]);
     return out;
   }
   const Linearization& linearization() const override { return at_; }
@@ -79,10 +79,12 @@ Eigen::VectorXd swing(std::uint64_t seed, double size) {
   return column;
 }
 
-std::vector<std::string> names_of(const LinearSubject& subject, const Examination& found) {
-  std::vector<std::string> names;
-  for (const Chosen& name : found.names) names.push_back(subject.forms()[name.form].effect);
-  return names;
+using Words = std::vector<std::string>;
+
+Words words_of(const LinearSubject& subject, const std::vector<Chosen>& chosen) {
+  Words words;
+  for (const Chosen& one : chosen) words.push_back(subject.forms()[one.form].effect);
+  return words;
 }
 
 TEST(Examine, WhatARefutedNameStoodForIsLeftOver) {
@@ -96,8 +98,7 @@ TEST(Examine, WhatARefutedNameStoodForIsLeftOver) {
   subject.data() += in_block(5, 8.0);
   const Examination found = examine(subject, {1, 10}, {});
   EXPECT_TRUE(found.names.empty());
-  ASSERT_EQ(found.probes.size(), 1u);
-  EXPECT_EQ(subject.forms()[found.probes[0].form].effect, "somewhere");
+  EXPECT_EQ(words_of(subject, found.probes), Words{"somewhere"});
   EXPECT_GT(found.left_over, 0.9 * 20 * 64.0);
 }
 
@@ -112,7 +113,58 @@ TEST(Examine, ANameThatForetellsBadlyGoesByItself) {
   subject.add("spoiler", faint + strong);
   subject.data() += 0.2 * one + 0.2 * other + 0.1 * strong - 2.0 * faint;
   const Examination found = examine(subject, {1, 10}, {});
-  EXPECT_EQ(names_of(subject, found), (std::vector<std::string>{"one", "other"}));
+  EXPECT_EQ(words_of(subject, found.names), (Words{"one", "other"}));
+}
+
+/// What is there, by a probe; and a name that is the nearest thing to it, beside `others` that are
+/// there as well.
+Examination nearest_thing_beside(LinearSubject& subject, int others) {
+  const Eigen::VectorXd truth = swing(1, 20.0);
+  subject.add("nearest", truth + swing(2, 8.0));
+  subject.add("truth", truth, true);
+  subject.data() += 0.1 * truth;
+  for (int i = 0; i < others; ++i) {
+    const Eigen::VectorXd other = swing(10 + static_cast<std::uint64_t>(i), 20.0);
+    subject.add("other " + std::to_string(i), other);
+    subject.data() += 0.1 * other;
+  }
+  return examine(subject, {1, 10}, {});
+}
+
+TEST(Examine, ANameGivesWayToStructureThatItWasOnlyNearTo) {
+  LinearSubject subject;
+  const Examination found = nearest_thing_beside(subject, 2);
+  EXPECT_EQ(words_of(subject, found.names), (Words{"other 0", "other 1"}));
+  EXPECT_EQ(words_of(subject, found.probes), Words{"truth"});
+}
+
+TEST(Examine, AmongManyNamesStructureIsToldBeside) {
+  LinearSubject subject;
+  const Examination found = nearest_thing_beside(subject, 6);
+  EXPECT_EQ(found.names.size(), 7u);
+  EXPECT_EQ(words_of(subject, found.names).front(), "nearest");
+  ASSERT_EQ(words_of(subject, found.probes), Words{"truth"});
+  EXPECT_LT(found.probes[0].p, kBeyondNoise);
+  EXPECT_GT(found.left_over, 0.0);
+}
+
+TEST(Examine, StructureThatForetellsNothingTakesNoNamesPlace) {
+  LinearSubject subject;
+  const Eigen::VectorXd name = swing(1, 20.0);
+  subject.add("name", name);
+  // In each block another strength of the name: what it holds, and what no block tells of another.
+  Eigen::MatrixXd by_block = Eigen::MatrixXd::Zero(kRows, kRows / kOfBlock);
+  for (Index b = 0; b < by_block.cols(); ++b) {
+    const auto rows = Eigen::seqN(b * kOfBlock, kOfBlock);
+    by_block(rows, b) = name(rows);
+    subject.data()(rows) += (b % 2 == 0 ? 0.17 : 0.11) * name(rows);
+  }
+  subject.add("by block", by_block, true);
+  const Examination found = examine(subject, {1, 10}, {});
+  EXPECT_EQ(words_of(subject, found.names), Words{"name"});
+  ASSERT_EQ(words_of(subject, found.probes), Words{"by block"});
+  EXPECT_EQ(found.probes[0].width, kRows / kOfBlock - 1);
+  EXPECT_LT(found.probes[0].p, kBeyondNoise);
 }
 
 }  // namespace
