@@ -109,27 +109,28 @@ void ArmSubject::gather_units() {
 void ArmSubject::gather_noise_forms() {
   if (m_.tracked) {
     // Where the model has the tip: what was measured holds the very errors that are looked at.
-    Eigen::VectorXd range(m_.rows());
     const std::vector<Vec3> world = tips();
+    Eigen::MatrixXd loads(3 * m_.rows(), 3);
     for (Index i = 0; i < m_.rows(); ++i) {
-      range[i] = world[static_cast<std::size_t>(i)].squaredNorm();
+      const double range = world[static_cast<std::size_t>(i)].norm();
+      loads.middleRows<3>(3 * i) = std::sqrt(m_.weights[i]) * range * Eigen::Matrix3d::Identity();
     }
     noise_forms_.push_back(
-        {"range_noise", "noise that grows with the range", "rate", "1", 1.0, std::move(range)});
+        {"range_noise", "noise that grows with the range", "rate", "1", 1.0, std::move(loads)});
   }
   const double step = logged_step(m_.q, nominal_);
   if (!(step > 0.0)) return;
-  Eigen::VectorXd variance(m_.rows());
+  Eigen::MatrixXd loads(3 * m_.rows(), m_.q.cols());
   const TipWalk walk(problem_.columns, x_, {});
   WalkFrames frames;
   Vec3 tip;
   for (Index i = 0; i < m_.rows(); ++i) {
-    variance[i] = walk.joint_jacobian(m_.q.row(i).data(), i, m_.tool[i], m_.station[i], frames, tip)
-                      .squaredNorm() /
-                  36.0;  // a twelfth of the step's square, shared by three axes
+    const double evenly = std::sqrt(m_.weights[i] / 12.0);  // over a step of 1
+    loads.middleRows<3>(3 * i) =
+        evenly * walk.joint_jacobian(m_.q.row(i).data(), i, m_.tool[i], m_.station[i], frames, tip);
   }
   noise_forms_.push_back(
-      {"quantisation", "joint values logged in steps", "step", "rad", 1.0, std::move(variance)});
+      {"quantisation", "joint values logged in steps", "step", "rad", 1.0, std::move(loads)});
   noise_forms_.back().known = step;
 }
 
@@ -283,6 +284,7 @@ std::vector<ArmSubject::ParameterColumns> ArmSubject::columns_of(
   x.head(x_.size()) = x_;
   ArmSystem system(columns, m_, Criterion::kCentroid, false, problem_.system->num_threads());
   system.set_trust(problem_.system->trust());
+  system.set_row_whitening(problem_.system->row_whitening());
   system.set_noise(problem_.system->noise(), x);
   system.set_joints(exact_);
   system.set_free(wanted);

@@ -41,6 +41,7 @@ class ArmSubject final : public Subject {
   std::shared_ptr<const Place> place() const override;
   void return_to(const Place& place) override;
   void set_trust(const Eigen::VectorXd& trust) override;
+  void set_noise_forms(const Eigen::VectorXd& ratios) override;
   double noise() const override { return problem_.system->noise().position; }
 
   const ArmFit& geometry() const { return fit_; }
@@ -63,6 +64,12 @@ class ArmSubject final : public Subject {
   /// The rigid part where the model stands, base and tool set.
   Arm arm() const;
   Eigen::Matrix3Xd deviations() const;
+  /// (3, N) position rows, in units of their noise, as distances [m].
+  Eigen::Matrix3Xd in_metres(const Eigen::VectorXd& rows) const;
+  /// Standard deviation of a row of weight 1 per axis, in mean over rows and axes [m].
+  double mean_noise() const;
+  /// One unit of a mean square over rows in units of their noise [m]: the exact ones count most.
+  double mean_unit() const;
   /// The same where the subject last stood without effects.
   const Eigen::Matrix3Xd& bare_deviations() const { return bare_; }
 
@@ -95,6 +102,7 @@ class ArmSubject final : public Subject {
   std::map<Family, std::vector<Index>> large_families() const;
   bool learn_sizes(const Eigen::VectorXd& x);
   Eigen::MatrixXd told_by_data(const Eigen::VectorXd& x, const Eigen::VectorXd& weight) const;
+  std::vector<Index> trusted() const;  ///< rows that are not left out
   /// Rows of positions and of orientations that are not left out, less what points take.
   Eigen::Array2d free_rows() const;
   void gather_data(const Covariates& covariates);

@@ -137,6 +137,7 @@ struct ArmSubject::ArmPlace final : Place {
   std::map<Family, double> sizes;
   Eigen::VectorXd x;
   std::vector<double> trust;
+  ArmSystem::Whitening whitening;
   Noise noise;
 };
 
@@ -147,6 +148,7 @@ std::shared_ptr<const Subject::Place> ArmSubject::place() const {
   out->sizes = sizes_;
   out->x = x_;
   out->trust = problem_.system->trust();
+  out->whitening = problem_.system->row_whitening();
   out->noise = problem_.system->noise();
   return out;
 }
@@ -160,6 +162,7 @@ void ArmSubject::return_to(const Place& place) {
   sizes_ = to.sizes;
   stand_with(to.standing);
   problem_.system->set_trust(to.trust);
+  problem_.system->set_row_whitening(to.whitening);
   problem_.system->set_noise(to.noise, to.x);
   stand_at(to.x);
 }
@@ -282,11 +285,10 @@ void ArmSubject::stand_at(const Eigen::VectorXd& x) {
       if (m_.has_rotation()) {
         linearization_.unit[3 * m_.rows() + 3 * i + axis] = static_cast<int>(i);
       }
-      // Where a point is, is free: what the centroid takes of the rows, as columns.
-      if (!m_.tracked && m_.point[i] >= 0) {
-        linearization_.base(3 * i + axis, seen + 3 * m_.point[i] + axis) =
-            std::sqrt(system.weight(i)) / system.noise().position;
-      }
+    }
+    // Where a point is, is free: what the centroid takes of the rows, as columns.
+    if (!m_.tracked && m_.point[i] >= 0) {
+      linearization_.base.block<3, 3>(3 * i, seen + 3 * m_.point[i]) = system.row_factor(i);
     }
   }
 }
@@ -337,6 +339,22 @@ void ArmSubject::set_trust(const Eigen::VectorXd& trust) {
     factors[i] = trust[i] > 0.0 ? std::max(trust[i], kLeftOut) : kLeftOut;
   }
   problem_.system->set_trust(std::move(factors));
+}
+
+/// Errors of a pose's rows have the covariance 1 + Σ ratio · loads loadsᵀ.
+void ArmSubject::set_noise_forms(const Eigen::VectorXd& ratios) {
+  auto whitening =
+      std::make_shared<std::vector<Eigen::Matrix3d>>(static_cast<std::size_t>(m_.rows()));
+  for (Index i = 0; i < m_.rows(); ++i) {
+    Eigen::Matrix3d covariance = Eigen::Matrix3d::Identity();
+    for (Index f = 0; f < ratios.size(); ++f) {
+      const auto loads = noise_forms_[static_cast<std::size_t>(f)].loads.middleRows<3>(3 * i);
+      covariance += ratios[f] * (loads * loads.transpose());
+    }
+    (*whitening)[i] =
+        Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance).operatorInverseSqrt();
+  }
+  problem_.system->set_row_whitening(std::move(whitening));
 }
 
 /// What a change of each standing order does to the residuals: the values beside it are no surer

@@ -66,4 +66,38 @@ Arm ArmSubject::arm() const {
 
 Eigen::Matrix3Xd ArmSubject::deviations() const { return problem_.system->deviations(x_); }
 
+Eigen::Matrix3Xd ArmSubject::in_metres(const Eigen::VectorXd& rows) const {
+  Eigen::Matrix3Xd out(3, m_.rows());
+  for (Index i = 0; i < m_.rows(); ++i) {
+    out.col(i) = problem_.system->row_factor(i).ldlt().solve(rows.segment<3>(3 * i));
+  }
+  return out;
+}
+
+double ArmSubject::mean_noise() const {
+  double variances = 0.0, rows = 0.0;
+  for (const Index i : trusted()) {
+    variances += m_.weights[i] * problem_.system->row_factor(i).inverse().squaredNorm();
+    rows += 3.0;
+  }
+  return rows > 0.0 ? std::sqrt(variances / rows) : noise();
+}
+
+double ArmSubject::mean_unit() const {
+  double precisions = 0.0, rows = 0.0;
+  for (const Index i : trusted()) {
+    precisions += problem_.system->row_factor(i).squaredNorm() / m_.weights[i];
+    rows += 3.0;
+  }
+  return rows > 0.0 ? std::sqrt(rows / precisions) : noise();
+}
+
+std::vector<Index> ArmSubject::trusted() const {
+  std::vector<Index> rows;
+  for (Index i = 0; i < m_.rows(); ++i) {
+    if (problem_.system->trust()[i] >= kLeftOut * 2.0) rows.push_back(i);
+  }
+  return rows;
+}
+
 }  // namespace bathyal

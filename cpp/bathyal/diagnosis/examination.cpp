@@ -94,8 +94,17 @@ void Examiner::weigh_noise() {
                            ? fit.share > kMatters
                            : fit.gain > kNameCost + cost_of_freedom(1.0, 2.0 * fit.gain) &&
                                  fit.held_out_gain > 0.0;
-    if (named) out_.noise.push_back(std::move(fit));
+    if (named) out_.noise.push_back(fit);
   }
+  if (out_.noise.empty()) return;
+  // Rows count by their own noise from here on, and what was named is asked again.
+  Eigen::VectorXd ratios = Eigen::VectorXd::Zero(static_cast<Index>(subject_.noise_forms().size()));
+  for (const NoiseFit& fit : out_.noise) ratios[fit.form] = fit.ratio;
+  vantage_.set_noise_forms(ratios);
+  vantage_.settle(standing_.names);
+  const Explanation again = explainer_.again({standing_.names, trust_});
+  standing_.names = again.forms;
+  trust_ = again.trust;
 }
 
 /// That the `i`-th of a set is luck, beside the others: by Fisher's F, with all that was tried of
@@ -259,7 +268,6 @@ Examination Examiner::run(const FirstLook& look) {
   out_.blocks = make_blocks(subject_.units(), options_.blocks);
   choose_explanation(look);
   tell_detectable();
-  out_.trust = trust_;
   const Ground& whole = vantage_.ground(standing_.names);
   out_.held_out = out_.blocks.count >= kLeastBlocks && whole.freedom >= kLeastFreedom;
   if (!out_.held_out) {
@@ -268,14 +276,6 @@ Examination Examiner::run(const FirstLook& look) {
     return std::move(out_);
   }
   weigh_noise();
-  if (!out_.noise.empty()) {
-    // Rows count by their own noise from here on, and what was named is asked again.
-    for (const NoiseFit& fit : out_.noise) out_.trust.array() /= fit.factor.array();
-    vantage_.set_trust(out_.trust);
-    vantage_.settle(standing_.names);
-    standing_.names = explainer_.best_forms(standing_.names, 1);
-    vantage_.settle(standing_.names);
-  }
   tell(0.6, "looking for what is left");
   BeyondNames beyond(vantage_, explainer_.candidates(), out_.blocks, trust_,
                      [this] { tell_again(); });

@@ -49,7 +49,6 @@ struct Examination {
   std::vector<RivalForm> rivals;  ///< likeliest first, by name
   std::vector<Dependence> shown;  ///< of the base model alone, likeliest first
   std::vector<int> odd;           ///< units left out
-  Eigen::VectorXd trust;          ///< (units,) factors on their weights, by which rows were judged
   double base_noise = 0.0;        ///< one unit of `shown` [m]
   std::vector<NoiseFit> noise;    ///< noise forms that were named
   double base_squares = 0.0;      ///< beside the base model, before anything was named

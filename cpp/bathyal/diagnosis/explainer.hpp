@@ -34,11 +34,10 @@ class Explainer {
   Explanation best();
   /// The same from what a look at some of the units found: no forms but its own are asked.
   Explanation best_from(const FirstLook& look);
+  /// `found` looked at again where rows weigh another way; the subject must stand at its forms.
+  Explanation again(const Explanation& found) { return step_from(found, 1); }
   /// What stands, and what may take a place in it where there are more units.
   FirstLook look_at(const std::vector<int>& forms) const;
-  /// The best set where the subject stands, from `start` on; so many `scans` look again beside it.
-  std::vector<int> best_forms(std::vector<int> start, int scans);
-
   /// Library forms that are worth a pool.
   const std::vector<int>& candidates() const { return candidates_; }
   void remember(int form);
@@ -52,6 +51,8 @@ class Explainer {
   };
   void add_peaks(const Ground& beside);
   std::vector<int> sharpened(std::vector<int> forms);
+  /// The best set where the subject stands, from `start` on; so many `scans` look again beside it.
+  std::vector<int> best_forms(std::vector<int> start, int scans);
   Explanation step_from(const Explanation& now, int scans);
   Seen explain(Eigen::VectorXd trust);
 

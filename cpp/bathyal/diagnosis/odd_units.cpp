@@ -21,22 +21,27 @@ std::vector<std::vector<Index>> rows_of_units(const Linearization& at, Index uni
   return rows;
 }
 
-/// Sum of a unit's squares and its rows, leverage taken out, as if all units had full trust.
+/// What the rows show, turned within each unit so that a noise form makes them independent.
 struct Spread {
-  std::vector<double> squares;
-  std::vector<double> rows;
+  std::vector<int> unit;
+  std::vector<double> squares;   ///< leverage taken out
   std::vector<double> variance;  ///< of the form, relative to the noise
+  void add(int of, double square, double by_form) {
+    unit.push_back(of);
+    squares.push_back(square);
+    variance.push_back(by_form);
+  }
 };
 
 /// -2 log likelihood at variances 1 + θ v, the common factor at its best.
 double deviance(const Spread& s, double theta) {
-  double logs = 0.0, sum = 0.0, rows = 0.0;
+  double logs = 0.0, sum = 0.0;
   for (std::size_t i = 0; i < s.squares.size(); ++i) {
     const double factor = 1.0 + theta * s.variance[i];
-    logs += s.rows[i] * std::log(factor);
+    logs += std::log(factor);
     sum += s.squares[i] / factor;
-    rows += s.rows[i];
   }
+  const auto rows = static_cast<double>(s.squares.size());
   return logs + rows * std::log(std::max(sum / rows, 1e-300));
 }
 
@@ -73,31 +78,55 @@ double best_theta(const Spread& s) {
 
 Spread some_of(const Spread& all, const std::vector<int>& block, int wanted, bool inside) {
   Spread out;
-  for (std::size_t i = 0; i < block.size(); ++i) {
-    if ((block[i] == wanted) != inside) continue;
-    out.squares.push_back(all.squares[i]);
-    out.rows.push_back(all.rows[i]);
-    out.variance.push_back(all.variance[i]);
+  for (std::size_t i = 0; i < all.unit.size(); ++i) {
+    if ((block[all.unit[i]] == wanted) == inside) {
+      out.add(all.unit[i], all.squares[i], all.variance[i]);
+    }
   }
   return out;
 }
 
 double best_scale(const Spread& s, double theta) {
-  double sum = 0.0, rows = 0.0;
+  double sum = 0.0;
   for (std::size_t i = 0; i < s.squares.size(); ++i) {
     sum += s.squares[i] / (1.0 + theta * s.variance[i]);
-    rows += s.rows[i];
   }
-  return rows > 0.0 ? sum / rows : 1.0;
+  return s.squares.empty() ? 1.0 : sum / static_cast<double>(s.squares.size());
 }
 
 double log_likelihood(const Spread& s, double theta, double scale) {
   double sum = 0.0;
   for (std::size_t i = 0; i < s.squares.size(); ++i) {
     const double factor = scale * (1.0 + theta * s.variance[i]);
-    sum -= 0.5 * (s.rows[i] * std::log(factor) + s.squares[i] / factor);
+    sum -= 0.5 * (std::log(factor) + s.squares[i] / factor);
   }
   return sum;
+}
+
+/// Rows of units that count.
+Spread spread_of(const NoiseForm& form, const Linearization& at, const Eigen::MatrixXd& basis,
+                 const Eigen::VectorXd& trust, double noise) {
+  constexpr double kLeastFree = 1e-3;  // of a row that the model all but explains by itself
+  const Eigen::VectorXd left = at.misfit - basis * (basis.transpose() * at.misfit);
+  const std::vector<std::vector<Index>> rows = rows_of_units(at, trust.size());
+  Spread out;
+  for (Index u = 0; u < trust.size(); ++u) {
+    if (!(trust[u] > 0.0)) continue;
+    std::vector<Index> own = rows[static_cast<std::size_t>(u)];
+    std::erase_if(own, [&](Index row) { return row >= at.noise_rows; });
+    const Eigen::MatrixXd loads = form.loads(own, Eigen::all) / noise;
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(loads * loads.transpose());
+    const Eigen::MatrixXd turn = eigen.eigenvectors().transpose();
+    const Eigen::VectorXd along = turn * left(own);
+    const Eigen::VectorXd taken = (turn * basis(own, Eigen::all)).rowwise().squaredNorm();
+    for (Index k = 0; k < along.size(); ++k) {
+      const double free = 1.0 - taken[k];
+      if (free < kLeastFree) continue;
+      out.add(static_cast<int>(u), along[k] * along[k] / free,
+              std::max(eigen.eigenvalues()[k], 0.0));
+    }
+  }
+  return out;
 }
 
 }  // namespace
@@ -149,23 +178,10 @@ Eigen::VectorXd leave_out_odd(const Linearization& at, const Eigen::MatrixXd& ba
 
 NoiseFit fit_noise(const NoiseForm& form, const Linearization& at, const Eigen::MatrixXd& basis,
                    const Eigen::VectorXd& trust, double noise, const Blocks& blocks) {
-  const Eigen::VectorXd left = at.misfit - basis * (basis.transpose() * at.misfit);
-  const Index units = trust.size();
-  Spread all{std::vector<double>(units, 0.0), std::vector<double>(units, 0.0),
-             std::vector<double>(units, 0.0)};
-  for (Index r = 0; r < at.noise_rows; ++r) {
-    const int i = at.unit[r];
-    if (i < 0 || !(trust[i] > 0.0)) continue;
-    const double free = 1.0 - basis.row(r).squaredNorm();
-    if (free < 1e-3) continue;
-    all.squares[i] += left[r] * left[r] / trust[i] / free;
-    all.rows[i] += 1.0;
-  }
-  for (Index i = 0; i < units; ++i) all.variance[i] = form.variance[i] / (noise * noise);
+  Spread all = spread_of(form, at, basis, trust, noise);
   double mean = 0.0;
-  for (const double v : all.variance) mean += v / static_cast<double>(units);
+  for (const double v : all.variance) mean += v / static_cast<double>(all.variance.size());
   NoiseFit out;
-  out.factor = Eigen::VectorXd::Ones(units);
   if (!(mean > 0.0)) return out;
   for (double& v : all.variance) v /= mean;  // so that θ is of the noise's size
 
@@ -195,7 +211,7 @@ NoiseFit fit_noise(const NoiseForm& form, const Linearization& at, const Eigen::
     out.held_out_gain += log_likelihood(own, other_theta, best_scale(others, other_theta)) -
                          log_likelihood(own, 0.0, best_scale(others, 0.0));
   }
-  for (Index i = 0; i < units; ++i) out.factor[i] = 1.0 + theta * all.variance[i];
+  out.ratio = theta / (mean * noise * noise);
   out.share = theta / (1.0 + theta);
   return out;
 }

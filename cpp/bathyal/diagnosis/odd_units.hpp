@@ -36,10 +36,10 @@ struct NoiseFit {
   double gain = 0.0;           ///< log likelihood over that of equal noise
   double held_out_gain = 0.0;  ///< the same on blocks that it did not see
   double share = 0.0;          ///< of the noise's variance that it makes
-  Eigen::VectorXd factor;      ///< (units,) variance over the part that is the same for all
+  double ratio = 0.0;          ///< Subject::set_noise_forms
 };
 
-/// `basis` as above; `noise` of a position row [m].
+/// `basis` as above; `noise` of a position row [m]. `trust` is 0 or 1.
 NoiseFit fit_noise(const NoiseForm& form, const Linearization& at, const Eigen::MatrixXd& basis,
                    const Eigen::VectorXd& trust, double noise, const Blocks& blocks);
 

@@ -45,7 +45,7 @@ class Reporter {
       tell_why_nothing_is_held_out();
       return std::move(out_);
     }
-    out_.detectable = found_.detectable * mean_unit();
+    out_.detectable = found_.detectable * subject_.mean_unit();
     tell_held_out();
     tell_effects();
     tell_leftover();
@@ -54,23 +54,6 @@ class Reporter {
   }
 
  private:
-  /// Noise of a row of full trust [m].
-  double unit() const { return subject_.noise(); }
-
-  /// One unit of a mean square over rows [m]. Where noise differs from row to row the most exact
-  /// one may be far below all others.
-  double mean_unit() const {
-    double trust = 0.0;
-    int rows = 0;
-    for (const double t : found_.trust) {
-      if (t > 0.0) {
-        trust += t;
-        ++rows;
-      }
-    }
-    return rows > 0 ? unit() / std::sqrt(trust / rows) : unit();
-  }
-
   const Form& form(int index) const { return subject_.forms()[index]; }
 
   /// By repeats of a pose, which no model explains away; else by what the model leaves.
@@ -93,7 +76,7 @@ class Reporter {
       out_.noise = std::sqrt(squares / freedom);
       out_.noise_source = "repeats of " + counted(poses, "pose");
     } else {
-      out_.noise = mean_unit();
+      out_.noise = subject_.mean_noise();
       out_.noise_source = "what the model leaves";
     }
     constexpr double kComputed = 1e-7;  // [m] at which steps of the search come to be seen
@@ -213,10 +196,7 @@ class Reporter {
 
   /// (N,) 3-D, of position rows [m]; NaN of rows that are left out.
   Eigen::VectorXd errors(const Eigen::VectorXd& rows) const {
-    Eigen::VectorXd out(m_.rows());
-    for (Index i = 0; i < m_.rows(); ++i) {
-      out[i] = rows.segment<3>(3 * i).norm() * unit() / std::sqrt(m_.weights[i] * found_.trust[i]);
-    }
+    Eigen::VectorXd out = subject_.in_metres(rows).colwise().norm();
     for (const int odd : found_.odd) out[odd] = std::numeric_limits<double>::quiet_NaN();
     return out;
   }
@@ -249,10 +229,10 @@ class Reporter {
         named.parameters.push_back(
             {parameter.name, parameter.unit, value, std, value - t * std, value + t * std});
       }
-      named.size = chosen->size * mean_unit();
+      named.size = chosen->size * subject_.mean_unit();
       const double rows = 3.0;  // a held-out mean square is per row, rms are of three
-      named.held_out_before = std::sqrt(rows * chosen->held_out_without) * mean_unit();
-      named.held_out_after = std::sqrt(rows * chosen->held_out_with) * mean_unit();
+      named.held_out_before = std::sqrt(rows * chosen->held_out_without) * subject_.mean_unit();
+      named.held_out_after = std::sqrt(rows * chosen->held_out_with) * subject_.mean_unit();
       named.gain = (named.held_out_before * named.held_out_before -
                     named.held_out_after * named.held_out_after) /
                    above;
@@ -305,7 +285,7 @@ class Reporter {
         [](const Chosen& a, const Chosen& b) { return a.explained < b.explained; });
     const auto rows = static_cast<double>(3 * m_.rows());
     out_.leftover = {form(most->form).effect, form(most->form).words,
-                     std::sqrt(found_.left_over / rows) * mean_unit(),
+                     std::sqrt(found_.left_over / rows) * subject_.mean_unit(),
                      found_.base_squares > 0.0 ? found_.left_over / found_.base_squares : 0.0,
                      most->p};
   }

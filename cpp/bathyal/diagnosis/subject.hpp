@@ -27,15 +27,15 @@ struct Form {
   bool probe = false;   ///< shows that structure is there, and is no cause
 };
 
-/// What makes the noise of some units larger than that of others.
+/// What makes the noise of some rows larger than that of others, and one with another.
 struct NoiseForm {
   std::string effect;
   std::string words;
-  std::string parameter;  ///< whose square multiplies `variance`
+  std::string parameter;  ///< standard deviation of its sources
   std::string unit;
   double trials = 1.0;
-  Eigen::VectorXd variance;  ///< (units,) of a position row per axis, per unit of parameter² [m²]
-  double known = 0.0;        ///< the parameter, where the record itself tells it; else 0
+  Eigen::MatrixXd loads;  ///< (noise rows, k) what sources of their own, k in each unit, do [m]
+  double known = 0.0;     ///< the parameter, where the record itself tells it; else 0
 };
 
 /// One measured thing (a pose) and what is known of it beside the model.
@@ -96,6 +96,9 @@ class Subject {
   /// Factors on the weight (1 / variance) of each unit; 0 leaves it out. Counts from the next
   /// `settle` on.
   virtual void set_trust(const Eigen::VectorXd& trust) = 0;
+  /// (noise forms,) squares of their parameters over that of the noise which is the same for all
+  /// [per m²]: rows weigh by what all of it makes of their errors. The same.
+  virtual void set_noise_forms(const Eigen::VectorXd& ratios) = 0;
   /// Standard deviation of a position row where the model stands [m].
   virtual double noise() const = 0;
 };

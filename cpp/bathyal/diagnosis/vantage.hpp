@@ -43,6 +43,7 @@ class Vantage {
   void return_to(const Subject::Place& place);
   /// Counts from the next `settle` on.
   void set_trust(const Eigen::VectorXd& trust) { subject_.set_trust(trust); }
+  void set_noise_forms(const Eigen::VectorXd& ratios) { subject_.set_noise_forms(ratios); }
   /// Forms of a scan between `form` and its neighbours, made on demand.
   std::vector<int> finer(int form) { return subject_.finer(form); }
 

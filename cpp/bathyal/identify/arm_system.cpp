@@ -113,15 +113,32 @@ Eigen::Matrix3Xd ArmSystem::centroids(const Eigen::VectorXd& x) const {
   return centroids_of(tips(x));
 }
 
+Eigen::Matrix3d ArmSystem::row_factor(Index row) const {
+  const double size = std::sqrt(weight(row)) / noise_.position;
+  return size * (row_whitening_ ? (*row_whitening_)[row] : Eigen::Matrix3d::Identity());
+}
+
+Eigen::Matrix3d ArmSystem::precision(Index row) const {
+  if (!row_whitening_) return weight(row) * Eigen::Matrix3d::Identity();
+  const Eigen::Matrix3d& root = (*row_whitening_)[row];
+  return weight(row) * (root * root);
+}
+
+std::vector<Eigen::Matrix3d> ArmSystem::centroid_precisions() const {
+  std::vector<Eigen::Matrix3d> out(static_cast<std::size_t>(m_.points()), Eigen::Matrix3d::Zero());
+  for (Index i = 0; i < m_.rows(); ++i) {
+    if (m_.point[i] >= 0) out[m_.point[i]] += precision(i);
+  }
+  return out;
+}
+
 Eigen::Matrix3Xd ArmSystem::centroids_of(const Eigen::Ref<const Eigen::Matrix3Xd>& tips) const {
   Eigen::Matrix3Xd sum = Eigen::Matrix3Xd::Zero(3, m_.points());
-  Eigen::VectorXd total = Eigen::VectorXd::Zero(m_.points());
   for (Index i = 0; i < m_.rows(); ++i) {
-    if (m_.point[i] < 0) continue;
-    sum.col(m_.point[i]) += weight(i) * tips.col(i);
-    total[m_.point[i]] += weight(i);
+    if (m_.point[i] >= 0) sum.col(m_.point[i]) += precision(i) * tips.col(i);
   }
-  for (Index p = 0; p < sum.cols(); ++p) sum.col(p) /= total[p];
+  const std::vector<Eigen::Matrix3d> total = centroid_precisions();
+  for (Index p = 0; p < sum.cols(); ++p) sum.col(p) = total[p].inverse() * sum.col(p);
   return sum;
 }
 
@@ -259,11 +276,14 @@ void ArmSystem::find_centers(Sheet& sheet) const {
     sheet.total[m_.point[i]] += weight(i);
     if (sheet.derive) {
       sheet.center_jacobian.middleRows(3 * m_.point[i], 3) +=
-          weight(i) * sheet.tip_jacobian.middleRows(3 * i, 3);
+          precision(i) * sheet.tip_jacobian.middleRows(3 * i, 3);
     }
   }
-  for (int p = 0; sheet.derive && p < m_.points(); ++p) {
-    sheet.center_jacobian.middleRows(3 * p, 3) /= sheet.total[p];
+  if (!sheet.derive) return;
+  const std::vector<Eigen::Matrix3d> total = centroid_precisions();
+  for (int p = 0; p < m_.points(); ++p) {
+    auto rows = sheet.center_jacobian.middleRows(3 * p, 3);
+    rows = total[p].inverse() * rows;
   }
 }
 
@@ -272,8 +292,7 @@ void ArmSystem::compare_with_centers(Sheet& sheet) const {
   for (Index i = 0; i < m_.rows(); ++i) {
     const int p = m_.point[i];
     if (p < 0) continue;
-    const double scale =
-        std::sqrt(weight(i) * (pair_weights_ ? sheet.total[p] : 1.0)) / noise_.position;
+    const Eigen::Matrix3d scale = std::sqrt(pair_weights_ ? sheet.total[p] : 1.0) * row_factor(i);
     sheet.tips.col(i) = scale * (sheet.tips.col(i) - sheet.centers.col(p));
     if (sheet.derive) {
       sheet.tip_jacobian.middleRows(3 * i, 3) =
@@ -303,7 +322,9 @@ void ArmSystem::compare_planes(const TipWalk& walk, Sheet& sheet) const {
   for (const int i : plane_rows_) {
     const int index = m_.plane[i];
     const PlaneGuess& plane = walk.state().planes[index];
-    const double scale = std::sqrt(weight(i)) / noise_.position;
+    double scale = std::sqrt(weight(i)) / noise_.position;
+    // Along the normal as along any direction, or the normal's own change would count.
+    if (row_whitening_) scale /= std::sqrt((*row_whitening_)[i].inverse().squaredNorm() / 3.0);
     const Vec3 tip = sheet.tips.col(i);
     Eigen::RowVectorXd derivative(sheet.derive ? columns() : 0);
     for (Index c = 0; c < derivative.size(); ++c) {

@@ -56,6 +56,14 @@ class ArmSystem final : public ResidualModel {
   const std::vector<double>& trust() const { return trust_; }
   double weight(Index row) const { return m_.weights[row] * trust_[row]; }
 
+  /// (N,) symmetric factors on position rows beside their weights, so that errors which are larger
+  /// along one direction than another weigh alike; null: none. Of the centroids' criterion.
+  using Whitening = std::shared_ptr<const std::vector<Eigen::Matrix3d>>;
+  void set_row_whitening(Whitening whitening) { row_whitening_ = std::move(whitening); }
+  const Whitening& row_whitening() const { return row_whitening_; }
+  /// What an error of a position row is multiplied by [1/m].
+  Eigen::Matrix3d row_factor(Index row) const;
+
   /// Also brings up to date what the noise of the centroids at `x` adds to known distances and
   /// points.
   void set_noise(const Noise& noise, const Eigen::VectorXd& x);
@@ -103,6 +111,10 @@ class ArmSystem final : public ResidualModel {
   static constexpr std::size_t kPosesPerChunk = 256;
 
   Eigen::Matrix3Xd tips(const Eigen::VectorXd& x) const;
+  /// Of an error of a position row [1 / noise²].
+  Eigen::Matrix3d precision(Index row) const;
+  /// (points,) of their centroids.
+  std::vector<Eigen::Matrix3d> centroid_precisions() const;
   Eigen::Matrix3Xd centroids_of(const Eigen::Ref<const Eigen::Matrix3Xd>& tips) const;
   /// Where the numbers of a range of poses go; what is null is not wanted.
   struct TipRows {
@@ -145,6 +157,7 @@ class ArmSystem final : public ResidualModel {
   std::vector<LinearRow> linear_;
   bool use_priors_ = true;
   std::vector<double> trust_;
+  Whitening row_whitening_;
   Noise noise_;
   Eigen::MatrixXd whitening_;  ///< of the known rows
 };

@@ -72,12 +72,13 @@ void ArmSystem::set_noise(const Noise& noise, const Eigen::VectorXd& x) {
   Eigen::VectorXd residuals;
   Eigen::MatrixXd by_center;
   known_residuals(centroids(x), residuals, by_center);
-  Eigen::VectorXd variance = Eigen::VectorXd::Zero(3 * m_.points());
-  for (Index i = 0; i < m_.rows(); ++i) {
-    if (m_.point[i] >= 0) variance.segment<3>(3 * m_.point[i]).array() += weight(i);
+  Eigen::MatrixXd spread = Eigen::MatrixXd::Zero(3 * m_.points(), 3 * m_.points());
+  const std::vector<Eigen::Matrix3d> precisions = centroid_precisions();
+  for (Index p = 0; p < m_.points(); ++p) {
+    spread.block<3, 3>(3 * p, 3 * p) =
+        noise_.position * noise_.position * precisions[static_cast<std::size_t>(p)].inverse();
   }
-  variance = noise_.position * noise_.position * variance.cwiseInverse();
-  Eigen::MatrixXd covariance = by_center * variance.asDiagonal() * by_center.transpose();
+  Eigen::MatrixXd covariance = by_center * spread * by_center.transpose();
   const auto distances = static_cast<Index>(m_.distances.size());
   covariance.diagonal().head(distances).array() += m_.distance_std * m_.distance_std;
   covariance.diagonal().tail(known_rows() - distances).array() += m_.point_std * m_.point_std;

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "bathyal/arm/dh.hpp"
 #include "bathyal/arm/row_frames.hpp"
@@ -141,6 +142,51 @@ TEST(ArmSubject, RowsStandInTheOrderOfTheirTimes) {
   for (Index i = 0; i < measurement.rows(); ++i) {
     ASSERT_EQ(subject.units().order[i], static_cast<int>(time(i, 0)));
   }
+}
+
+/// Mean squares of rows along what rounded joints do, and across it, in units of noise.
+std::pair<double, double> along_and_across(const ArmSubject& subject,
+                                           const Eigen::MatrixXd& loads) {
+  const Linearization& at = subject.linearization();
+  double along = 0.0, across = 0.0;
+  const Index poses = loads.rows() / 3;
+  for (Index i = 0; i < poses; ++i) {
+    const Eigen::JacobiSVD<Eigen::MatrixXd> own(loads.middleRows<3>(3 * i), Eigen::ComputeFullU);
+    const Eigen::Vector3d row = at.misfit.segment<3>(3 * i);
+    along += std::pow(own.matrixU().col(0).dot(row), 2) / static_cast<double>(poses);
+    across += std::pow(own.matrixU().col(2).dot(row), 2) / static_cast<double>(poses);
+  }
+  return {along, across};
+}
+
+TEST(ArmSubject, ErrorsOfRoundedJointsWeighAlikeInAllDirections) {
+  const Arm arm = three_joints();
+  const IdentifyOptions options;
+  constexpr double kStep = 2e-3;
+  Tracked tracked = little_moved(0.0);
+  tracked.q = (tracked.q / kStep).array().round() * kStep;
+  const Measurement measurement = to_measurement(arm, tracked);
+  ArmSubject subject(arm, measurement, {}, options, library_effects());
+  ASSERT_EQ(subject.noise_forms().back().effect, "quantisation");
+  const Eigen::MatrixXd& loads = subject.noise_forms().back().loads;
+  subject.settle({});
+  const auto [along, across] = along_and_across(subject, loads);
+  EXPECT_GT(along, 4.0 * across);
+
+  Eigen::VectorXd ratios = Eigen::VectorXd::Zero(2);
+  ratios[1] = std::pow(kStep / 1e-4, 2);
+  subject.set_noise_forms(ratios);
+  subject.settle({});
+  const auto [along_then, across_then] = along_and_across(subject, loads);
+  EXPECT_NEAR(along_then, 1.0, 0.35);
+  EXPECT_NEAR(across_then, 1.0, 0.35);
+  EXPECT_NEAR(subject.noise(), 1e-4, 1.5e-5);
+  // What was whitened is told as it was measured.
+  const Eigen::Matrix3Xd metres = subject.in_metres(subject.linearization().misfit);
+  EXPECT_LT((metres + subject.deviations()).norm(), 1e-6 * metres.norm());
+  const double rms = std::sqrt(metres.squaredNorm() / static_cast<double>(metres.size()));
+  EXPECT_NEAR(subject.mean_noise(), rms, 0.1 * rms);
+  EXPECT_LT(subject.mean_unit(), 0.7 * rms);
 }
 
 }  // namespace

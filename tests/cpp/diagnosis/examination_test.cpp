@@ -55,6 +55,7 @@ class LinearSubject final : public Subject {
   std::shared_ptr<const Place> place() const override { return std::make_shared<Place>(); }
   void return_to(const Place&) override {}
   void set_trust(const Eigen::VectorXd&) override {}
+  void set_noise_forms(const Eigen::VectorXd&) override {}
   double noise() const override { return 1e-3; }
 
  private:

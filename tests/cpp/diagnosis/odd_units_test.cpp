@@ -61,5 +61,44 @@ TEST(OddUnits, OneThatBelongsIsTakenBack) {
   EXPECT_EQ(leave_out_odd(seen(9.0 * faint), no_basis, without, kUnits - 1), without);
 }
 
+/// Three rows a unit, noise of 1 along all of them and of `size` along one direction of each.
+TEST(FitNoise, FindsSourcesAlongTheirDirections) {
+  constexpr double kSize = 0.5, kNoise = 1e-3;
+  Linearization at;
+  NoiseForm along{"", "", "size", "m", 1.0, Eigen::MatrixXd(3 * kUnits, 1)};
+  at.misfit.resize(3 * kUnits);
+  RandomStream random(6);
+  Blocks blocks{{}, 5, ""};
+  for (Index u = 0; u < kUnits; ++u) {
+    const Eigen::Vector3d load(random.normal(), 3.0 * random.normal(), 2.0 * random.normal());
+    const double source = random.normal();
+    along.loads.middleRows<3>(3 * u) = kNoise * load;
+    for (Index k = 0; k < 3; ++k) {
+      at.misfit[3 * u + k] = random.normal() + kSize * source * load[k];
+      at.unit.push_back(static_cast<int>(u));
+    }
+    blocks.of.push_back(static_cast<int>(u % 5));
+  }
+  at.noise_rows = 3 * kUnits;
+  const Eigen::MatrixXd no_basis(3 * kUnits, 0);
+  const Eigen::VectorXd all = Eigen::VectorXd::Ones(kUnits);
+  const NoiseFit found = fit_noise(along, at, no_basis, all, kNoise, blocks);
+  EXPECT_NEAR(found.parameter, kSize, 3.0 * found.std);
+  EXPECT_LT(found.std, 0.2 * kSize);
+  EXPECT_NEAR(std::sqrt(found.ratio) * kNoise, kSize, 0.15);
+  EXPECT_GT(found.held_out_gain, 0.0);
+
+  // As much in all directions is a worse account of it.
+  NoiseForm around = along;
+  around.loads = Eigen::MatrixXd::Zero(3 * kUnits, 3);
+  for (Index u = 0; u < kUnits; ++u) {
+    around.loads.middleRows<3>(3 * u).diagonal().setConstant(
+        along.loads.middleRows<3>(3 * u).norm() / std::sqrt(3.0));
+  }
+  const NoiseFit other = fit_noise(around, at, no_basis, all, kNoise, blocks);
+  EXPECT_GT(found.gain, other.gain + 5.0);
+  EXPECT_GT(found.held_out_gain, other.held_out_gain + 5.0);
+}
+
 }  // namespace
 }  // namespace bathyal

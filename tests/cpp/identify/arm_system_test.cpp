@@ -257,6 +257,47 @@ TEST(ArmSystem, DerivativesOfTrackedPosesAreTheirDifferences) {
   check_by_differences(system, all);
 }
 
+/// Other directions and sizes for each row.
+ArmSystem::Whitening some_whitening(Index rows) {
+  auto out = std::make_shared<std::vector<Eigen::Matrix3d>>();
+  RandomStream random(9);
+  for (Index i = 0; i < rows; ++i) {
+    const Vec3 load = 2.0 * Vec3(random.normal(), random.normal(), random.normal());
+    const Eigen::Matrix3d covariance = Eigen::Matrix3d::Identity() + load * load.transpose();
+    out->push_back(
+        Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance).operatorInverseSqrt());
+  }
+  return out;
+}
+
+TEST(ArmSystem, DerivativesOfRowsThatAreWhitenedAreTheirDifferences) {
+  for (const bool tracked : {false, true}) {
+    Everything all(tracked, Parametrization::kHayati);
+    ArmSystem system(all.columns, all.m, Criterion::kCentroid, false, 1);
+    system.set_row_whitening(some_whitening(all.m.rows()));
+    check_by_differences(system, all);
+  }
+}
+
+TEST(ArmSystem, APointLiesWhereWhitenedTouchesCostLeast) {
+  Everything all(false, Parametrization::kHayati);
+  ArmSystem system(all.columns, all.m, Criterion::kCentroid, false, 1);
+  system.set_row_whitening(some_whitening(all.m.rows()));
+  const Eigen::Matrix3Xd off = system.deviations(all.x);
+  Eigen::VectorXd residuals(system.rows());
+  system.evaluate(system.scaled(all.x).data(), residuals.data(), nullptr);
+  Eigen::Matrix3Xd pull = Eigen::Matrix3Xd::Zero(3, all.m.points());
+  double all_pulls = 0.0;
+  for (Index i = 0; i < all.m.rows(); ++i) {
+    if (all.m.point[i] < 0) continue;
+    const Eigen::Matrix3d factor = system.row_factor(i);
+    EXPECT_LT((residuals.segment<3>(3 * i) - factor * off.col(i)).norm(), 1e-9);
+    pull.col(all.m.point[i]) += factor * factor * off.col(i);
+    all_pulls += (factor * factor * off.col(i)).norm();
+  }
+  EXPECT_LT(pull.norm(), 1e-9 * all_pulls);
+}
+
 /// Σ over pairs = m Σ about the mean; with weights Σ w Σ w‖ ‖².
 TEST(ArmSystem, BothCriteriaCostTheSame) {
   const Arm arm = ur10e();
