@@ -118,6 +118,17 @@ Eigen::Matrix3d ArmSystem::row_factor(Index row) const {
   return size * (row_whitening_ ? (*row_whitening_)[row] : Eigen::Matrix3d::Identity());
 }
 
+void ArmSystem::whiten(Index row, double* error, double* jacobian, Index stride) const {
+  if (!row_whitening_) return;
+  const Eigen::Matrix3d& root = (*row_whitening_)[row];
+  Eigen::Map<Vec3> own(error);
+  own = root * Vec3(own);
+  for (Index c = 0; jacobian != nullptr && c < columns(); ++c) {
+    Eigen::Map<Vec3> column(jacobian + c * stride);
+    column = root * Vec3(column);
+  }
+}
+
 Eigen::Matrix3d ArmSystem::precision(Index row) const {
   if (!row_whitening_) return weight(row) * Eigen::Matrix3d::Identity();
   const Eigen::Matrix3d& root = (*row_whitening_)[row];
@@ -274,9 +285,13 @@ void ArmSystem::find_centers(Sheet& sheet) const {
   for (Index i = 0; i < m_.rows(); ++i) {
     if (m_.point[i] < 0) continue;
     sheet.total[m_.point[i]] += weight(i);
-    if (sheet.derive) {
-      sheet.center_jacobian.middleRows(3 * m_.point[i], 3) +=
-          precision(i) * sheet.tip_jacobian.middleRows(3 * i, 3);
+    if (!sheet.derive) continue;
+    auto center = sheet.center_jacobian.middleRows(3 * m_.point[i], 3);
+    const auto own = sheet.tip_jacobian.middleRows(3 * i, 3);
+    if (row_whitening_) {
+      center += precision(i) * own;
+    } else {
+      center += weight(i) * own;
     }
   }
   if (!sheet.derive) return;
@@ -292,13 +307,16 @@ void ArmSystem::compare_with_centers(Sheet& sheet) const {
   for (Index i = 0; i < m_.rows(); ++i) {
     const int p = m_.point[i];
     if (p < 0) continue;
-    const Eigen::Matrix3d scale = std::sqrt(pair_weights_ ? sheet.total[p] : 1.0) * row_factor(i);
+    const double scale =
+        std::sqrt(weight(i) * (pair_weights_ ? sheet.total[p] : 1.0)) / noise_.position;
     sheet.tips.col(i) = scale * (sheet.tips.col(i) - sheet.centers.col(p));
     if (sheet.derive) {
       sheet.tip_jacobian.middleRows(3 * i, 3) =
           scale *
           (sheet.tip_jacobian.middleRows(3 * i, 3) - sheet.center_jacobian.middleRows(3 * p, 3));
     }
+    whiten(i, sheet.tips.col(i).data(), sheet.derive ? sheet.tip_jacobian.data() + 3 * i : nullptr,
+           sheet.tip_jacobian.outerStride());
   }
 }
 

@@ -111,6 +111,8 @@ class ArmSystem final : public ResidualModel {
   static constexpr std::size_t kPosesPerChunk = 256;
 
   Eigen::Matrix3Xd tips(const Eigen::VectorXd& x) const;
+  /// A position row and its derivatives (null: none), `stride` from column to column.
+  void whiten(Index row, double* error, double* jacobian, Index stride) const;
   /// Of an error of a position row [1 / noise²].
   Eigen::Matrix3d precision(Index row) const;
   /// (points,) of their centroids.

@@ -25,17 +25,9 @@ void ArmSystem::compare_tracked(Index begin, Index end, const TipRows& out) cons
     }
   };
   weigh(out.tips, out.jacobian, noise_.position);
-  const auto whiten = [&](double* rows) {
-    for (Index i = begin; i < end; ++i) {
-      Eigen::Map<Vec3> row(rows + 3 * (i - begin));
-      row = (*row_whitening_)[i] * Vec3(row);
-    }
-  };
-  if (row_whitening_) {
-    whiten(out.tips);
-    for (Index c = 0; out.jacobian != nullptr && c < columns(); ++c) {
-      whiten(out.jacobian + c * out.stride);
-    }
+  for (Index i = begin; i < end; ++i) {
+    const Index row = 3 * (i - begin);
+    whiten(i, out.tips + row, out.jacobian == nullptr ? nullptr : out.jacobian + row, out.stride);
   }
   if (m_.has_rotation()) weigh(out.rotations, out.rotation_jacobian, noise_.rotation);
 }
