@@ -156,6 +156,48 @@ void start_planes(const std::vector<Pose>& flange, const Measurement& m, Start& 
   }
 }
 
+/// Squares of what tracked tips miss.
+double left_by(const std::vector<Pose>& flange, const Measurement& m, const Start& start) {
+  double squares = 0.0;
+  for (Index i = 0; i < m.rows(); ++i) {
+    const Vec3 tip = flange[i] * start.tools[m.tool[i]].translation();
+    squares += (start.bases[m.station[i]] * tip - m.position.col(i)).squaredNorm();
+  }
+  return squares;
+}
+
+/// Bases by the tools of `start`, tools by those bases, and so on: each is the best beside the
+/// other.
+Start found_in_turn(const std::vector<Pose>& flange, const Measurement& m, bool tool_given,
+                    bool base_free, Start start) {
+  constexpr int kTurns = 20;
+  std::vector<std::vector<Index>> of_station(static_cast<std::size_t>(m.stations));
+  for (Index i = 0; i < m.rows(); ++i) of_station[m.station[i]].push_back(i);
+  for (int turn = 0; turn < kTurns; ++turn) {
+    Eigen::Matrix3Xd tips(3, m.rows());
+    for (Index i = 0; i < m.rows(); ++i) {
+      tips.col(i) = flange[i] * start.tools[m.tool[i]].translation();
+    }
+    for (int station = 0; base_free && station < m.stations; ++station) {
+      const std::vector<Index>& rows = of_station[station];
+      start.bases[station] =
+          align(tips(Eigen::all, rows), m.position(Eigen::all, rows), start.bases[station]);
+    }
+    if (tool_given) break;
+    Eigen::Matrix3Xd sum = Eigen::Matrix3Xd::Zero(3, m.tools);
+    Eigen::VectorXd count = Eigen::VectorXd::Zero(m.tools);
+    for (Index i = 0; i < m.rows(); ++i) {
+      sum.col(m.tool[i]) +=
+          flange[i].inverse() * (start.bases[m.station[i]].inverse() * m.position.col(i));
+      count[m.tool[i]] += 1.0;
+    }
+    for (int tool = 0; tool < m.tools; ++tool) {
+      if (count[tool] > 0.0) start.tools[tool].translation() = sum.col(tool) / count[tool];
+    }
+  }
+  return start;
+}
+
 /// A p - c - R t = f with A the inverse rotation of a station's base, taken as any matrix, c its
 /// shift and t a tool: linear in all of them.
 void start_tracked(const std::vector<Pose>& flange, const Measurement& m, bool tool_given,
@@ -185,6 +227,7 @@ void start_tracked(const std::vector<Pose>& flange, const Measurement& m, bool t
     right.segment<3>(3 * k) = target;
   }
   const Eigen::VectorXd solution = solve_smallest(matrix, right);
+  const Start other = found_in_turn(flange, m, tool_given, base_free, start);
   for (int station = 0; base_free && station < m.stations; ++station) {
     Eigen::Matrix3d base_from_world;
     for (int axis = 0; axis < 3; ++axis) {
@@ -197,6 +240,9 @@ void start_tracked(const std::vector<Pose>& flange, const Measurement& m, bool t
   for (int tool = 0; !tool_given && tool < m.tools; ++tool) {
     start.tools[tool].translation() = solution.segment<3>(frames + 3 * tool);
   }
+  // An arm of few joints leaves matrices that are no rotations to choose from.
+  constexpr double kMuchLess = 0.5;
+  if (left_by(flange, m, other) < kMuchLess * left_by(flange, m, start)) start = other;
   if (!m.has_rotation()) return;
   std::vector<Eigen::Matrix3d> sum(static_cast<std::size_t>(m.tools), Eigen::Matrix3d::Zero());
   for (Index i = 0; i < m.rows(); ++i) {

@@ -80,9 +80,9 @@ TEST(FitNoise, FindsSourcesAlongTheirDirections) {
     blocks.of.push_back(static_cast<int>(u % 5));
   }
   at.noise_rows = 3 * kUnits;
-  const Eigen::MatrixXd no_basis(3 * kUnits, 0);
+  const Eigen::MatrixXd basis = Eigen::VectorXd::Ones(3 * kUnits).normalized();
   const Eigen::VectorXd all = Eigen::VectorXd::Ones(kUnits);
-  const NoiseFit found = fit_noise(along, at, no_basis, all, kNoise, blocks);
+  const NoiseFit found = fit_noise(along, at, basis, all, kNoise, blocks);
   EXPECT_NEAR(found.parameter, kSize, 3.0 * found.std);
   EXPECT_LT(found.std, 0.2 * kSize);
   EXPECT_NEAR(std::sqrt(found.ratio) * kNoise, kSize, 0.15);
@@ -95,7 +95,7 @@ TEST(FitNoise, FindsSourcesAlongTheirDirections) {
     around.loads.middleRows<3>(3 * u).diagonal().setConstant(
         along.loads.middleRows<3>(3 * u).norm() / std::sqrt(3.0));
   }
-  const NoiseFit other = fit_noise(around, at, no_basis, all, kNoise, blocks);
+  const NoiseFit other = fit_noise(around, at, basis, all, kNoise, blocks);
   EXPECT_GT(found.gain, other.gain + 5.0);
   EXPECT_GT(found.held_out_gain, other.held_out_gain + 5.0);
 }

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
+
+#include "bathyal/arm/dh.hpp"
 #include "simulated_touches.hpp"
 
 namespace bathyal {
@@ -34,6 +37,27 @@ TEST(FindStart, BaseAndToolOfTrackedPoses) {
     const Start start = find_start(ur10e(), m, false, true);
     EXPECT_LT((start.bases[0].matrix() - truth.base().matrix()).norm(), 1e-10);
     EXPECT_LT((start.tools[0].matrix() - truth.tool().matrix()).norm(), 1e-10);
+  }
+}
+
+/// Where the first joints meet in a point the flange moves as a lever of the tool does, and the
+/// linear equations leave matrices to choose from that are no rotations.
+TEST(FindStart, BaseAndToolOfArmsWhoseJointsMeet) {
+  constexpr double kQuarter = std::numbers::pi / 2.0;
+  for (const DhRow& last : {DhRow{0.3464, kQuarter, 0.0, 0.0}, DhRow{0.0, 0.0, 0.4139, 0.0}}) {
+    DhTable table;
+    table.rows = {{0.0, kQuarter, 0.2385, 0.0}, {0.0, 0.0, 0.1599, 0.0}, last};
+    table.types.assign(3, JointType::kRevolute);
+    const Arm drawing = arm_from_dh(table);
+    Arm truth = built_arm(drawing, 1e-3, 1);
+    truth.set_base(pose_of(1.0, -2.0, 0.3, 0.7, -0.2));
+    const Tracked tracked = track(truth, 60, false, 3);
+    const Start start = find_start(drawing, to_measurement(drawing, tracked), false, true);
+    Arm found = drawing;
+    found.set_base(start.bases[0]);
+    found.set_tool(start.tools[0]);
+    const RowMatrix reached = track(found, 60, false, 3).position;
+    EXPECT_LT((reached - tracked.position).rowwise().norm().maxCoeff(), 0.02);
   }
 }
 
