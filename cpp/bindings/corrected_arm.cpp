@@ -342,7 +342,8 @@ void bind_corrected_arm(py::module_& module) {
       .def_property_readonly("support", &CorrectedArm::support, "What the data covered.")
       .def_property_readonly(
           "gaps", [](const CorrectedArm& m) { return to_python(m.gaps()); },
-          "Of each coordinate (g, 2) from and to: gaps of the support in which a wave or curve along "
+          "Of each coordinate (g, 2) from and to: gaps of the support in which a wave or curve "
+          "along "
           "it is held.")
       .def("forward", &forward_python, py::arg("q"), py::kw_only(),
            py::arg("covariates") = py::none(), py::arg("links") = false, py::arg("num_threads") = 0,

@@ -94,17 +94,18 @@ Blocks cut(const Units& units, int wanted, bool by_point) {
     for (int i = 0; i < static_cast<int>(n); ++i) key[i] = unions.root(i);
     out.how = "whole touched points were held out";
   }
-  // Groups in the order of their first unit, session by session.
+  // Groups in the order of their first unit, session by session; points that are touched in several
+  // sessions are of none.
+  const auto session_of = [&](int i) { return by_point ? 0 : units.session[i]; };
   std::vector<int> order(n);
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
-    return std::pair(units.session[a], units.order[a]) <
-           std::pair(units.session[b], units.order[b]);
+    return std::pair(session_of(a), units.order[a]) < std::pair(session_of(b), units.order[b]);
   });
   std::map<int, std::size_t> size_in_session, before;
   std::map<int, std::size_t> size_of_key;
   for (const int i : order) {
-    ++size_in_session[units.session[i]];
+    ++size_in_session[session_of(i)];
     ++size_of_key[key[i]];
   }
   const auto blocks = std::min(static_cast<std::size_t>(wanted), n);
@@ -112,8 +113,8 @@ Blocks cut(const Units& units, int wanted, bool by_point) {
   std::size_t dealt = 0;
   for (const int i : order) {
     if (block_of_key.contains(key[i])) continue;
-    std::size_t& place = before[units.session[i]];
-    const std::size_t size = size_in_session[units.session[i]];
+    std::size_t& place = before[session_of(i)];
+    const std::size_t size = size_in_session[session_of(i)];
     // A session of fewer units than blocks has none for some: the next one goes on there.
     const std::size_t pieces = units.timed ? 1 : std::clamp(size / blocks, std::size_t{1}, kPieces);
     const std::size_t block =

@@ -66,6 +66,17 @@ TEST(HoldOut, ForetellsAsAFitToTheOthersDoes) {
   EXPECT_NEAR(held.density({0, 1, 3}), density, 1e-5);
 }
 
+TEST(Blocks, PointsThatEverySessionTouchesAreHeldOutEachByItself) {
+  Units units = units_of(180);
+  for (int u = 0; u < 180; ++u) {
+    units.point[static_cast<std::size_t>(u)] = u % 6;
+    units.session[static_cast<std::size_t>(u)] = u / 60;
+  }
+  const Blocks blocks = make_blocks(units, 10);
+  ASSERT_EQ(blocks.count, 6);
+  for (int u = 0; u < 180; ++u) EXPECT_EQ(blocks.of[u], blocks.of[u % 6]);
+}
+
 TEST(Blocks, SessionsOfFewRowsShareThem) {
   Units units = units_of(90);
   for (const int rows : {1, 2, 3}) {
