@@ -102,7 +102,7 @@ class ArmSubject final : public Subject {
   std::map<Family, std::vector<Index>> large_families() const;
   bool learn_sizes(const Eigen::VectorXd& x);
   Eigen::MatrixXd told_by_data(const Eigen::VectorXd& x, const Eigen::VectorXd& weight) const;
-  std::vector<Index> trusted() const;  ///< rows that are not left out
+  bool is_left_out(Index row) const;
   /// Rows of positions and of orientations that are not left out, less what points take.
   Eigen::Array2d free_rows() const;
   void gather_data(const Covariates& covariates);

@@ -276,7 +276,7 @@ void ArmSubject::stand_at(const Eigen::VectorXd& x) {
   for (Index i = 0; i < m_.rows(); ++i) {
     const bool plane = !m_.tracked && m_.plane[i] >= 0;
     const double kinds = m_.has_rotation() ? 2.0 : 1.0;
-    if (system.trust()[i] < kLeftOut * 2.0) {
+    if (is_left_out(i)) {
       linearization_.lost += plane ? 1.0 : 3.0 * kinds;
     }
     if (plane) linearization_.lost += 2.0;  // rows that hold nothing
@@ -293,11 +293,15 @@ void ArmSubject::stand_at(const Eigen::VectorXd& x) {
   }
 }
 
+bool ArmSubject::is_left_out(Index row) const {
+  return problem_.system->trust()[row] < kLeftOut * 2.0;
+}
+
 Eigen::Array2d ArmSubject::free_rows() const {
   Eigen::Array2d rows(free_position_rows(m_),
                       static_cast<double>(problem_.system->rotation_rows()));
   for (Index i = 0; i < m_.rows(); ++i) {
-    if (problem_.system->trust()[i] >= kLeftOut * 2.0) continue;
+    if (!is_left_out(i)) continue;
     rows[0] -= !m_.tracked && m_.plane[i] >= 0 ? 1.0 : 3.0;
     if (m_.has_rotation()) rows[1] -= 3.0;
   }

@@ -76,7 +76,8 @@ Eigen::Matrix3Xd ArmSubject::in_metres(const Eigen::VectorXd& rows) const {
 
 double ArmSubject::mean_noise() const {
   double variances = 0.0, rows = 0.0;
-  for (const Index i : trusted()) {
+  for (Index i = 0; i < m_.rows(); ++i) {
+    if (is_left_out(i)) continue;
     variances += m_.weights[i] * problem_.system->row_factor(i).inverse().squaredNorm();
     rows += 3.0;
   }
@@ -85,19 +86,12 @@ double ArmSubject::mean_noise() const {
 
 double ArmSubject::mean_unit() const {
   double precisions = 0.0, rows = 0.0;
-  for (const Index i : trusted()) {
+  for (Index i = 0; i < m_.rows(); ++i) {
+    if (is_left_out(i)) continue;
     precisions += problem_.system->row_factor(i).squaredNorm() / m_.weights[i];
     rows += 3.0;
   }
   return rows > 0.0 ? std::sqrt(rows / precisions) : noise();
-}
-
-std::vector<Index> ArmSubject::trusted() const {
-  std::vector<Index> rows;
-  for (Index i = 0; i < m_.rows(); ++i) {
-    if (problem_.system->trust()[i] >= kLeftOut * 2.0) rows.push_back(i);
-  }
-  return rows;
 }
 
 }  // namespace bathyal

@@ -102,10 +102,12 @@ Blocks cut(const Units& units, int wanted, bool by_point) {
   std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
     return std::pair(session_of(a), units.order[a]) < std::pair(session_of(b), units.order[b]);
   });
+  // What repeats in several sessions counts in that where it came first.
   std::map<int, std::size_t> size_in_session, before;
   std::map<int, std::size_t> size_of_key;
+  std::map<int, int> session_of_key;
   for (const int i : order) {
-    ++size_in_session[session_of(i)];
+    ++size_in_session[session_of_key.emplace(key[i], session_of(i)).first->second];
     ++size_of_key[key[i]];
   }
   const auto blocks = std::min(static_cast<std::size_t>(wanted), n);
@@ -132,7 +134,7 @@ Blocks cut(const Units& units, int wanted, bool by_point) {
               (units.timed ? " blocks of poses that follow one another"
                            : " blocks of short runs of poses") +
               " were held out in turn" +
-              (size_in_session.size() > 1 ? ", each with its share of every session" : "");
+              (count_of(units.session) > 1 ? ", each with its share of every session" : "");
   }
   return out;
 }

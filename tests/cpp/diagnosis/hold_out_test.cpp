@@ -77,6 +77,17 @@ TEST(Blocks, PointsThatEverySessionTouchesAreHeldOutEachByItself) {
   for (int u = 0; u < 180; ++u) EXPECT_EQ(blocks.of[u], blocks.of[u % 6]);
 }
 
+TEST(Blocks, PosesThatEverySessionRepeatsAreDealtOutEvenly) {
+  Units units = units_of(180);
+  for (int u = 0; u < 180; ++u) {
+    units.twin[static_cast<std::size_t>(u)] = u % 60;
+    units.session[static_cast<std::size_t>(u)] = u / 60;
+  }
+  const Blocks blocks = make_blocks(units, 10);
+  ASSERT_EQ(blocks.count, 10);
+  for (int b = 0; b < 10; ++b) EXPECT_EQ(std::count(blocks.of.begin(), blocks.of.end(), b), 18);
+}
+
 TEST(Blocks, SessionsOfFewRowsShareThem) {
   Units units = units_of(90);
   for (const int rows : {1, 2, 3}) {
