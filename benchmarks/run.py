@@ -20,7 +20,7 @@ PAGE = HERE / "README.md"
 PYTHON = ["rays.py", "section.py", "read_text.py", "whole_plan.py", "identify.py", "intervals.py"]
 PYTHON += ["diagnose_speed.py", "diagnose_real.py", "score_card.py"]
 CPP = ["bench_delaunay", "bench_greedy", "bench_arm_forward", "bench_arm_inverse"]
-CPP += ["bench_products"]
+CPP += ["bench_gram"]
 PACKAGES = ["numpy", "scipy", "open3d-cpu", "embreex", "vtk", "pandas", "pyarrow", "pin"]
 DEBIAN = [
     "g++",

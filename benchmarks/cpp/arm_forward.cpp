@@ -9,10 +9,10 @@
 #include <cstdlib>
 #include <vector>
 
-#include "arms.hpp"
 #include "bathyal/base/simd.hpp"
 #include "kdl_arm.hpp"
 #include "pinocchio_peer.hpp"
+#include "support/arms.hpp"
 #include "timing.hpp"
 
 namespace {

@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
-#include "arms.hpp"
 #include "bathyal/arm/inverse.hpp"
 #include "kdl_inverse.hpp"
+#include "support/arms.hpp"
 
 namespace {
 

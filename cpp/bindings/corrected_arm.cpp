@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "bathyal/identify/corrected_arm.hpp"
+#include "bathyal/compensation/corrected_arm.hpp"
 
 #include <pybind11/stl.h>
 

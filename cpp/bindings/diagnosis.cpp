@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "bathyal/base/error.hpp"
-#include "bathyal/identify/corrected_arm.hpp"
+#include "bathyal/compensation/corrected_arm.hpp"
 #include "bindings.hpp"
 #include "diagnosis_docs.hpp"
 #include "identify_parts.hpp"

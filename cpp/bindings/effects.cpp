@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "bathyal/identify/effect.hpp"
+#include "bathyal/effects/effect.hpp"
 
 #include <pybind11/stl.h>
 

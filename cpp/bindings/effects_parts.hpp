@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "bathyal/identify/effect.hpp"
+#include "bathyal/effects/effect.hpp"
 
 // Effects at the border: what Python sees of them, and those that Python brings.
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "bathyal/base/error.hpp"
-#include "bathyal/identify/corrected_arm.hpp"
+#include "bathyal/compensation/corrected_arm.hpp"
 #include "bindings.hpp"
 #include "identify_docs.hpp"
 #include "identify_parts.hpp"

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "bathyal/base/error.hpp"
-#include "bathyal/identify/summary.hpp"
+#include "bathyal/identify/fit/fit_summary.hpp"
 #include "identify_docs.hpp"
 #include "identify_parts.hpp"
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "arrays.hpp"
-#include "bathyal/identify/data.hpp"
+#include "bathyal/effects/measurements.hpp"
 
 // The parts of the room identify: what goes in, what comes out.
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "bathyal/identify/plan_touches.hpp"
+#include "bathyal/touch_planning/plan_touches.hpp"
 
 #include <pybind11/stl.h>
 

@@ -7,12 +7,12 @@
 
 #include "bathyal/base/check.hpp"
 #include "bathyal/base/random.hpp"
-#include "bathyal/diagnosis/arm_subject.hpp"
-#include "bathyal/diagnosis/copies.hpp"
-#include "bathyal/diagnosis/doubts_of_record.hpp"
-#include "bathyal/diagnosis/examination.hpp"
-#include "bathyal/diagnosis/next_poses.hpp"
-#include "bathyal/diagnosis/reporter.hpp"
+#include "bathyal/diagnosis/arm/model.hpp"
+#include "bathyal/diagnosis/arm/next_poses.hpp"
+#include "bathyal/diagnosis/duplicates.hpp"
+#include "bathyal/diagnosis/record_checks.hpp"
+#include "bathyal/diagnosis/report.hpp"
+#include "bathyal/selection/selection.hpp"
 
 namespace bathyal {
 namespace {

@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
+#include "bathyal/compensation/support.hpp"
 #include "bathyal/diagnosis/diagnosis.hpp"
-#include "bathyal/identify/arm_fit.hpp"
-#include "bathyal/identify/effect.hpp"
+#include "bathyal/effects/effect.hpp"
+#include "bathyal/identify/fit/arm_fit.hpp"
 #include "bathyal/identify/identify_arm.hpp"
-#include "bathyal/identify/support.hpp"
 
 namespace bathyal {
 

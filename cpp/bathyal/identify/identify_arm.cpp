@@ -2,9 +2,9 @@
 #include "bathyal/identify/identify_arm.hpp"
 
 #include "bathyal/base/check.hpp"
-#include "bathyal/identify/arm_report.hpp"
-#include "bathyal/identify/corrected_arm.hpp"
-#include "bathyal/identify/examine.hpp"
+#include "bathyal/compensation/corrected_arm.hpp"
+#include "bathyal/identify/checks/run_checks.hpp"
+#include "bathyal/identify/fit/fit_results.hpp"
 
 namespace bathyal {
 namespace {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "bathyal/identify/arm_fit.hpp"
-#include "bathyal/identify/data.hpp"
+#include "bathyal/effects/measurements.hpp"
+#include "bathyal/identify/fit/arm_fit.hpp"
 
 namespace bathyal {
 

@@ -4,8 +4,8 @@
 #include <ceres/jet.h>
 #include <gtest/gtest.h>
 
-#include "arms.hpp"
 #include "bathyal/arm/row_frames.hpp"
+#include "support/arms.hpp"
 
 namespace bathyal {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "arms.hpp"
+#include "support/arms.hpp"
 
 namespace bathyal {
 namespace {

@@ -5,10 +5,10 @@
 
 #include <cmath>
 
-#include "arms.hpp"
 #include "bathyal/arm/row_frames.hpp"
 #include "bathyal/arm/sincos.hpp"
 #include "bathyal/base/simd.hpp"
+#include "support/arms.hpp"
 
 namespace bathyal {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "arms.hpp"
 #include "bathyal/arm/row_frames.hpp"
+#include "support/arms.hpp"
 
 namespace bathyal {
 namespace {

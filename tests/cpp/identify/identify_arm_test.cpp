@@ -7,7 +7,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "simulated_touches.hpp"
+#include "support/simulated_touches.hpp"
 
 namespace bathyal {
 namespace {

@@ -1,0 +1,351 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bathyal/compensation/corrected_arm.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "bathyal/base/check.hpp"
+#include "bathyal/base/parallel.hpp"
+
+namespace bathyal {
+namespace {
+
+using RowMajor4 = Eigen::Matrix<double, 4, 4, Eigen::RowMajor>;
+
+constexpr std::size_t kGrain = 256;  ///< poses of one task
+constexpr double kStep = 1e-6;       ///< of differences [rad] or [m]
+
+JointView view_of(const JointMatrix& q) { return {q.data(), q.rows(), q.cols()}; }
+
+void write_pose(const Pose& pose, double* out) { Eigen::Map<RowMajor4>{out} = pose.matrix(); }
+
+/// Calls `body` with each action and the one at its place in `other`.
+/// \throw std::invalid_argument where `other` acts elsewhere
+template <class Body>
+void for_each_pair(const FoundEffect& found, std::vector<std::vector<Action>>& actions,
+                   const std::vector<std::vector<Action>>& other, const Body& body) {
+  const auto same_site = [](const Action& a, const Action& b) {
+    return a.site == b.site && a.index == b.index;
+  };
+  for (std::size_t p = 0; p < actions.size(); ++p) {
+    if (!std::equal(actions[p].begin(), actions[p].end(), other[p].begin(), other[p].end(),
+                    same_site)) {
+      throw_argument("effect " + found.variant.effect, "the same sites in all rows", "others");
+    }
+    for (std::size_t i = 0; i < actions[p].size(); ++i) {
+      body(actions[p][i].values, other[p][i].values);
+    }
+  }
+}
+
+using RowMask = Eigen::Array<bool, Eigen::Dynamic, 1>;
+
+/// Rows in which an effect does the same in two evaluations.
+RowMask same_rows(const FoundEffect& found, std::vector<std::vector<Action>>& one,
+                  const std::vector<std::vector<Action>>& other, Index rows) {
+  RowMask same = RowMask::Constant(rows, true);
+  for_each_pair(found, one, other, [&](const RowMatrix& a, const RowMatrix& b) {
+    for (Index i = 0; i < rows; ++i) same[i] = same[i] && a.row(i) == b.row(i);
+  });
+  return same;
+}
+
+/// What one side of a difference does not move stands still there.
+template <class Table>
+void subtract(const Table& other, Table& table) {
+  if (table.size() == 0) table.setZero(other.rows(), other.cols());
+  if (other.size() > 0) table -= other;
+}
+
+/// (up - down) · factor, in the memory of `up`.
+Correction difference(Correction up, const Correction& down, double factor) {
+  up.q = factor * (up.q - down.q);
+  subtract(down.lengths, up.lengths);
+  up.lengths *= factor;
+  for (std::size_t k = 0; k < up.frames.size(); ++k) {
+    subtract(down.frames[k], up.frames[k]);
+    up.frames[k] *= factor;
+  }
+  return up;
+}
+
+std::string list_of(const Covariates& covariates) {
+  std::string names;
+  for (const auto& [name, values] : covariates) names += (names.empty() ? "" : ", ") + name;
+  return names;
+}
+
+}  // namespace
+
+struct CorrectedArm::Part {
+  Actions actions;  ///< [p] of parameter p, held and left out where `counts` is false
+  RowMask counts;
+};
+
+struct CorrectedArm::Rows {
+  EffectData data;
+  SupportMask mask;
+  Correction correction;
+
+  JointMatrix moved() const { return data.q + correction.q; }
+};
+
+std::string words_of(const FoundEffect& found) {
+  const int joint = found.variant.joint;
+  return found.variant.effect + (joint < 0 ? "" : " of joint " + std::to_string(joint + 1));
+}
+
+CorrectedArm::CorrectedArm(Arm arm, std::vector<FoundEffect> effects, Support support)
+    : arm_(std::move(arm)), effects_(std::move(effects)), support_(std::move(support)) {
+  for (const FoundEffect& found : effects_) {
+    const std::string name = "effect " + found.variant.effect;
+    if (found.effect == nullptr) throw_argument(name, "an effect", "none");
+    const auto parameters = static_cast<Index>(found.variant.parameters.size());
+    if (found.values.size() != parameters || !found.values.allFinite()) {
+      throw_argument(name,
+                     "a finite value of each of " + std::to_string(parameters) + " parameters",
+                     std::to_string(found.values.size()) + " values");
+    }
+    if (found.variant.joint < -1 || found.variant.joint >= arm_.size()) {
+      throw_argument(name, "a joint from 0 to " + std::to_string(arm_.size() - 1) + ", or none",
+                     std::to_string(found.variant.joint));
+    }
+    for (const auto& [setting, value] : found.variant.settings) {
+      check_finite(name + " setting " + setting, value);
+    }
+    const auto alike = [&found](const FoundEffect& other) {
+      return other.variant.effect == found.variant.effect &&
+             other.variant.joint == found.variant.joint &&
+             other.variant.settings == found.variant.settings;
+    };
+    if (std::count_if(effects_.begin(), effects_.end(), alike) > 1) {
+      throw_argument("effects", "each once", words_of(found) + " twice, with the same settings");
+    }
+  }
+  for (const FoundEffect& found : effects_) {
+    double period = found.effect->period(found.variant);
+    for (const FoundEffect& other : effects_) {
+      if (other.variant.joint != found.variant.joint || !std::isfinite(period)) continue;
+      period = std::min(period, other.effect->period(other.variant));
+    }
+    periods_.push_back(period);
+  }
+  support_.check(arm_.size());
+  try_effects();
+}
+
+/// One row of all covariates, within the support.
+Covariates CorrectedArm::known_covariates() const {
+  Covariates covariates;
+  for (const auto& [name, range] : support_.covariates) covariates[name] = range.low.transpose();
+  if (!support_.sessions.empty()) {
+    covariates["session"] = RowMatrix::Constant(1, 1, support_.sessions.front());
+  }
+  covariates["gravity"] = support_.gravity.low.transpose();
+  return covariates;
+}
+
+/// One pose in the support shows at once what would else wait for the first use.
+void CorrectedArm::try_effects() const {
+  const Covariates covariates = known_covariates();
+  for (const FoundEffect& found : effects_) {
+    for (const std::string& name : found.effect->info().needs) {
+      if (!covariates.contains(name)) {
+        throw_argument("support", name + ", which " + words_of(found) + " needs",
+                       list_of(covariates));
+      }
+    }
+  }
+  const JointMatrix q = support_.joints.low.transpose();
+  prepare(view_of(q), covariates);
+}
+
+CorrectedPoses CorrectedArm::forward(JointView q, const Covariates& covariates,
+                                     int num_threads) const {
+  const Rows rows = prepare(q, covariates);
+  const JointMatrix moved = rows.moved();
+  CorrectedPoses result{bathyal::forward(arm_, view_of(moved), num_threads), rows.mask};
+  const auto count = static_cast<std::size_t>(q.rows());
+  parallel_for(count, kGrain, num_threads, [&](std::size_t begin, std::size_t end) {
+    CorrectedFrames frames;
+    for (std::size_t i = begin; i < end; ++i) {
+      if (!rows.correction.chained[i]) continue;
+      const auto row = static_cast<Index>(i);
+      compute_corrected_frames(arm_, rows.data.q.row(row).data(), rows.correction, row, frames);
+      write_pose(frames.world_from_tool, &result.poses[16 * i]);
+    }
+  });
+  return result;
+}
+
+CorrectedPoses CorrectedArm::forward_links(JointView q, const Covariates& covariates,
+                                           int num_threads) const {
+  const Rows rows = prepare(q, covariates);
+  const JointMatrix moved = rows.moved();
+  const std::size_t width = 16 * arm_.links().size();
+  CorrectedPoses result{bathyal::forward_links(arm_, view_of(moved), num_threads), rows.mask};
+  const auto count = static_cast<std::size_t>(q.rows());
+  parallel_for(count, kGrain, num_threads, [&](std::size_t begin, std::size_t end) {
+    CorrectedFrames frames;
+    for (std::size_t i = begin; i < end; ++i) {
+      if (!rows.correction.chained[i]) continue;
+      const auto row = static_cast<Index>(i);
+      compute_corrected_frames(arm_, rows.data.q.row(row).data(), rows.correction, row, frames);
+      for (std::size_t k = 0; k < arm_.links().size(); ++k) {
+        write_pose(frames.start_of_row(arm_, k) * arm_.links()[k].row_from_link,
+                   &result.poses[width * i + 16 * k]);
+      }
+    }
+  });
+  return result;
+}
+
+CorrectedJacobians CorrectedArm::jacobian(JointView q, const Covariates& covariates, TipFrame frame,
+                                          int num_threads) const {
+  const Rows rows = prepare(q, covariates);
+  const std::vector<Correction> by_joint = correction_by_joint(rows.data.q, covariates);
+  const auto count = static_cast<std::size_t>(q.rows());
+  const std::size_t width = 6 * static_cast<std::size_t>(size());
+  CorrectedJacobians result{std::vector<double>(count * width), rows.mask};
+  parallel_for(count, kGrain, num_threads, [&](std::size_t begin, std::size_t end) {
+    CorrectedFrames frames;
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto row = static_cast<Index>(i);
+      compute_corrected_frames(arm_, rows.data.q.row(row).data(), rows.correction, row, frames);
+      Eigen::MatrixXd numbers = corrected_jacobian(arm_, frames, rows.correction, by_joint, row);
+      if (frame == TipFrame::kTool) {
+        const Eigen::Matrix3d tool_from_world = frames.world_from_tool.linear().transpose();
+        numbers.topRows(3) = (tool_from_world * numbers.topRows(3)).eval();
+        numbers.bottomRows(3) = (tool_from_world * numbers.bottomRows(3)).eval();
+      }
+      Eigen::Map<JointMatrix>{&result.jacobians[i * width], 6, size()} = numbers;
+    }
+  });
+  return result;
+}
+
+std::vector<std::vector<Support::Gap>> CorrectedArm::gaps() const {
+  std::vector<std::vector<Support::Gap>> gaps;
+  for (Index j = 0; j < size(); ++j) {
+    double period = std::numeric_limits<double>::infinity();
+    for (std::size_t e = 0; e < effects_.size(); ++e) {
+      const int joint = effects_[e].variant.joint;
+      if (joint == j || joint < 0) period = std::min(period, periods_[e]);
+    }
+    gaps.push_back(support_.gaps_wider_than(period, j));
+  }
+  return gaps;
+}
+
+SupportMask CorrectedArm::in_support(JointView q, const Covariates& covariates) const {
+  return prepare(q, covariates).mask;
+}
+
+std::vector<HeldEffect> CorrectedArm::held(JointView q, const Covariates& covariates) const {
+  check_joint_values(arm_, q);
+  const AskedRows rows = ask(arm_, support_, q, covariates);
+  const std::vector<char> told = this->told(covariates);
+  std::vector<HeldEffect> held;
+  for (std::size_t e = 0; e < effects_.size(); ++e) {
+    if (!told[e]) continue;
+    held.push_back({effects_[e].variant, effects_[e].values, part(e, rows, true).actions});
+  }
+  return held;
+}
+
+/// Of a wave or curve along a joint: one row of what it does over all that the joint was taught.
+CorrectedArm::Actions CorrectedArm::average(std::size_t effect) const {
+  constexpr Index kPlaces = 256;
+  const FoundEffect& found = effects_[effect];
+  JointMatrix q = support_.joints.low.transpose().replicate(kPlaces, 1);
+  q.col(found.variant.joint) = support_.taught(found.variant.joint, periods_[effect], kPlaces);
+  Actions actions =
+      actions_of(*found.effect, found.variant, ask(arm_, support_, q, known_covariates()).asked);
+  for (std::vector<Action>& of_parameter : actions) {
+    for (Action& action : of_parameter) action.values = action.values.colwise().mean().eval();
+  }
+  return actions;
+}
+
+CorrectedArm::Part CorrectedArm::part(std::size_t effect, const AskedRows& rows, bool told) const {
+  const FoundEffect& found = effects_[effect];
+  const Index count = rows.asked.rows();
+  Part part{{}, RowMask::Constant(count, told)};
+  if (!told) return part;
+  part.actions = actions_of(*found.effect, found.variant, rows.asked);
+  if (found.effect->info().by_difference) return part;
+  RowMatrix near = rows.low.q;
+  const bool in_gap = support_.leave_gaps(periods_[effect], near);
+  if (!rows.beyond && !in_gap) return part;
+  const auto actions_at = [&](EffectData data) {
+    data.q = near;
+    return actions_of(*found.effect, found.variant, data);
+  };
+  Actions low = actions_at(rows.low);
+  const Actions high = actions_at(rows.high);
+  part.counts =
+      same_rows(found, part.actions, low, count) && same_rows(found, part.actions, high, count);
+  if (part.counts.all()) return part;
+  const RowMask known = same_rows(found, low, high, count);
+  const bool curve = found.variant.joint >= 0 && std::isfinite(periods_[effect]);
+  const Actions held = curve ? average(effect) : std::move(low);
+  for_each_pair(found, part.actions, held, [&](RowMatrix& values, const RowMatrix& instead) {
+    for (Index i = 0; i < count; ++i) {
+      if (part.counts[i]) continue;
+      if (known[i]) {
+        values.row(i) = instead.row(curve ? 0 : i);
+      } else {
+        values.row(i).setZero();
+      }
+    }
+  });
+  return part;
+}
+
+CorrectedArm::Rows CorrectedArm::prepare(JointView q, const Covariates& covariates) const {
+  check_joint_values(arm_, q);
+  AskedRows rows = ask(arm_, support_, q, covariates);
+  const std::vector<char> told = this->told(covariates);
+  SupportMask mask(q.rows(), static_cast<Index>(effects_.size()));
+  Correction sum(arm_, q.rows());
+  for (std::size_t e = 0; e < effects_.size(); ++e) {
+    const Part part = this->part(e, rows, told[e] != 0);
+    mask.col(static_cast<Index>(e)) = part.counts;
+    sum.add(part.actions, effects_[e].values);
+  }
+  return {std::move(rows.asked), std::move(mask), std::move(sum)};
+}
+
+std::vector<char> CorrectedArm::told(const Covariates& covariates) const {
+  std::vector<char> told(effects_.size(), 1);
+  for (std::size_t e = 0; e < effects_.size(); ++e) {
+    for (const std::string& name : effects_[e].effect->info().needs) {
+      if (covariates.contains(name)) continue;
+      if (!covariates.empty()) {
+        throw_argument("covariates", name + ", which " + words_of(effects_[e]) + " needs",
+                       list_of(covariates));
+      }
+      told[e] = 0;
+    }
+  }
+  return told;
+}
+
+std::vector<Correction> CorrectedArm::correction_by_joint(const JointMatrix& q,
+                                                          const Covariates& covariates) const {
+  std::vector<Correction> by_joint;
+  JointMatrix stepped = q;
+  for (Index j = 0; j < size(); ++j) {
+    stepped.col(j) = q.col(j).array() + kStep;
+    Correction up = prepare(view_of(stepped), covariates).correction;
+    stepped.col(j) = q.col(j).array() - kStep;
+    const Correction down = prepare(view_of(stepped), covariates).correction;
+    by_joint.push_back(difference(std::move(up), down, 1.0 / (2.0 * kStep)));
+    stepped.col(j) = q.col(j);
+  }
+  return by_joint;
+}
+
+}  // namespace bathyal

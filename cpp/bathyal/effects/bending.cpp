@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bathyal/effects/gravity_load.hpp"
+#include "bathyal/effects/library.hpp"
+
+// Links, and what the arm stands on, that bend under its weight.
+
+namespace bathyal {
+namespace {
+
+constexpr double kNothing = 1e-12;  ///< rounding leaves less of a moment or a shift
+
+/// They bend alike, and data hardly tell which of them it is.
+const char* const kBending = "bending";
+
+bool differs(const RowMatrix& values) {
+  const Eigen::RowVectorXd range = values.colwise().maxCoeff() - values.colwise().minCoeff();
+  return range.maxCoeff() > kNothing;
+}
+
+GravityLoads loads_of(const EffectData& data) {
+  return {data, GravityLoads::Bodies::kArm, payload_of(data)};
+}
+
+class LinkCompliance final : public Effect {
+ public:
+  EffectInfo info() const override {
+    return {"link_compliance",
+            "a link, or a column, that bends under what it carries",
+            "frame behind the row: turn flexibility · |l| (M⊥ + l×F / 2), shift flexibility · |l| "
+            "(M⊥×l / 2 + (l×F)×l / 3); l the link, F and M force and moment at its end of all that "
+            "lies beyond, flexibility 1 / (E I)",
+            "cantilever of Euler and Bernoulli, as in Timoshenko: Strength of materials, 1930; "
+            "Khalil, Besnard: Geometric calibration of robots with flexible joints and links, 2002",
+            {},
+            {{"flexibility", "1/(N m²)", 1e-8, 1e-2}}};
+  }
+
+  std::vector<EffectVariant> variants(const EffectData& data) const override {
+    std::vector<EffectVariant> out;
+    if (!masses_known(*data.arm) && !data.has("payload")) return out;
+    const GravityLoads loads = loads_of(data);
+    for (int row = 0; row < static_cast<int>(data.arm->joints().size()); ++row) {
+      if (!differs(bend(data, loads, row))) continue;
+      constexpr double kOrdinaryFlexibility = 1e-5;
+      out.push_back({"link_compliance",
+                     data.arm->joints()[row].coordinate,
+                     {{"row", row}},
+                     {{"flexibility", "1/(N m²)", kOrdinaryFlexibility}},
+                     kBending});
+    }
+    return out;
+  }
+
+  Actions actions(const EffectVariant& variant, const EffectData& data) const override {
+    const auto rows = static_cast<Index>(data.arm->joints().size());
+    const int row = index_of(variant, "row", rows);
+    return {{{Site::kFrame, row + 1, bend(data, loads_of(data), row)}}};
+  }
+
+ private:
+  /// (N, 6) shift and turn of the frame behind `row`, per flexibility.
+  static RowMatrix bend(const EffectData& data, const GravityLoads& loads, int row) {
+    RowMatrix out(data.rows(), 6);
+    for (Index i = 0; i < data.rows(); ++i) {
+      const Pose& from = loads.frames(i).world_from_row[row];
+      const Pose& to = loads.frames(i).world_from_row[row + 1];
+      const Vec3 link = to.linear().transpose() * (to.translation() - from.translation());
+      const double length = link.norm();
+      // The link itself is link row + 1: what lies beyond its end begins behind it.
+      const GravityLoad load = loads.beyond(i, static_cast<std::size_t>(row) + 2, to.translation());
+      const Vec3 force = to.linear().transpose() * load.force;
+      Vec3 moment = to.linear().transpose() * load.moment;
+      if (length > 0.0) moment -= moment.dot(link) / (length * length) * link;
+      const Vec3 bent = link.cross(force);
+      out.row(i).head<3>() = length * (0.5 * moment.cross(link) + bent.cross(link) / 3.0);
+      out.row(i).tail<3>() = length * (moment + 0.5 * bent);
+    }
+    return out;
+  }
+};
+
+class BaseCompliance final : public Effect {
+ public:
+  EffectInfo info() const override {
+    return {
+        "base_compliance",
+        "a stand that tilts under the arm's weight as the arm leans out",
+        "base turned by (compliance_x · M_x, compliance_y · M_y, 0), M the moment of the weight "
+        "of links and payload about the base",
+        "Khalil, Besnard: Geometric calibration of robots with flexible joints and links, 2002 "
+        "(an elastic joint before the first row)",
+        {},
+        {{"compliance_x", "rad/(N m)", 1e-9, 1e-4}, {"compliance_y", "rad/(N m)", 1e-9, 1e-4}}};
+  }
+
+  std::vector<EffectVariant> variants(const EffectData& data) const override {
+    if (!masses_known(*data.arm) && !data.has("payload")) return {};
+    const RowMatrix moments = moments_of(data);
+    EffectVariant variant{"base_compliance", -1, {}, {}, kBending};
+    for (int axis = 0; axis < 2; ++axis) {
+      constexpr double kOrdinaryCompliance = 1e-6;
+      if (!differs(moments.col(axis))) continue;
+      variant.parameters.push_back(
+          {axis == 0 ? "compliance_x" : "compliance_y", "rad/(N m)", kOrdinaryCompliance});
+    }
+    if (variant.parameters.empty()) return {};
+    return {variant};
+  }
+
+  Actions actions(const EffectVariant& variant, const EffectData& data) const override {
+    const RowMatrix moments = moments_of(data);
+    Actions out;
+    for (const EffectParameter& parameter : variant.parameters) {
+      const int axis = parameter.name == "compliance_x" ? 0 : 1;
+      out.push_back({move_frame(0, 3 + axis, moments.col(axis))});
+    }
+    return out;
+  }
+
+ private:
+  /// (N, 3) about the origin of the base, of all but the foot, which stands on it.
+  static RowMatrix moments_of(const EffectData& data) {
+    const GravityLoads loads = loads_of(data);
+    RowMatrix out(data.rows(), 3);
+    for (Index i = 0; i < data.rows(); ++i) {
+      out.row(i) = loads.beyond(i, 1, Vec3::Zero()).moment.transpose();
+    }
+    return out;
+  }
+};
+
+}  // namespace
+
+std::shared_ptr<const Effect> link_compliance() { return std::make_shared<LinkCompliance>(); }
+std::shared_ptr<const Effect> base_compliance() { return std::make_shared<BaseCompliance>(); }
+
+}  // namespace bathyal

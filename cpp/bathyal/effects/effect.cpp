@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bathyal/effects/effect.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "bathyal/base/check.hpp"
+
+namespace bathyal {
+namespace {
+
+std::string shape_of(const RowMatrix& values) {
+  return "shape (" + std::to_string(values.rows()) + ", " + std::to_string(values.cols()) + ")";
+}
+
+/// NaN stands for a number that was not recorded.
+bool is_whole(const RowMatrix& values) { return values.array().isFinite().all(); }
+
+void check_shape(const std::string& name, const RowMatrix& values, Index rows, Index wide) {
+  if (values.rows() == rows && values.cols() == wide) return;
+  throw_argument("covariates " + name,
+                 "shape (" + std::to_string(rows) + ", " + std::to_string(wide) + ")",
+                 shape_of(values));
+}
+
+void check_each(const std::string& name, const RowMatrix& values, const char* expected,
+                bool (*good)(double)) {
+  for (Index i = 0; i < values.size(); ++i) {
+    const double value = values.data()[i];
+    if (std::isnan(value) || good(value)) continue;
+    throw_argument("covariates " + name, expected,
+                   to_text(value) + " at row " + std::to_string(i / values.cols()));
+  }
+}
+
+void check_known(const Covariates& covariates, const RowMatrix& q) {
+  for (const auto& [name, values] : covariates) {
+    const Index n = q.rows();
+    if (name == "temperature" || name == "time") {
+      check_shape(name, values, n, 1);
+      check_each(name, values, "finite numbers", [](double v) { return std::isfinite(v); });
+    } else if (name == "payload") {
+      check_shape(name, values, n, 1);
+      check_each(name, values, "finite numbers of 0 or more",
+                 [](double v) { return v >= 0.0 && std::isfinite(v); });
+    } else if (name == "direction") {
+      check_shape(name, values, n, q.cols());
+      check_each(name, values, "-1, 0 or 1",
+                 [](double v) { return v == -1.0 || v == 0.0 || v == 1.0; });
+    } else if (name == "gravity") {
+      check_shape(name, values, n, 3);
+      check_each(name, values, "finite numbers", [](double v) { return std::isfinite(v); });
+    } else if (name == "session") {
+      check_shape(name, values, n, 1);
+      check_each(name, values, "whole numbers",
+                 [](double v) { return std::isfinite(v) && v == std::round(v); });
+    }
+  }
+}
+
+std::string place_of(const EffectVariant& variant, std::size_t parameter) {
+  return "actions of " + variant.effect + ", parameter " + variant.parameters[parameter].name;
+}
+
+void check_action(const std::string& name, const Action& action, const EffectData& data) {
+  const Index wide = action.site == Site::kFrame ? 6 : 1;
+  if (action.values.rows() != data.rows() || action.values.cols() != wide) {
+    throw_argument(
+        name, "values of shape (" + std::to_string(data.rows()) + ", " + std::to_string(wide) + ")",
+        shape_of(action.values));
+  }
+  if (!(action.values.array().abs() <= kMostAction).all()) {
+    throw_argument(name, "numbers within " + to_text(kMostAction), "larger ones, nan or inf");
+  }
+  const auto rows = static_cast<int>(data.arm->joints().size());
+  const int last = action.site == Site::kJoint   ? static_cast<int>(data.arm->size()) - 1
+                   : action.site == Site::kFrame ? rows + 1
+                                                 : 0;
+  if (action.index < 0 || action.index > last) {
+    throw_argument(name, "an index from 0 to " + std::to_string(last),
+                   std::to_string(action.index));
+  }
+}
+
+}  // namespace
+
+bool EffectData::has(std::string_view name) const {
+  const auto found = covariates.find(std::string(name));
+  return found != covariates.end() && found->second.rows() == rows() && is_whole(found->second);
+}
+
+const RowMatrix& EffectData::covariate(std::string_view name) const {
+  return covariates.at(std::string(name));
+}
+
+EffectData make_effect_data(const Arm& arm, const RowMatrix& q, const Covariates& covariates,
+                            bool has_rotation) {
+  check_known(covariates, q);
+  EffectData data;
+  data.arm = &arm;
+  data.q = q;
+  data.covariates = covariates;
+  data.has_rotation = has_rotation;
+  data.gravity = kGravity.transpose().replicate(q.rows(), 1);
+  if (data.has("gravity")) data.gravity = data.covariate("gravity");
+  data.order.resize(static_cast<std::size_t>(q.rows()));
+  std::iota(data.order.begin(), data.order.end(), 0);
+  if (data.has("time")) {
+    const RowMatrix& time = data.covariate("time");
+    std::stable_sort(data.order.begin(), data.order.end(),
+                     [&time](int a, int b) { return time(a, 0) < time(b, 0); });
+  }
+  return data;
+}
+
+double plausible_size(const EffectInfo& info, const EffectParameter& parameter) {
+  // "rad or m" is the unit of what turns and of what slides.
+  const auto tells = [&](const std::string& units) {
+    const std::size_t at = units.find(parameter.unit);
+    if (at == std::string::npos) return false;
+    const std::size_t end = at + parameter.unit.size();
+    return (at == 0 || units[at - 1] == ' ') &&
+           (end == units.size() || units[end] == ',' || units.substr(end, 4) == " or ");
+  };
+  for (const EffectInfo::Range& range : info.ranges) {
+    if (tells(range.unit)) return range.high;
+  }
+  return std::numeric_limits<double>::infinity();
+}
+
+std::vector<std::vector<Action>> actions_of(const Effect& effect, const EffectVariant& variant,
+                                            const EffectData& data) {
+  std::vector<std::vector<Action>> actions = effect.actions(variant, data);
+  if (actions.size() != variant.parameters.size()) {
+    throw_argument("actions of " + variant.effect,
+                   std::to_string(variant.parameters.size()) + " lists, one a parameter",
+                   std::to_string(actions.size()));
+  }
+  for (std::size_t p = 0; p < actions.size(); ++p) {
+    for (const Action& action : actions[p]) check_action(place_of(variant, p), action, data);
+  }
+  return actions;
+}
+
+}  // namespace bathyal

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bathyal/effects/library.hpp"
+
+// Effects on rows and on the noise: they move nothing that a column could, so that diagnosis finds
+// them by likelihood. What is said of them is said here, beside the others.
+
+namespace bathyal {
+namespace {
+
+class RowEffect final : public Effect {
+ public:
+  explicit RowEffect(EffectInfo info) : info_(std::move(info)) {}
+  EffectInfo info() const override { return info_; }
+  std::vector<EffectVariant> variants(const EffectData&) const override { return {}; }
+  Actions actions(const EffectVariant&, const EffectData&) const override { return {}; }
+
+ private:
+  EffectInfo info_;
+};
+
+}  // namespace
+
+std::shared_ptr<const Effect> outliers() {
+  return std::make_shared<RowEffect>(
+      EffectInfo{"outliers",
+                 "rows that do not belong to the others: a slipped probe, a broken beam",
+                 "row i is left out where it stands beyond what noise makes",
+                 "Huber: Robust estimation of a location parameter, 1964; Rousseeuw, Leroy: Robust "
+                 "regression and outlier detection, 1987",
+                 {},
+                 {}});
+}
+
+std::shared_ptr<const Effect> range_noise() {
+  return std::make_shared<RowEffect>(
+      EffectInfo{"range_noise",
+                 "noise that grows with the distance from the tracker",
+                 "σ² = σ0² + (rate · |position|)²",
+                 "ISO 10360-10 (a tracker's permissible error A + B · L); Harvey: Estimating "
+                 "regression models with multiplicative heteroscedasticity, 1976",
+                 {},
+                 {{"rate", "m/m", 1e-7, 1e-2}}});
+}
+
+std::shared_ptr<const Effect> quantisation() {
+  return std::make_shared<RowEffect>(EffectInfo{"quantisation",
+                                                "joint values that were logged in steps",
+                                                "all logged q are whole multiples of step",
+                                                "Widrow, Kollár: Quantization noise, 2008",
+                                                {},
+                                                {{"step", "rad", 1e-6, 2e-2}}});
+}
+
+}  // namespace bathyal

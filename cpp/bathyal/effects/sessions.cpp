@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "bathyal/effects/library.hpp"
+
+// What jumps: bases and tools that moved between sessions, a tool that slipped.
+
+namespace bathyal {
+namespace {
+
+constexpr int kFewestRows = 3;  ///< of a session or a side of a moment: fewer tell no frame
+constexpr Index kMostMoments = 400;
+
+/// Labels of the sessions that have enough rows, in rising order.
+std::vector<double> sessions_of(const EffectData& data) {
+  std::vector<double> out;
+  if (!data.has("session")) return out;
+  std::map<double, int> count;
+  for (const double label : data.covariate("session").reshaped()) ++count[label];
+  for (const auto& [label, rows] : count) {
+    if (rows >= kFewestRows) out.push_back(label);
+  }
+  return out;
+}
+
+std::string numbered(std::string name, std::size_t number) {
+  return name.append("_").append(std::to_string(number));
+}
+
+/// Three shifts, and turns where they are wanted: of "shift_x_2", of the second session.
+std::vector<EffectParameter> shift_and_turn(bool turns, std::size_t session = 0) {
+  std::vector<EffectParameter> out;
+  for (const std::string& axis : frame_axes("shift", "turn", turns)) {
+    out.push_back({session == 0 ? axis : numbered(axis, session), out.size() < 3 ? "m" : "rad",
+                   kOrdinaryError});
+  }
+  return out;
+}
+
+/// A frame that stands elsewhere in some sessions. Settings tell either "from", the label of the
+/// session with which all that come later moved, or a label for each session that moved by itself:
+/// "session_2" of the second one.
+class FrameBySession : public Effect {
+ public:
+  std::vector<EffectVariant> variants(const EffectData& data) const override {
+    const std::vector<double> sessions = sessions_of(data);
+    std::vector<EffectVariant> out;
+    for (std::size_t s = 1; s < sessions.size(); ++s) {
+      out.push_back(
+          {name(), -1, {{"from", sessions[s]}}, shift_and_turn(turns(data), s + 1), name()});
+    }
+    if (sessions.size() < 3) return out;
+    EffectVariant each{name(), -1, {}, {}, name()};
+    for (std::size_t s = 1; s < sessions.size(); ++s) {
+      each.settings[numbered("session", s + 1)] = sessions[s];
+      for (EffectParameter& p : shift_and_turn(turns(data), s + 1)) {
+        each.parameters.push_back(std::move(p));
+      }
+    }
+    out.push_back(std::move(each));
+    return out;
+  }
+
+  Actions actions(const EffectVariant& variant, const EffectData& data) const override {
+    const Eigen::ArrayXd session = data.covariate("session").col(0).array();
+    const auto from = variant.settings.find("from");
+    const std::size_t frames = from != variant.settings.end() ? 1 : variant.settings.size();
+    const int axes = static_cast<int>(variant.parameters.size() / std::max<std::size_t>(1, frames));
+    Actions out;
+    const auto add = [&](const Eigen::ArrayXd& moved) {
+      for (int axis = 0; axis < axes; ++axis) {
+        out.push_back({move_frame(frame(data), axis, moved)});
+      }
+    };
+    if (from != variant.settings.end()) {
+      add((session >= from->second).cast<double>());
+      return out;
+    }
+    for (std::size_t s = 2; s <= frames + 1; ++s) {
+      const double label = setting_of(variant, numbered("session", s));
+      add((session == label).cast<double>());
+    }
+    return out;
+  }
+
+ private:
+  virtual std::string name() const = 0;
+  virtual int frame(const EffectData& data) const = 0;
+  virtual bool turns(const EffectData& data) const = 0;
+};
+
+class BaseShift final : public FrameBySession {
+ public:
+  EffectInfo info() const override {
+    return {"base_shift",
+            "the base, or the tracker's frame, stood elsewhere in some sessions than in the first",
+            "base' = base · shift, turn (one for each later session, or one from a session on)",
+            "Mooring, Roth, Driels: Fundamentals of manipulator calibration, 1991, on base frames",
+            {"session"},
+            {{"shift_x_2", "m", 1e-6, 0.1}, {"turn_x_2", "rad", 1e-6, 0.1}}};
+  }
+
+ private:
+  std::string name() const override { return "base_shift"; }
+  int frame(const EffectData&) const override { return 0; }
+  bool turns(const EffectData&) const override { return true; }
+};
+
+class ToolChange final : public FrameBySession {
+ public:
+  EffectInfo info() const override {
+    return {"tool_change",
+            "the tool sat otherwise on the flange in some sessions than in the first",
+            "flange' = flange · shift, turn (one for each later session, or one from a session on)",
+            "Mooring, Roth, Driels: Fundamentals of manipulator calibration, 1991, on tool frames",
+            {"session"},
+            {{"shift_x_2", "m", 1e-6, 0.05}, {"turn_x_2", "rad", 1e-6, 0.1}}};
+  }
+
+ private:
+  std::string name() const override { return "tool_change"; }
+  int frame(const EffectData& data) const override {
+    return static_cast<int>(data.arm->joints().size()) + 1;
+  }
+  bool turns(const EffectData& data) const override { return data.has_rotation; }
+};
+
+/// Settings: "moment", how many rows came before it, and, where times were told, "time", halfway
+/// between the rows beside it. Poses to foretell of which no time is told come after it.
+class ToolSlip final : public Effect {
+ public:
+  EffectInfo info() const override {
+    return {"tool_slip",
+            "the tool slipped on the flange at some moment, and stayed there",
+            "flange' = flange · shift, turn in all rows after the moment",
+            "change of a mean at an unknown moment: Page: Continuous inspection schemes, 1954",
+            {},
+            {{"shift_x", "m", 1e-6, 0.05}, {"turn_x", "rad", 1e-6, 0.1}}};
+  }
+
+  std::vector<EffectVariant> variants(const EffectData& data) const override {
+    std::vector<int> moments;
+    for (int m = kFewestRows; m + kFewestRows <= static_cast<int>(data.rows()); ++m) {
+      if (parts(data, m)) moments.push_back(m);
+    }
+    const std::size_t step = (moments.size() + kMostMoments - 1) / kMostMoments;
+    std::vector<EffectVariant> out;
+    for (std::size_t i = 0; i < moments.size(); i += step) {
+      out.push_back(slip_at(moments[i], data));
+    }
+    return out;
+  }
+
+  std::vector<EffectVariant> between(const EffectVariant& lower, const EffectVariant& upper,
+                                     const EffectData& data) const override {
+    std::vector<EffectVariant> out;
+    const auto end = static_cast<int>(upper.settings.at("moment"));
+    for (int m = static_cast<int>(lower.settings.at("moment")) + 1; m < end; ++m) {
+      if (parts(data, m)) out.push_back(slip_at(m, data));
+    }
+    return out;
+  }
+
+  Actions actions(const EffectVariant& variant, const EffectData& data) const override {
+    Eigen::VectorXd after = Eigen::VectorXd::Zero(data.rows());
+    const auto time = variant.settings.find("time");
+    if (time != variant.settings.end() && data.has("time")) {
+      after = (data.covariate("time").col(0).array() > time->second).cast<double>();
+    } else if (data.recording) {
+      const double moment = setting_of(variant, "moment");
+      for (std::size_t i = 0; i < data.order.size(); ++i) {
+        if (static_cast<double>(i) >= moment) after[data.order[i]] = 1.0;
+      }
+    } else {
+      after.setOnes();
+    }
+    Actions out;
+    const int flange = static_cast<int>(data.arm->joints().size()) + 1;
+    for (int axis = 0; axis < static_cast<int>(variant.parameters.size()); ++axis) {
+      out.push_back({move_frame(flange, axis, after)});
+    }
+    return out;
+  }
+
+ private:
+  static EffectVariant slip_at(int moment, const EffectData& data) {
+    EffectVariant variant{
+        "tool_slip", -1, {{"moment", moment}}, shift_and_turn(data.has_rotation), "tool_slip"};
+    if (data.has("time")) {
+      variant.settings["time"] = 0.5 * (time_of(data, moment - 1) + time_of(data, moment));
+    }
+    return variant;
+  }
+  static double time_of(const EffectData& data, int place) {
+    return data.covariate("time")(data.order[place], 0);
+  }
+  /// Rows of one time cannot stand on both sides.
+  static bool parts(const EffectData& data, int moment) {
+    return !data.has("time") || time_of(data, moment - 1) < time_of(data, moment);
+  }
+};
+
+}  // namespace
+
+std::shared_ptr<const Effect> base_shift() { return std::make_shared<BaseShift>(); }
+std::shared_ptr<const Effect> tool_change() { return std::make_shared<ToolChange>(); }
+std::shared_ptr<const Effect> tool_slip() { return std::make_shared<ToolSlip>(); }
+
+}  // namespace bathyal

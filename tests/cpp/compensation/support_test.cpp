@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bathyal/compensation/support.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <stdexcept>
+
+#include "bathyal/effects/library.hpp"
+#include "support/corrected_arm_cases.hpp"
+#include "support/example_effects.hpp"
+
+namespace bathyal {
+namespace {
+
+TEST(CorrectedArm, SaysWhichEffectsCount) {
+  const Arm arm = ur10e();
+  const CorrectedArm model(arm, {curve(2e-3), growth(1e-4), slip(1e-3), moved_base(1e-3)},
+                           some_support(arm));
+  JointMatrix q = JointMatrix::Constant(7, arm.size(), 0.3);
+  q(1, 0) = 1.5;  // an argument of the curve and the growth
+  q(2, 5) = 1.5;  // of nothing
+  const Covariates covariates{
+      {"temperature", column({15, 15, 15, 35, 15, 15, kNan})},
+      {"time", column({50, 50, 50, 50, 900, 150, 150})},  // once slipped, it stays so
+      {"session", column({1, 1, 1, 1, 1, 3, kNan})}};
+  const CorrectedPoses found = model.forward(view_of(q), covariates);
+  SupportMask expected = SupportMask::Constant(7, 4, true);
+  expected(1, 0) = expected(1, 1) = expected(3, 1) = expected(6, 1) = false;
+  expected(5, 3) = expected(6, 3) = false;
+  EXPECT_TRUE((found.in_support == expected).all()) << found.in_support;
+  EXPECT_TRUE((model.in_support(view_of(q), covariates) == expected).all());
+}
+
+TEST(CorrectedArm, HoldsWhatLiesBeyondAtTheNearestRow) {
+  const Arm arm = ur10e();
+  const CorrectedArm model(arm, {curve(2e-3), growth(1e-4)}, some_support(arm));
+  const JointMatrix q = JointMatrix::Constant(1, arm.size(), 0.3);
+  const auto tip = [&](JointMatrix at, double temperature) {
+    return pose_at(model.forward(view_of(at), {{"temperature", column({temperature})}}).poses, 0);
+  };
+  EXPECT_TRUE(tip(q, 45.0).isApprox(tip(q, 30.0), 0.0));
+  EXPECT_TRUE(tip(q, -5.0).isApprox(tip(q, 10.0), 0.0));
+
+  // The curve alone, by its own formula: the arm stands at 1.7, the curve at the nearest 1.
+  const CorrectedArm curved(arm, {curve(2e-3)}, some_support(arm));
+  JointMatrix far = q, moved = q;
+  far(0, 0) = moved(0, 0) = 1.7;
+  moved(0, 1) += 2e-3 * (std::sin(0.9) + std::cos(1.0));
+  EXPECT_LT(difference(curved.forward(view_of(far)).poses, forward(arm, view_of(moved))), 1e-15);
+  // What is held no longer changes with the joint that left the support.
+  const CorrectedJacobians found = curved.jacobian(view_of(far));
+  const std::vector<double> rigid = jacobian(arm, view_of(moved));
+  const JointView one(found.jacobians.data(), 6, arm.size()), other(rigid.data(), 6, arm.size());
+  EXPECT_LT((one.col(0) - other.col(0)).cwiseAbs().maxCoeff(), 1e-12);
+  EXPECT_GT((one.col(1) - other.col(1)).cwiseAbs().maxCoeff(), 1e-4);
+}
+
+/// Two waves along the third joint and a map along the fourth, of the library.
+std::vector<FoundEffect> waves(const Arm& arm) {
+  const auto of = [&](std::shared_ptr<const Effect> effect, int joint, double setting) {
+    RowMatrix q = RowMatrix::Random(80, arm.size());
+    const EffectData data = make_effect_data(arm, q, {}, false);
+    for (EffectVariant& variant : effect->variants(data)) {
+      if (variant.joint != joint || variant.settings.begin()->second != setting) continue;
+      const auto size = static_cast<Index>(variant.parameters.size());
+      return FoundEffect{effect, variant, Eigen::VectorXd::LinSpaced(size, 1e-3, 2e-3)};
+    }
+    throw std::logic_error("no such form");
+  };
+  return {of(joint_harmonic(), 2, 3.0), of(joint_harmonic(), 2, 9.0), of(joint_map(), 3, 4.0)};
+}
+
+TEST(CorrectedArm, HoldsWavesInGapsWiderThanTheirPeriod) {
+  const Arm arm = ur10e();
+  // Every 0.01 from -1 to 1, less a stretch of 0.8 (wider than the shorter wave, 2π / 9, and so for
+  // both of joint 3; not than the map's 2π / 4), with one row that lies alone in it.
+  RowMatrix taught(201, arm.size());
+  for (Index i = 0; i < taught.rows(); ++i)
+    taught.row(i).setConstant(-1.0 + 0.01 * static_cast<double>(i));
+  for (Index i = 0; i < taught.rows(); ++i) {
+    if (taught(i, 0) > -0.2 && taught(i, 0) < 0.6) taught.row(i).setConstant(-0.2);
+  }
+  const CorrectedArm model(arm, waves(arm), support_of(taught, {}));
+  JointMatrix q = JointMatrix::Constant(3, arm.size(), -0.5);
+  q.row(1).setConstant(0.1);
+  q(2, 0) = q(2, 1) = 0.1;
+  SupportMask expected = SupportMask::Constant(3, 3, true);
+  expected(1, 0) = expected(1, 1) = false;
+  const CorrectedPoses found = model.forward(view_of(q));
+  EXPECT_TRUE((found.in_support == expected).all()) << found.in_support;
+
+  // Held at the average of what was taught: here by a plain sum over both stretches.
+  const auto wave = [](double at) {
+    return 1e-3 * (std::cos(3 * at) + std::cos(9 * at)) +
+           2e-3 * (std::sin(3 * at) + std::sin(9 * at));
+  };
+  double sum = 0.0;
+  constexpr int kParts = 1200;
+  for (int i = 0; i < kParts; ++i) {
+    const double along = -1.0 + 1.2 * (i + 0.5) / kParts;
+    sum += wave(along < -0.2 ? along : along + 0.8);
+  }
+  const CorrectedArm mapped(arm, {waves(arm)[2]}, support_of(taught, {}));
+  JointMatrix moved = q.row(1);
+  moved(0, 2) += sum / kParts;
+  const Pose tip = pose_at(mapped.forward(view_of(moved)).poses, 0);
+  EXPECT_LT((tip.translation() - pose_at(found.poses, 1).translation()).norm(), 1e-5);
+  EXPECT_GT(std::abs(sum / kParts), 1e-4);
+
+  const std::vector<std::vector<Support::Gap>> gaps = model.gaps();
+  ASSERT_EQ(gaps.size(), 6u);
+  for (std::size_t j = 0; j < gaps.size(); ++j) EXPECT_EQ(gaps[j].size(), j == 2 ? 1u : 0u);
+  EXPECT_NEAR(gaps[2][0].low, -0.2, 1e-12);
+  EXPECT_NEAR(gaps[2][0].high, 0.6, 1e-12);
+}
+
+TEST(CorrectedArm, ALoneRowInAGapTeachesNothing) {
+  const Arm arm = ur10e();
+  RowMatrix taught(102, arm.size());
+  for (Index i = 0; i < 51; ++i) {
+    taught.row(i).setConstant(-2.0 + 0.02 * static_cast<double>(i));
+    taught.row(i + 51).setConstant(1.0 + 0.02 * static_cast<double>(i));
+  }
+  const Support without = support_of(taught, {});
+  RowMatrix more(103, arm.size());
+  more << taught, RowMatrix::Constant(1, arm.size(), 0.1);
+  const std::vector<FoundEffect> found{waves(arm)[0], waves(arm)[1]};
+  const CorrectedArm one(arm, found, without), other(arm, found, support_of(more, {}));
+  const JointMatrix q = JointMatrix::Constant(1, arm.size(), 0.2);
+  EXPECT_FALSE(one.in_support(view_of(q))(0, 0));
+  EXPECT_FALSE(other.in_support(view_of(q))(0, 0));
+  EXPECT_LT(difference(one.forward(view_of(q)).poses, other.forward(view_of(q)).poses), 1e-12);
+}
+
+TEST(CorrectedArm, IsRigidWhereEverythingIsLeftOut) {
+  const Arm arm = odd_arm(3);
+  const CorrectedArm model(arm, {growth(1e-3), moved_base(1e-3)}, some_support(arm));
+  const JointMatrix q = JointMatrix::Constant(4, arm.size(), 0.7);
+  const CorrectedPoses found =
+      model.forward(view_of(q), {{"temperature", column({kNan})}, {"session", column({7.0})}});
+  EXPECT_FALSE(found.in_support.any());
+  EXPECT_EQ(found.poses, forward(arm, view_of(q)));
+}
+
+TEST(CorrectedArm, CountsNoLoadWhereNoneIsTold) {
+  const Arm arm = ur10e();
+  const JointMatrix q = JointMatrix::Zero(1, arm.size());
+  const CorrectedArm model(arm, {sag(1e-3)}, some_support(arm));
+  EXPECT_EQ(model.forward(view_of(q)).poses, forward(arm, view_of(q)));
+  const Support bare = support_of(RowMatrix(q), {});
+  const CorrectedArm unladen(arm, {sag(1e-3)}, bare);
+  EXPECT_TRUE(unladen.in_support(view_of(q)).all());
+  EXPECT_FALSE(unladen.in_support(view_of(q), {{"payload", column({1.0})}}).any());
+}
+
+TEST(CorrectedArm, HasNoBoundsForDifferences) {
+  const Arm arm = ur10e();
+  const CorrectedArm model(arm, {late(0.1)}, some_support(arm));
+  const JointMatrix q = JointMatrix::Constant(3, arm.size(), 2.0);
+  EXPECT_TRUE(model.in_support(view_of(q), {{"time", column({1e6})}}).all());
+}
+
+TEST(CorrectedArm, InverseHoldsBeyondTheSupport) {
+  const Arm arm = ur10e();
+  const CorrectedArm model(arm, {curve(3e-3)}, some_support(arm));
+  JointMatrix q = JointMatrix::Constant(1, arm.size(), 0.5);
+  q(0, 1) = -1.8;
+  const std::vector<double> targets = model.forward(view_of(q)).poses;
+  const CorrectedInverse found = model.inverse(targets, view_of(q));
+  EXPECT_EQ(found.result.status[0], InverseStatus::kReached);
+  EXPECT_FALSE(found.in_support(0, 0));
+  EXPECT_LT((found.result.q - q).cwiseAbs().maxCoeff(), 1e-8);
+}
+
+TEST(Support, OfRowsLeavesOutWhatIsNotKnown) {
+  RowMatrix q(3, 1);
+  q << 0.5, -0.5, 0.1;
+  const Support support = support_of(q, {{"temperature", column({kNan, 9.0, 21.0})},
+                                         {"depth", column({kNan, kNan, kNan})},
+                                         {"session", column({4.0, 2.0, 4.0})}});
+  EXPECT_EQ(support.joints.low[0], -0.5);
+  EXPECT_EQ(support.joints.high[0], 0.5);
+  EXPECT_EQ(support.covariates.at("temperature").low[0], 9.0);
+  EXPECT_FALSE(support.covariates.contains("depth"));
+  EXPECT_EQ(support.sessions, (std::vector<double>{2.0, 4.0}));
+  EXPECT_EQ(support.gravity.low[2], -9.80665);
+  EXPECT_EQ(support.covariates.at("payload").high[0], 0.0);
+}
+
+TEST(Support, KnowsItsGaps) {
+  RowMatrix q(5, 2);
+  q << 0.0, 3.0, 1.0, 3.0, 0.004, 3.0, 0.6, 3.0, 0.6, 3.0;
+  Support support = support_of(q, {});
+  ASSERT_EQ(support.gaps.size(), 2u);
+  ASSERT_EQ(support.gaps[0].size(), 2u);
+  EXPECT_EQ(support.gaps[0][0].low, 0.004);
+  EXPECT_EQ(support.gaps[0][1].high, 1.0);
+  EXPECT_TRUE(support.gaps[1].empty());
+
+  RowMatrix asked(6, 2);
+  asked << 0.2, 3.0, 0.5, 3.0, 0.6, 3.0, 0.9, 3.0, -1.0, 3.0, 2.0, 3.0;
+  RowMatrix near = asked;
+  EXPECT_FALSE(support.leave_gaps(0.7, near));
+  EXPECT_TRUE(support.leave_gaps(0.5, near));
+  EXPECT_TRUE(near.col(0).isApprox(column({0.004, 0.6, 0.6, 0.9, -1.0, 2.0})));
+  EXPECT_TRUE(support.taught(0, 0.5, 2).isApprox(column({0.101 + 0.596, 0.899}).col(0), 1e-12))
+      << support.taught(0, 0.5, 2);
+  EXPECT_NO_THROW(support.check(2));
+  support.gaps[0][1].low = 0.5;
+  EXPECT_THROW(support.check(2), std::invalid_argument);
+  support.gaps.pop_back();
+  EXPECT_THROW(support.check(2), std::invalid_argument);
+}
+
+TEST(Support, IsNotLeftByTheLastDigit) {
+  const Arm arm = ur10e();
+  const CorrectedArm model(arm, {curve(1e-3)}, some_support(arm));
+  JointMatrix q = JointMatrix::Constant(2, arm.size(), 1.0 + 1e-10);
+  q.row(1).setConstant(1.0 + 1e-6);
+  const SupportMask mask = model.in_support(view_of(q));
+  EXPECT_TRUE(mask(0, 0));
+  EXPECT_FALSE(mask(1, 0));
+}
+
+}  // namespace
+}  // namespace bathyal

@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bathyal/diagnosis/arm/model.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "bathyal/arm/dh.hpp"
+#include "bathyal/arm/row_frames.hpp"
+#include "bathyal/base/random.hpp"
+
+namespace bathyal {
+namespace {
+
+Arm three_joints() {
+  DhTable table;
+  table.rows = {
+      {0.1, std::numbers::pi / 2.0, 0.3, 0.0}, {0.5, 0.0, 0.0, 0.0}, {0.4, 0.0, 0.0, 0.0}};
+  table.types.assign(3, JointType::kRevolute);
+  return arm_from_dh(table);
+}
+
+/// Poses in which joint 1 moves by a third of a turn only, and has an error of two waves.
+Tracked little_moved(double size) {
+  const Arm arm = three_joints();
+  Tracked out;
+  out.q = RowMatrix(150, 3);
+  out.position = RowMatrix(150, 3);
+  for (Index i = 0; i < out.q.rows(); ++i) {
+    RandomStream random(5, static_cast<std::uint64_t>(i));
+    for (Index j = 0; j < 3; ++j) out.q(i, j) = random.uniform(-2.0, 2.0);
+    out.q(i, 0) *= 0.5;
+    Eigen::VectorXd q = out.q.row(i);
+    q[0] += size * (std::cos(4.0 * q[0]) - std::sin(7.0 * q[0]));
+    const RowFrames frames = row_frames(arm, {q.data(), 3});
+    for (Index axis = 0; axis < 3; ++axis) {
+      out.position(i, axis) = frames.world_from_tool.translation()[axis] + 1e-4 * random.normal();
+    }
+  }
+  return out;
+}
+
+/// The largest value that a curve of twelve waves along joint 1 is fitted with.
+double largest_value(double size) {
+  const Arm arm = three_joints();
+  const IdentifyOptions options;
+  const Measurement measurement = to_measurement(arm, little_moved(size));
+  ArmSubject subject(arm, measurement, {}, options, library_effects());
+  for (int form = 0; form < static_cast<int>(subject.forms().size()); ++form) {
+    const Form& about = subject.forms()[form];
+    if (about.effect != "joint_map" || about.joint != 0) continue;
+    const EffectVariant& variant = subject.variant(form);
+    if (variant.parameters.size() < 20) continue;
+    subject.settle({form});
+    return subject.found().front().values.cwiseAbs().maxCoeff();
+  }
+  ADD_FAILURE() << "no curve of twelve waves";
+  return 0.0;
+}
+
+TEST(ArmSubject, NumbersThatTheDataHardlyTellAreHeldToTheSizeOfTheOthers) {
+  // Plausible are 2e-2 rad, and by themselves such waves over a third of a turn run up to that.
+  EXPECT_LT(largest_value(1e-3), 4e-3);
+  EXPECT_LT(largest_value(1e-4), 1e-3);
+}
+
+int wave_of_joint_1(const ArmSubject& subject) {
+  for (int form = 0; form < static_cast<int>(subject.forms().size()); ++form) {
+    if (subject.forms()[form].effect == "joint_harmonic" && subject.forms()[form].joint == 0) {
+      return form;
+    }
+  }
+  return -1;
+}
+
+TEST(ArmSubject, StandsAgainWhereItStood) {
+  const Arm arm = three_joints();
+  const IdentifyOptions options;
+  const Measurement measurement = to_measurement(arm, little_moved(1e-3));
+  ArmSubject subject(arm, measurement, {}, options, library_effects());
+  const int form = wave_of_joint_1(subject);
+  ASSERT_GE(form, 0);
+  subject.settle({form});
+  const Linearization there = subject.linearization();
+  const Eigen::VectorXd values = subject.found().front().values;
+  const auto place = subject.place();
+  subject.set_trust(Eigen::VectorXd::Constant(measurement.rows(), 0.5));
+  subject.settle({form, form + 3});
+  ASSERT_EQ(subject.found().size(), 2u);
+  subject.return_to(*place);
+  EXPECT_LT((subject.found().front().values - values).norm(), 1e-12);
+  EXPECT_LT((subject.linearization().misfit - there.misfit).norm(), 1e-8 * there.misfit.norm());
+  EXPECT_LT((subject.linearization().base - there.base).norm(), 1e-8 * there.base.norm());
+}
+
+/// Rows of a subject, seen alone or among all: an effect that looks at neighbours in time (clocks
+/// out of step) does the same in both.
+TEST(ArmSubject, SomeRowsSeeWhatTheRecordSees) {
+  const Arm arm = three_joints();
+  const IdentifyOptions options;
+  const Tracked tracked = little_moved(1e-3);
+  const Measurement measurement = to_measurement(arm, tracked);
+  RowMatrix time(measurement.rows(), 1);
+  for (Index i = 0; i < measurement.rows(); ++i) time(i, 0) = 0.5 * static_cast<double>(i);
+  ArmSubject whole(arm, measurement, {{"time", time}}, options, library_effects());
+  std::vector<int> rows;
+  for (int i = 0; i < measurement.rows(); i += 2) rows.push_back(i);
+  const ArmSubject some(whole, rows);
+  ASSERT_EQ(some.forms().size(), whole.forms().size());
+  int asked = 0;
+  for (int form = 0; form < static_cast<int>(whole.forms().size()); ++form) {
+    const std::string& effect = whole.forms()[form].effect;
+    if (effect != "clock_shift" && effect != "tool_slip" && effect != "joint_map") continue;
+    const Eigen::MatrixXd all = whole.columns(std::vector<int>{form}).front();
+    const Eigen::MatrixXd part = some.columns(std::vector<int>{form}).front();
+    ASSERT_EQ(part.cols(), all.cols());
+    // In units of each one's noise, at geometries that differ a little.
+    for (Index c = 0; c < all.cols(); ++c) {
+      Eigen::VectorXd same(3 * static_cast<Index>(rows.size()));
+      for (Index i = 0; i < same.size() / 3; ++i) {
+        same.segment<3>(3 * i) = all.col(c).segment<3>(3 * rows[i]);
+      }
+      same *= whole.noise() / some.noise();
+      EXPECT_LT((part.col(c) - same).norm(), 0.05 * same.norm() + 1e-9) << effect << " " << c;
+    }
+    ++asked;
+  }
+  EXPECT_GT(asked, 3);
+}
+
+TEST(ArmSubject, RowsStandInTheOrderOfTheirTimes) {
+  const Arm arm = three_joints();
+  const IdentifyOptions options;
+  const Measurement measurement = to_measurement(arm, little_moved(1e-3));
+  RowMatrix time(measurement.rows(), 1);
+  for (Index i = 0; i < measurement.rows(); ++i) {
+    time(i, 0) = static_cast<double>((7 * i + 3) % measurement.rows());
+  }
+  const ArmSubject subject(arm, measurement, {{"time", time}}, options, {});
+  for (Index i = 0; i < measurement.rows(); ++i) {
+    ASSERT_EQ(subject.units().order[i], static_cast<int>(time(i, 0)));
+  }
+}
+
+/// Mean squares of rows along what rounded joints do, and across it, in units of noise.
+std::pair<double, double> along_and_across(const ArmSubject& subject,
+                                           const Eigen::MatrixXd& loads) {
+  const Linearization& at = subject.linearization();
+  double along = 0.0, across = 0.0;
+  const Index poses = loads.rows() / 3;
+  for (Index i = 0; i < poses; ++i) {
+    const Eigen::JacobiSVD<Eigen::MatrixXd> own(loads.middleRows<3>(3 * i), Eigen::ComputeFullU);
+    const Eigen::Vector3d row = at.misfit.segment<3>(3 * i);
+    along += std::pow(own.matrixU().col(0).dot(row), 2) / static_cast<double>(poses);
+    across += std::pow(own.matrixU().col(2).dot(row), 2) / static_cast<double>(poses);
+  }
+  return {along, across};
+}
+
+TEST(ArmSubject, ErrorsOfRoundedJointsWeighAlikeInAllDirections) {
+  const Arm arm = three_joints();
+  const IdentifyOptions options;
+  constexpr double kStep = 2e-3;
+  Tracked tracked = little_moved(0.0);
+  tracked.q = (tracked.q / kStep).array().round() * kStep;
+  const Measurement measurement = to_measurement(arm, tracked);
+  ArmSubject subject(arm, measurement, {}, options, library_effects());
+  ASSERT_EQ(subject.noise_forms().back().effect, "quantisation");
+  const Eigen::MatrixXd& loads = subject.noise_forms().back().loads;
+  subject.settle({});
+  const auto [along, across] = along_and_across(subject, loads);
+  EXPECT_GT(along, 4.0 * across);
+
+  Eigen::VectorXd ratios = Eigen::VectorXd::Zero(2);
+  ratios[1] = std::pow(kStep / 1e-4, 2);
+  subject.set_noise_forms(ratios);
+  subject.settle({});
+  const auto [along_then, across_then] = along_and_across(subject, loads);
+  EXPECT_NEAR(along_then, 1.0, 0.35);
+  EXPECT_NEAR(across_then, 1.0, 0.35);
+  EXPECT_NEAR(subject.noise(), 1e-4, 1.5e-5);
+  // What was whitened is told as it was measured.
+  const Eigen::Matrix3Xd metres = subject.in_metres(subject.linearization().misfit);
+  EXPECT_LT((metres + subject.deviations()).norm(), 1e-6 * metres.norm());
+  const double rms = std::sqrt(metres.squaredNorm() / static_cast<double>(metres.size()));
+  EXPECT_NEAR(subject.mean_noise(), rms, 0.1 * rms);
+  EXPECT_LT(subject.mean_unit(), 0.7 * rms);
+}
+
+}  // namespace
+}  // namespace bathyal

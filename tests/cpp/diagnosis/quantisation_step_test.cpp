@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bathyal/diagnosis/arm/quantisation_step.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "bathyal/arm/dh.hpp"
+#include "bathyal/base/random.hpp"
+
+namespace bathyal {
+namespace {
+
+Arm two_joints() {
+  DhTable table;
+  table.rows = {{0.5, 0.0, 0.1, 0.0}, {0.4, 0.0, 0.0, 0.0}};
+  table.types = {JointType::kRevolute, JointType::kRevolute};
+  return arm_from_dh(table);
+}
+
+RowMatrix joints(double step) {
+  RowMatrix q(60, 2);
+  for (Index i = 0; i < q.rows(); ++i) {
+    RandomStream random(4, static_cast<std::uint64_t>(i));
+    for (Index j = 0; j < 2; ++j) {
+      const double value = random.uniform(-3.0, 3.0);
+      q(i, j) = step > 0.0 ? step * std::round(value / step) : value;
+    }
+  }
+  return q;
+}
+
+TEST(LoggedStep, IsFoundWhateverItIs) {
+  for (const double step : {2e-5, 1.7e-4, 3.1415926535897931 / 8192.0, 0.02}) {
+    EXPECT_NEAR(logged_step(joints(step), two_joints()) / step, 1.0, 1e-9) << step;
+  }
+}
+
+TEST(LoggedStep, ValuesWithoutStepHaveNone) {
+  EXPECT_EQ(logged_step(joints(0.0), two_joints()), 0.0);
+}
+
+TEST(LoggedStep, OneValueOffTheGridIsEnough) {
+  RowMatrix q = joints(1e-3);
+  q(7, 1) += 4.3e-4;
+  EXPECT_NE(logged_step(q, two_joints()), 1e-3);
+}
+
+}  // namespace
+}  // namespace bathyal
