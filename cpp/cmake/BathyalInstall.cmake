@@ -6,7 +6,7 @@ include(GNUInstallDirs)
 get_property(modules GLOBAL PROPERTY BATHYAL_MODULES)
 install(TARGETS ${modules} EXPORT bathyalTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/cpp/bathyal DESTINATION include FILES_MATCHING
-        PATTERN "*.hpp")
+        PATTERN "*.hpp" PATTERN internal EXCLUDE)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/bathyal)
 install(EXPORT bathyalTargets NAMESPACE bathyal:: DESTINATION ${package_dir})
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/bathyalConfig.cmake.in

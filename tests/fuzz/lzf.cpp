@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "bathyal/soundings/lzf.hpp"
+#include "bathyal/soundings/internal/lzf.hpp"
 
 #include <memory>
 

@@ -4,8 +4,8 @@
 #include <cstdlib>
 #include <string>
 
-#include "bathyal/soundings/parse_number.hpp"
-#include "bathyal/soundings/plain_decimal.hpp"
+#include "bathyal/soundings/internal/parse_number.hpp"
+#include "bathyal/soundings/internal/plain_decimal.hpp"
 
 namespace {
 

@@ -6,8 +6,8 @@
 #include <string>
 
 #include "bathyal/arm/forward_program.hpp"
-#include "bathyal/arm/inverse_search.hpp"
-#include "bathyal/arm/inverse_stepping.hpp"
+#include "bathyal/arm/internal/inverse_search.hpp"
+#include "bathyal/arm/internal/inverse_stepping.hpp"
 #include "bathyal/base/check.hpp"
 #include "bathyal/base/parallel.hpp"
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "bathyal/arm/sincos.hpp"
+#include "bathyal/arm/internal/sincos.hpp"
 
 namespace bathyal::arm {
 namespace {

@@ -7,11 +7,11 @@
 
 #include "bathyal/base/check.hpp"
 #include "bathyal/base/random.hpp"
-#include "bathyal/diagnosis/arm/model.hpp"
-#include "bathyal/diagnosis/arm/next_poses.hpp"
-#include "bathyal/diagnosis/duplicates.hpp"
-#include "bathyal/diagnosis/record_checks.hpp"
-#include "bathyal/diagnosis/report.hpp"
+#include "bathyal/diagnosis/arm/internal/model.hpp"
+#include "bathyal/diagnosis/arm/internal/next_poses.hpp"
+#include "bathyal/diagnosis/internal/duplicates.hpp"
+#include "bathyal/diagnosis/internal/record_checks.hpp"
+#include "bathyal/diagnosis/internal/report.hpp"
 #include "bathyal/selection/selection.hpp"
 
 namespace bathyal {

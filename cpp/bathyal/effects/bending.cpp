@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bathyal/effects/gravity_load.hpp"
-#include "bathyal/effects/library.hpp"
+#include "bathyal/effects/internal/library.hpp"
 
 // Links, and what the arm stands on, that bend under its weight.
 

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bathyal/effects/library.hpp"
+#include "bathyal/effects/internal/library.hpp"
 
 // What goes with temperature and time.
 

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "bathyal/effects/gravity_load.hpp"
-#include "bathyal/effects/library.hpp"
+#include "bathyal/effects/internal/library.hpp"
 #include "bathyal/estimation/rank.hpp"
 
 // Joints that give way under weight.

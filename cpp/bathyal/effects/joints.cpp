@@ -5,7 +5,7 @@
 #include <numbers>
 #include <set>
 
-#include "bathyal/effects/library.hpp"
+#include "bathyal/effects/internal/library.hpp"
 
 // What a joint does to itself: encoders, gears, screws.
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "bathyal/effects/library.hpp"
+#include "bathyal/effects/internal/library.hpp"
 
 // Effects on rows and on the noise: they move nothing that a column could, so that diagnosis finds
 // them by likelihood. What is said of them is said here, beside the others.

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <map>
 
-#include "bathyal/effects/library.hpp"
+#include "bathyal/effects/internal/library.hpp"
 
 // What jumps: bases and tools that moved between sessions, a tool that slipped.
 

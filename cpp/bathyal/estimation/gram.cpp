@@ -6,7 +6,7 @@
 
 #include "bathyal/base/parallel.hpp"
 #include "bathyal/base/simd.hpp"
-#include "bathyal/estimation/gram_kernel.hpp"
+#include "bathyal/estimation/internal/gram_kernel.hpp"
 
 namespace bathyal {
 namespace {

@@ -9,8 +9,8 @@
 #include <numbers>
 
 #include "bathyal/base/parallel.hpp"
-#include "bathyal/geometry/edge_topology.hpp"
-#include "bathyal/geometry/shadow_area.hpp"
+#include "bathyal/geometry/internal/edge_topology.hpp"
+#include "bathyal/geometry/internal/shadow_area.hpp"
 
 namespace bathyal {
 namespace {

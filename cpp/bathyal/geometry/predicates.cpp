@@ -8,7 +8,7 @@
 #include <cstdlib>
 #include <limits>
 
-#include "bathyal/geometry/big_integer.hpp"
+#include "bathyal/geometry/internal/big_integer.hpp"
 
 namespace bathyal::exact {
 namespace {

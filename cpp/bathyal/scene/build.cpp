@@ -7,9 +7,9 @@
 
 #include "bathyal/base/error.hpp"
 #include "bathyal/base/parallel.hpp"
-#include "bathyal/scene/cells.hpp"
-#include "bathyal/scene/hierarchy.hpp"
-#include "bathyal/scene/split.hpp"
+#include "bathyal/scene/internal/cells.hpp"
+#include "bathyal/scene/internal/hierarchy.hpp"
+#include "bathyal/scene/internal/split.hpp"
 
 namespace bathyal {
 namespace scene {

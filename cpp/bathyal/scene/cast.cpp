@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "bathyal/scene/cast_kernel.hpp"
+#include "bathyal/scene/internal/cast_kernel.hpp"
 
 #include "bathyal/base/parallel.hpp"
 #include "bathyal/base/simd.hpp"
-#include "bathyal/scene/hierarchy.hpp"
-#include "bathyal/scene/ray_rows.hpp"
+#include "bathyal/scene/internal/hierarchy.hpp"
+#include "bathyal/scene/internal/ray_rows.hpp"
 
 namespace bathyal {
 namespace scene {

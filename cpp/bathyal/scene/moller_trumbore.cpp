@@ -2,7 +2,7 @@
 #include "bathyal/scene/moller_trumbore.hpp"
 
 #include "bathyal/base/parallel.hpp"
-#include "bathyal/scene/ray_rows.hpp"
+#include "bathyal/scene/internal/ray_rows.hpp"
 
 namespace bathyal {
 namespace {

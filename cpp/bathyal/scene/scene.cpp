@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "bathyal/base/error.hpp"
-#include "bathyal/scene/hierarchy.hpp"
+#include "bathyal/scene/internal/hierarchy.hpp"
 
 namespace bathyal {
 namespace {

@@ -2,10 +2,10 @@
 #include <algorithm>
 #include <vector>
 
-#include "bathyal/scene/cut.hpp"
-#include "bathyal/scene/gauge.hpp"
-#include "bathyal/scene/hierarchy.hpp"
-#include "bathyal/scene/prefetch.hpp"
+#include "bathyal/scene/internal/cut.hpp"
+#include "bathyal/scene/internal/gauge.hpp"
+#include "bathyal/scene/internal/hierarchy.hpp"
+#include "bathyal/scene/internal/prefetch.hpp"
 
 namespace bathyal {
 namespace {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <utility>
 
-#include "bathyal/selection/cross_validation.hpp"
-#include "bathyal/selection/subset_search.hpp"
+#include "bathyal/selection/internal/cross_validation.hpp"
+#include "bathyal/selection/internal/subset_search.hpp"
 
 namespace bathyal {
 namespace {

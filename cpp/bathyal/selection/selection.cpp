@@ -9,8 +9,8 @@
 
 #include "bathyal/estimation/f_distribution.hpp"
 #include "bathyal/estimation/orthogonal.hpp"
-#include "bathyal/selection/cross_validation.hpp"
-#include "bathyal/selection/subset_search.hpp"
+#include "bathyal/selection/internal/cross_validation.hpp"
+#include "bathyal/selection/internal/subset_search.hpp"
 
 namespace bathyal {
 namespace {

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <utility>
 
-#include "bathyal/selection/grid_scan.hpp"
+#include "bathyal/selection/internal/grid_scan.hpp"
+#include "bathyal/selection/internal/subset_search.hpp"
 #include "bathyal/selection/outlier_test.hpp"
-#include "bathyal/selection/subset_search.hpp"
 
 namespace bathyal {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "bathyal/estimation/f_distribution.hpp"
 #include "bathyal/estimation/orthogonal.hpp"
-#include "bathyal/selection/grid_scan.hpp"
+#include "bathyal/selection/internal/grid_scan.hpp"
 #include "bathyal/selection/outlier_test.hpp"
 
 namespace bathyal {

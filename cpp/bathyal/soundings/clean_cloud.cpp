@@ -9,8 +9,8 @@
 
 #include "bathyal/base/check.hpp"
 #include "bathyal/base/parallel.hpp"
-#include "bathyal/soundings/clean_steps.hpp"
-#include "bathyal/soundings/parallel_sort.hpp"
+#include "bathyal/soundings/internal/clean_steps.hpp"
+#include "bathyal/soundings/internal/parallel_sort.hpp"
 
 namespace bathyal {
 namespace {

@@ -13,11 +13,11 @@
 
 #include "bathyal/base/error.hpp"
 #include "bathyal/base/parallel.hpp"
-#include "bathyal/soundings/byte_source.hpp"
-#include "bathyal/soundings/growing_array.hpp"
-#include "bathyal/soundings/lzf.hpp"
-#include "bathyal/soundings/pcd_header.hpp"
-#include "bathyal/soundings/text_columns.hpp"
+#include "bathyal/soundings/internal/byte_source.hpp"
+#include "bathyal/soundings/internal/growing_array.hpp"
+#include "bathyal/soundings/internal/lzf.hpp"
+#include "bathyal/soundings/internal/pcd_header.hpp"
+#include "bathyal/soundings/internal/text_columns.hpp"
 
 namespace bathyal {
 namespace {

@@ -3,9 +3,9 @@
 
 #include "bathyal/base/error.hpp"
 #include "bathyal/base/parallel.hpp"
-#include "bathyal/soundings/ascii_grid.hpp"
-#include "bathyal/soundings/text_blocks.hpp"
-#include "bathyal/soundings/text_columns.hpp"
+#include "bathyal/soundings/internal/ascii_grid.hpp"
+#include "bathyal/soundings/internal/text_blocks.hpp"
+#include "bathyal/soundings/internal/text_columns.hpp"
 
 namespace bathyal {
 namespace {

@@ -14,7 +14,7 @@
 
 #include "bathyal/base/check.hpp"
 #include "bathyal/base/parallel.hpp"
-#include "bathyal/soundings/byte_source.hpp"
+#include "bathyal/soundings/internal/byte_source.hpp"
 
 namespace bathyal {
 namespace {

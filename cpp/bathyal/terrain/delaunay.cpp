@@ -11,8 +11,8 @@
 #include "bathyal/base/error.hpp"
 #include "bathyal/base/parallel.hpp"
 #include "bathyal/geometry/point_cloud.hpp"
-#include "bathyal/terrain/hilbert_order.hpp"
-#include "bathyal/terrain/triangulate_cells.hpp"
+#include "bathyal/terrain/internal/hilbert_order.hpp"
+#include "bathyal/terrain/internal/triangulate_cells.hpp"
 
 namespace bathyal {
 namespace {

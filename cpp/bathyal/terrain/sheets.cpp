@@ -9,8 +9,8 @@
 
 #include "bathyal/base/check.hpp"
 #include "bathyal/base/parallel.hpp"
-#include "bathyal/terrain/plan_grid.hpp"
-#include "bathyal/terrain/sheet_search.hpp"
+#include "bathyal/terrain/internal/plan_grid.hpp"
+#include "bathyal/terrain/internal/sheet_search.hpp"
 
 namespace bathyal {
 namespace {

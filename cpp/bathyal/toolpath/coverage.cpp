@@ -8,7 +8,7 @@
 #include <string>
 
 #include "bathyal/base/check.hpp"
-#include "bathyal/toolpath/polygon.hpp"
+#include "bathyal/toolpath/internal/polygon.hpp"
 
 namespace bathyal {
 namespace {

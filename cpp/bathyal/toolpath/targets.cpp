@@ -6,7 +6,7 @@
 
 #include "bathyal/base/check.hpp"
 #include "bathyal/base/parallel.hpp"
-#include "bathyal/toolpath/hole.hpp"
+#include "bathyal/toolpath/internal/hole.hpp"
 
 namespace bathyal {
 namespace {

@@ -5,10 +5,10 @@
 #include <map>
 
 #include "bathyal/base/check.hpp"
-#include "bathyal/toolpath/flags.hpp"
-#include "bathyal/toolpath/frames.hpp"
-#include "bathyal/toolpath/normals.hpp"
-#include "bathyal/toolpath/timing.hpp"
+#include "bathyal/toolpath/internal/flags.hpp"
+#include "bathyal/toolpath/internal/frames.hpp"
+#include "bathyal/toolpath/internal/normals.hpp"
+#include "bathyal/toolpath/internal/timing.hpp"
 
 namespace bathyal {
 namespace {

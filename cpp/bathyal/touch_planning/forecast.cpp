@@ -8,7 +8,7 @@
 #include "bathyal/estimation/rank.hpp"
 #include "bathyal/identify/fit/arm_fit.hpp"
 #include "bathyal/identify/model/arm_residuals.hpp"
-#include "bathyal/touch_planning/tip_model.hpp"
+#include "bathyal/touch_planning/internal/tip_model.hpp"
 
 namespace bathyal {
 namespace {

@@ -9,9 +9,9 @@
 #include "bathyal/base/check.hpp"
 #include "bathyal/estimation/optimal_design.hpp"
 #include "bathyal/estimation/rank.hpp"
-#include "bathyal/touch_planning/candidates.hpp"
-#include "bathyal/touch_planning/plan_warnings.hpp"
-#include "bathyal/touch_planning/tip_model.hpp"
+#include "bathyal/touch_planning/internal/candidates.hpp"
+#include "bathyal/touch_planning/internal/plan_warnings.hpp"
+#include "bathyal/touch_planning/internal/tip_model.hpp"
 
 namespace bathyal {
 namespace {

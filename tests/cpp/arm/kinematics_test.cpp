@@ -5,8 +5,8 @@
 
 #include <cmath>
 
+#include "bathyal/arm/internal/sincos.hpp"
 #include "bathyal/arm/row_frames.hpp"
-#include "bathyal/arm/sincos.hpp"
 #include "bathyal/base/simd.hpp"
 #include "support/arms.hpp"
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "bathyal/effects/library.hpp"
+#include "bathyal/effects/internal/library.hpp"
 #include "support/corrected_arm_cases.hpp"
 #include "support/example_effects.hpp"
 

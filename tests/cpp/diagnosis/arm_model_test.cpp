@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "bathyal/diagnosis/arm/model.hpp"
+#include "bathyal/diagnosis/arm/internal/model.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "bathyal/diagnosis/arm/quantisation_step.hpp"
+#include "bathyal/diagnosis/arm/internal/quantisation_step.hpp"
 
 #include <gtest/gtest.h>
 

@@ -9,7 +9,7 @@
 #include <numbers>
 
 #include "bathyal/base/random.hpp"
-#include "bathyal/geometry/big_integer.hpp"
+#include "bathyal/geometry/internal/big_integer.hpp"
 
 namespace bathyal {
 namespace {

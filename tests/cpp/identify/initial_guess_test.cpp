@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "bathyal/identify/fit/initial_guess.hpp"
+#include "bathyal/identify/fit/internal/initial_guess.hpp"
 
 #include <gtest/gtest.h>
 

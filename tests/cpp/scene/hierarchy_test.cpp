@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "bathyal/scene/hierarchy.hpp"
+#include "bathyal/scene/internal/hierarchy.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "bathyal/scene/nearest.hpp"
+#include "bathyal/scene/internal/nearest.hpp"
 
 #include <gtest/gtest.h>
 

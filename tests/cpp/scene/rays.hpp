@@ -10,7 +10,7 @@
 
 #include "bathyal/base/random.hpp"
 #include "bathyal/base/simd.hpp"
-#include "bathyal/scene/ray_triangle.hpp"
+#include "bathyal/scene/internal/ray_triangle.hpp"
 #include "bathyal/scene/scene.hpp"
 
 // Rays of every kind, and the decision over every triangle that a hierarchy must agree with.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "bathyal/scene/winding.hpp"
+#include "bathyal/scene/internal/winding.hpp"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@
 
 #include "bathyal/base/random.hpp"
 #include "bathyal/estimation/orthogonal.hpp"
-#include "bathyal/selection/subset_search.hpp"
+#include "bathyal/selection/internal/subset_search.hpp"
 
 namespace bathyal {
 namespace {

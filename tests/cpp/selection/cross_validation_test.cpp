@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "bathyal/selection/fold_least_squares.hpp"
+#include "bathyal/selection/internal/fold_least_squares.hpp"
 
 #include <gtest/gtest.h>
 

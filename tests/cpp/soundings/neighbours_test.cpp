@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "bathyal/soundings/neighbours.hpp"
+#include "bathyal/soundings/internal/neighbours.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "bathyal/soundings/parse_number.hpp"
+#include "bathyal/soundings/internal/parse_number.hpp"
 
 #include <gtest/gtest.h>
 

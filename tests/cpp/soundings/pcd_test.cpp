@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "bathyal/base/error.hpp"
-#include "bathyal/soundings/lzf.hpp"
+#include "bathyal/soundings/internal/lzf.hpp"
 
 namespace bathyal {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "bathyal/soundings/plain_decimal.hpp"
+#include "bathyal/soundings/internal/plain_decimal.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <string>
 
 #include "bathyal/base/random.hpp"
-#include "bathyal/soundings/parse_number.hpp"
+#include "bathyal/soundings/internal/parse_number.hpp"
 
 namespace bathyal {
 namespace {

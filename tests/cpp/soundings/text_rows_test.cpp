@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "bathyal/soundings/text_rows.hpp"
+#include "bathyal/soundings/internal/text_rows.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "bathyal/base/random.hpp"
-#include "bathyal/soundings/field_ends.hpp"
-#include "bathyal/soundings/parse_number.hpp"
+#include "bathyal/soundings/internal/field_ends.hpp"
+#include "bathyal/soundings/internal/parse_number.hpp"
 
 namespace bathyal {
 namespace {

@@ -15,8 +15,8 @@
 
 #include "bathyal/base/random.hpp"
 #include "bathyal/geometry/predicates.hpp"
-#include "bathyal/terrain/hilbert_order.hpp"
-#include "bathyal/terrain/triangulate_cells.hpp"
+#include "bathyal/terrain/internal/hilbert_order.hpp"
+#include "bathyal/terrain/internal/triangulate_cells.hpp"
 
 namespace bathyal {
 namespace {

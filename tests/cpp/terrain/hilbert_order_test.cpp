@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "bathyal/terrain/hilbert_order.hpp"
+#include "bathyal/terrain/internal/hilbert_order.hpp"
 
 #include <gtest/gtest.h>
 

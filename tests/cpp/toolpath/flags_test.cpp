@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "bathyal/toolpath/flags.hpp"
+#include "bathyal/toolpath/internal/flags.hpp"
 
 #include <gtest/gtest.h>
 

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "bathyal/base/random.hpp"
-#include "bathyal/toolpath/frames.hpp"
-#include "bathyal/toolpath/timing.hpp"
+#include "bathyal/toolpath/internal/frames.hpp"
+#include "bathyal/toolpath/internal/timing.hpp"
 #include "bottoms.hpp"
 
 namespace bathyal {

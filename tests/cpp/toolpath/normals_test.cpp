@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "bathyal/toolpath/normals.hpp"
+#include "bathyal/toolpath/internal/normals.hpp"
 
 #include <gtest/gtest.h>
 

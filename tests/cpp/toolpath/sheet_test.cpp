@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "bathyal/toolpath/sheet.hpp"
+#include "bathyal/toolpath/internal/sheet.hpp"
 
 #include <gtest/gtest.h>
 

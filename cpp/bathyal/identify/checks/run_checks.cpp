@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bathyal/identify/checks/run_checks.hpp"
 
-#include "bathyal/identify/checks/checks.hpp"
-#include "bathyal/identify/checks/outliers.hpp"
-#include "bathyal/identify/checks/residual_structure.hpp"
+#include "bathyal/identify/checks/internal/checks.hpp"
+#include "bathyal/identify/checks/internal/outliers.hpp"
+#include "bathyal/identify/checks/internal/residual_structure.hpp"
 
 namespace bathyal {
 

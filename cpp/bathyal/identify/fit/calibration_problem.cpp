@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "bathyal/base/check.hpp"
-#include "bathyal/identify/fit/initial_guess.hpp"
+#include "bathyal/identify/fit/internal/initial_guess.hpp"
 #include "bathyal/identify/model/effect_parameters.hpp"
 
 namespace bathyal {

@@ -1,0 +1,397 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "bathyal/diagnosis/arm/internal/descriptions.hpp"
+#include "bathyal/diagnosis/arm/internal/model.hpp"
+#include "bathyal/estimation/gram.hpp"
+#include "bathyal/estimation/orthogonal.hpp"
+#include "bathyal/identify/model/effect_parameters.hpp"
+
+// Geometry and effects, fitted together.
+
+namespace bathyal {
+namespace {
+
+constexpr int kMostRounds = 12;  ///< of finding values, their noise and their sizes
+constexpr int kMostSteps = 20;
+constexpr double kFirstDamping = 1e-2;  ///< 1 / (10 mm or mrad)²
+constexpr double kLeastDamping = 1e-6;
+constexpr double kMostDamping = 1e8;
+constexpr double kSettledStep = 1e-6;  ///< in units of the columns' scale: nm and nrad
+constexpr double kSettledCost = 1e-2;  ///< of the mean square of a row
+constexpr int kOrderRounds = 4;
+constexpr double kOrderSettled = 0.05;  ///< standard deviations
+constexpr double kFarOrder = 3.0;       ///< over the span: half a wave
+constexpr double kOrderStep = 1e-4;     ///< relative
+constexpr double kNoiseSettled = 5e-3;  ///< relative
+
+}  // namespace
+
+void ArmSubject::settle(const std::vector<int>& forms) {
+  for (int round = 0; round < kOrderRounds; ++round) {
+    fit(forms);
+    if (!move_orders()) break;
+  }
+}
+
+/// A step of Gauss and Newton for the orders of waves that stand, beside all else that is fitted.
+bool ArmSubject::move_orders() {
+  const Eigen::MatrixXd by_order = by_scanned();
+  if (by_order.cols() == 0) return false;
+  const int threads = problem_.system->num_threads();
+  Eigen::MatrixXd basis = linearization_.base.leftCols(held_.cols());
+  append(basis, by_standing_);
+  scale_to_length_1(basis);
+  Eigen::MatrixXd square = inner_products(basis, threads);
+  square.diagonal().array() += kSwallowed * kSwallowed;
+  Eigen::MatrixXd beside = by_order;
+  add_product(basis, -square.llt().solve(inner_products(basis, by_order, threads)), beside,
+              threads);
+  Eigen::VectorXd residuals(problem_.system->rows());
+  problem_.system->evaluate(problem_.system->scaled(x_).data(), residuals.data(), nullptr);
+  const Eigen::VectorXd change =
+      -inner_products(beside, threads).ldlt().solve(beside.transpose() * residuals);
+  const Eigen::VectorXd sure = beside.colwise().norm();  // 1 / standard deviation
+  bool moved = false;
+  Index at = 0;
+  for (const int form : standing_) {
+    EffectVariant& variant = sources_[form].variant;
+    if (!variant.settings.contains("order") || has_whole_order(variant)) continue;
+    const double step = change[at];
+    const double far =
+        kFarOrder / (data_.q.col(variant.joint).maxCoeff() - data_.q.col(variant.joint).minCoeff());
+    const double order = variant.settings["order"] + step;
+    // Two that meet are one.
+    const bool alone = std::none_of(standing_.begin(), standing_.end(), [&](int other) {
+      const EffectVariant& beside = sources_[other].variant;
+      const auto own = beside.settings.find("order");
+      return other != form && beside.joint == variant.joint && own != beside.settings.end() &&
+             std::abs(own->second - order) < 0.5 * far;
+    });
+    if (std::abs(step) * sure[at] > kOrderSettled && std::abs(step) < far && order > 0.0 && alone) {
+      variant.settings["order"] = order;
+      forms_[form].words = words_of(variant, nominal_);
+      moved = true;
+    }
+    ++at;
+  }
+  return moved;
+}
+
+void ArmSubject::fit(const std::vector<int>& forms) {
+  // Values of forms that stay are where their search starts.
+  std::map<int, Eigen::VectorXd> known;
+  auto at = static_cast<Index>(geometry_);
+  for (const int form : standing_) {
+    const auto wide = static_cast<Index>(sources_[form].variant.parameters.size());
+    known[form] = x_.segment(at, wide);
+    at += wide;
+  }
+  standing_ = forms;
+  const auto families = large_families();
+  std::erase_if(sizes_, [&](const auto& size) { return !families.contains(size.first); });
+  stand_with(forms);
+  Eigen::VectorXd x = x_.head(static_cast<Index>(geometry_));
+  for (const int form : forms) {
+    const auto wide = static_cast<Index>(sources_[form].variant.parameters.size());
+    x.conservativeResize(x.size() + wide);
+    x.tail(wide).setZero();
+    if (known.contains(form)) x.tail(wide) = known[form];
+  }
+  bool other_noise = true;
+  for (int round = 0; round < kMostRounds; ++round) {
+    if (!learn_sizes(x) && !other_noise) break;
+    x = nearest_minimum(std::move(x));
+    if (!m_.tracked) x = without_size_draw(std::move(x));
+    x_ = x;
+    other_noise = update_noise();
+  }
+  stand_at(x);
+  if (forms.empty()) bare_ = deviations();
+}
+
+/// The columns of `forms` behind those of the geometry, held to what is plausible.
+void ArmSubject::stand_with(const std::vector<int>& forms) {
+  standing_ = forms;
+  truncate_columns(problem_.columns, geometry_);
+  std::vector<int> free = base_free_;
+  for (const int form : forms) {
+    const int begin = add_effect(problem_.columns, sources_[form].variant, actions_of(form));
+    const auto end = static_cast<int>(problem_.columns.columns.size());
+    for (int c = begin; c < end; ++c) {
+      Column& column = problem_.columns.columns[c];
+      column.prior_std = plausible(form, static_cast<std::size_t>(c - begin), column.scale);
+      free.push_back(c);
+    }
+  }
+  problem_.system->set_free(std::move(free));
+}
+
+/// All that a fit finds.
+struct ArmSubject::ArmPlace final : Place {
+  std::vector<int> standing;
+  std::vector<EffectVariant> variants;  ///< of those: orders move
+  std::map<Family, double> sizes;
+  Eigen::VectorXd x;
+  std::vector<double> trust;
+  ArmSystem::Whitening whitening;
+  Noise noise;
+};
+
+std::shared_ptr<const Subject::Place> ArmSubject::place() const {
+  auto out = std::make_shared<ArmPlace>();
+  out->standing = standing_;
+  for (const int form : standing_) out->variants.push_back(sources_[form].variant);
+  out->sizes = sizes_;
+  out->x = x_;
+  out->trust = problem_.system->trust();
+  out->whitening = problem_.system->row_whitening();
+  out->noise = problem_.system->noise();
+  return out;
+}
+
+void ArmSubject::return_to(const Place& place) {
+  const auto& to = dynamic_cast<const ArmPlace&>(place);
+  for (std::size_t i = 0; i < to.standing.size(); ++i) {
+    sources_[to.standing[i]].variant = to.variants[i];
+    forms_[to.standing[i]].words = words_of(to.variants[i], nominal_);
+  }
+  sizes_ = to.sizes;
+  stand_with(to.standing);
+  problem_.system->set_trust(to.trust);
+  problem_.system->set_row_whitening(to.whitening);
+  problem_.system->set_noise(to.noise, to.x);
+  stand_at(to.x);
+}
+
+/// Derivatives of exact touches: scatter would pass for information about the arm's size (see
+/// arm_search.cpp).
+Eigen::MatrixXd ArmSubject::derivatives(const Eigen::VectorXd& x) const {
+  ArmSystem exact = *problem_.system;
+  exact.set_joints(exact_);
+  return exact.jacobian(x);
+}
+
+/// Least squares of touches lie at an arm too small; steps along the derivatives of exact touches
+/// end where what is known of the size is met.
+Eigen::VectorXd ArmSubject::without_size_draw(Eigen::VectorXd x) {
+  const ArmSystem& system = *problem_.system;
+  const Eigen::VectorXd least = x;
+  Eigen::VectorXd residuals(system.rows());
+  double last = std::numeric_limits<double>::infinity();
+  for (int step = 0; step < kMostSteps; ++step) {
+    exact_ = exact_joints(system, x);
+    const Eigen::VectorXd y = system.scaled(x);
+    system.evaluate(y.data(), residuals.data(), nullptr);
+    Eigen::MatrixXd both(system.rows(), system.columns() + 1);
+    both << derivatives(x), residuals;
+    const Eigen::VectorXd move = step_of(inner_products(both, system.num_threads()), 0.0);
+    if (!(move.norm() < last)) return step < 2 ? least : x;
+    last = move.norm();
+    x = system.values(y + move);
+    if (last < kSettledStep) break;
+  }
+  return x;
+}
+
+/// The step that Gauss and Newton would take, from [J r]ᵀ[J r]. What hardly moves the residuals by
+/// itself is damped, and nothing runs off.
+Eigen::VectorXd ArmSubject::step_of(const Eigen::MatrixXd& square, double damping) const {
+  const Index wide = square.cols() - 1;
+  const Eigen::MatrixXd to_free = moves();
+  Eigen::MatrixXd own =
+      inner_products(to_free, product(square.topLeftCorner(wide, wide), to_free, 1), 1);
+  own.diagonal().array() += damping;
+  const Eigen::VectorXd scale = own.diagonal().unaryExpr(
+      [](double value) { return value > 0.0 ? 1.0 / std::sqrt(value) : 0.0; });
+  own = scale.asDiagonal() * own * scale.asDiagonal();
+  own.diagonal().array() += kSwallowed * kSwallowed;
+  const Eigen::VectorXd against =
+      scale.asDiagonal() * (to_free.transpose() * square.col(wide).head(wide));
+  return to_free * (scale.asDiagonal() * own.ldlt().solve(-against));
+}
+
+/// Levenberg's way. Damping is the same for all unknowns, in units of their scales: what the rows
+/// hardly tell (a valley that is curved, along which a full step leads out of it) goes no farther
+/// than arms differ, and all else goes as Gauss and Newton have it.
+Eigen::VectorXd ArmSubject::nearest_minimum(Eigen::VectorXd x) const {
+  const ArmSystem& system = *problem_.system;
+  Eigen::VectorXd y = system.scaled(x);
+  double damping = kFirstDamping;
+  for (int step = 0; step < kMostSteps; ++step) {
+    const Eigen::MatrixXd square = system.square(y.data());
+    const double before = square(square.rows() - 1, square.cols() - 1);
+    Eigen::VectorXd next;
+    double after = std::numeric_limits<double>::infinity();
+    for (; damping < kMostDamping; damping *= 10.0) {
+      next = y + step_of(square, damping);
+      after = system.cost(next.data());
+      if (after <= before) break;
+    }
+    if (!(after <= before)) break;
+    y = next;
+    if (before - after < kSettledCost * before / static_cast<double>(system.data_rows())) break;
+    damping = std::max(damping / 10.0, kLeastDamping);
+  }
+  return system.values(y);
+}
+
+/// (free, k): what may change of the free unknowns. Those of the base model move along the
+/// directions that data or priors hold, effects one by one.
+Eigen::MatrixXd ArmSubject::moves() const {
+  const Index effects = problem_.system->columns() - held_.rows();
+  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(held_.rows() + effects, held_.cols() + effects);
+  out.topLeftCorner(held_.rows(), held_.cols()) = held_;
+  out.bottomRightCorner(effects, effects).setIdentity();
+  return out;
+}
+
+void ArmSubject::stand_at(const Eigen::VectorXd& x) {
+  x_ = x;
+  ArmSystem& system = *problem_.system;
+  const Index rows = system.rows();
+  const auto wide = static_cast<Index>(base_free_.size());
+  Eigen::VectorXd residuals(rows);
+  const Eigen::VectorXd y = system.scaled(x);
+  system.evaluate(y.data(), residuals.data(), nullptr);
+  exact_ = exact_joints(system, x);
+  // What follows recorded joints would follow their scatter, and explain it by itself.
+  if (!m_.tracked) data_.q = exact_;
+  const Eigen::MatrixXd jacobian = derivatives(x);
+  by_standing_ = jacobian.rightCols(system.columns() - wide);
+  linearization_.misfit = by_standing_ * y.tail(y.size() - wide);
+  linearization_.misfit -= residuals;
+  const Index points = m_.tracked ? 0 : m_.points();
+  const Index seen = held_.cols();
+  linearization_.base = Eigen::MatrixXd::Zero(rows, seen + 3 * points);
+  linearization_.base.leftCols(seen) =
+      product(jacobian.leftCols(wide), held_, system.num_threads());
+  linearization_.unit.assign(static_cast<std::size_t>(rows), -1);
+  // Rows that hold effects to what is plausible measure nothing.
+  linearization_.lost = static_cast<double>(system.columns() - wide);
+  linearization_.noise_rows = system.position_rows();
+  for (Index i = 0; i < m_.rows(); ++i) {
+    const bool plane = !m_.tracked && m_.plane[i] >= 0;
+    const double kinds = m_.has_rotation() ? 2.0 : 1.0;
+    if (is_left_out(i)) {
+      linearization_.lost += plane ? 1.0 : 3.0 * kinds;
+    }
+    if (plane) linearization_.lost += 2.0;  // rows that hold nothing
+    for (Index axis = 0; axis < 3; ++axis) {
+      linearization_.unit[3 * i + axis] = static_cast<int>(i);
+      if (m_.has_rotation()) {
+        linearization_.unit[3 * m_.rows() + 3 * i + axis] = static_cast<int>(i);
+      }
+    }
+    // Where a point is, is free: what the centroid takes of the rows, as columns.
+    if (!m_.tracked && m_.point[i] >= 0) {
+      linearization_.base.block<3, 3>(3 * i, seen + 3 * m_.point[i]) = system.row_factor(i);
+    }
+  }
+}
+
+bool ArmSubject::is_left_out(Index row) const {
+  return problem_.system->trust()[row] < kLeftOut * 2.0;
+}
+
+Eigen::Array2d ArmSubject::free_rows() const {
+  Eigen::Array2d rows(free_position_rows(m_),
+                      static_cast<double>(problem_.system->rotation_rows()));
+  for (Index i = 0; i < m_.rows(); ++i) {
+    if (!is_left_out(i)) continue;
+    rows[0] -= !m_.tracked && m_.plane[i] >= 0 ? 1.0 : 3.0;
+    if (m_.has_rotation()) rows[1] -= 3.0;
+  }
+  return rows;
+}
+
+bool ArmSubject::update_noise() {
+  ArmSystem& system = *problem_.system;
+  const auto taken = static_cast<double>(system.columns() - held_.rows() + held_.cols());
+  const Index positions = system.position_rows();
+  Eigen::VectorXd residuals(system.rows());
+  const Eigen::VectorXd y = system.scaled(x_);
+  system.evaluate(y.data(), residuals.data(), nullptr);
+  const double all = static_cast<double>(positions + system.rotation_rows());
+  const Eigen::Array2d free = free_rows();
+  Noise noise = system.noise();
+  const Noise old = noise;
+  // Columns take of each kind of row its share.
+  const auto estimate = [&](double squares, double rows, double share, double now) {
+    const double freedom = rows - taken * share;
+    return freedom > 0.5 ? std::max(now * std::sqrt(squares / freedom), kLeastNoise) : now;
+  };
+  if (!problem_.options.noise) {
+    noise.position = estimate(residuals.head(positions).squaredNorm(), free[0],
+                              static_cast<double>(positions) / all, old.position);
+  }
+  if (m_.has_rotation() && !problem_.options.rotation_noise) {
+    noise.rotation = estimate(residuals.segment(positions, system.rotation_rows()).squaredNorm(),
+                              free[1], 1.0 - static_cast<double>(positions) / all, old.rotation);
+  }
+  system.set_noise(noise, x_);
+  return std::abs(noise.position / old.position - 1.0) > kNoiseSettled ||
+         std::abs(noise.rotation / old.rotation - 1.0) > kNoiseSettled;
+}
+
+void ArmSubject::set_trust(const Eigen::VectorXd& trust) {
+  std::vector<double> factors(static_cast<std::size_t>(trust.size()));
+  for (Index i = 0; i < trust.size(); ++i) {
+    factors[i] = trust[i] > 0.0 ? std::max(trust[i], kLeftOut) : kLeftOut;
+  }
+  problem_.system->set_trust(std::move(factors));
+}
+
+/// Errors of a pose's rows have the covariance 1 + Σ ratio · loads loadsᵀ.
+void ArmSubject::set_noise_forms(const Eigen::VectorXd& ratios) {
+  auto whitening =
+      std::make_shared<std::vector<Eigen::Matrix3d>>(static_cast<std::size_t>(m_.rows()));
+  for (Index i = 0; i < m_.rows(); ++i) {
+    Eigen::Matrix3d covariance = Eigen::Matrix3d::Identity();
+    for (Index f = 0; f < ratios.size(); ++f) {
+      const auto loads = noise_forms_[static_cast<std::size_t>(f)].loads.middleRows<3>(3 * i);
+      covariance += ratios[f] * (loads * loads.transpose());
+    }
+    (*whitening)[i] =
+        Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance).operatorInverseSqrt();
+  }
+  problem_.system->set_row_whitening(std::move(whitening));
+}
+
+/// What a change of each standing order does to the residuals: the values beside it are no surer
+/// than the order is.
+Eigen::MatrixXd ArmSubject::by_scanned() const {
+  std::vector<ActingVariant> acting;
+  std::vector<Eigen::VectorXd> values;
+  std::vector<double> changes;
+  auto at = static_cast<Index>(geometry_);
+  for (const int form : standing_) {
+    const EffectVariant& here = sources_[form].variant;
+    const auto wide = static_cast<Index>(here.parameters.size());
+    const auto order = here.settings.find("order");
+    if (order != here.settings.end() && !has_whole_order(here)) {
+      values.emplace_back(x_.segment(at, wide));
+      changes.push_back(kOrderStep * order->second);
+      for (const double change : {changes.back(), -changes.back()}) {
+        EffectVariant other = here;
+        other.settings["order"] += change;
+        auto actions = actions_of(*sources_[form].effect, other);
+        acting.push_back({std::move(other), std::move(actions)});
+      }
+    }
+    at += wide;
+  }
+  Eigen::MatrixXd out(linearization_.misfit.size(), static_cast<Index>(values.size()));
+  if (values.empty()) return out;
+  const std::vector<ParameterColumns> moved = columns_of(std::move(acting));
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    out.col(static_cast<Index>(i)) =
+        (moved[2 * i].columns - moved[2 * i + 1].columns) * (values[i] / (2.0 * changes[i]));
+  }
+  return out;
+}
+
+}  // namespace bathyal

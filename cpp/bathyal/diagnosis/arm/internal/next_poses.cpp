@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bathyal/diagnosis/arm/internal/next_poses.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+#include "bathyal/base/random.hpp"
+#include "bathyal/compensation/corrected_arm.hpp"
+
+namespace bathyal {
+namespace {
+
+constexpr Index kCandidates = 600;
+constexpr std::size_t kMostRivals = 4;
+constexpr double kApart = 0.15;  ///< of a joint's range, in one joint at least
+
+/// Poses anywhere in the ranges that the data cover: there the explanations are at home.
+RowMatrix draw_poses(const Support& support) {
+  const Index n = support.joints.low.size();
+  RowMatrix q(kCandidates, n);
+  for (Index i = 0; i < kCandidates; ++i) {
+    RandomStream random(0, static_cast<std::uint64_t>(i));
+    for (Index j = 0; j < n; ++j) {
+      q(i, j) = random.uniform(support.joints.low[j], support.joints.high[j]);
+    }
+  }
+  return q;
+}
+
+/// What was recorded with the last row in time: poses to come are taken after it.
+Covariates last_of(const EffectData& data) {
+  Covariates out;
+  for (const auto& [name, table] : data.covariates) out[name] = table.row(data.order.back());
+  return out;
+}
+
+Eigen::Matrix3Xd tips(const ArmSubject& subject, const Support& support, const RowMatrix& q,
+                      const Covariates& covariates) {
+  const CorrectedArm arm(subject.arm(), subject.found(), support);
+  const std::vector<double> poses = arm.forward({q.data(), q.rows(), q.cols()}, covariates).poses;
+  Eigen::Matrix3Xd out(3, q.rows());
+  for (Index i = 0; i < q.rows(); ++i) {
+    for (Index axis = 0; axis < 3; ++axis) out(axis, i) = poses[16 * i + 4 * axis + 3];
+  }
+  return out;
+}
+
+}  // namespace
+
+RowMatrix next_poses(ArmSubject& subject, const Examination& found, double rival_odds, int count) {
+  const Support support = support_of(subject.data().q, subject.data().covariates);
+  const RowMatrix q = draw_poses(support);
+  const Covariates covariates = last_of(subject.data());
+  std::vector<int> names;
+  for (const Chosen& chosen : found.names) names.push_back(chosen.form);
+  const Eigen::Matrix3Xd best = tips(subject, support, q, covariates);
+  Eigen::VectorXd apart = Eigen::VectorXd::Zero(kCandidates);
+  std::size_t asked = 0;
+  for (const RivalForm& rival : found.rivals) {
+    if (rival.odds < rival_odds || asked == kMostRivals) continue;
+    ++asked;
+    std::vector<int> others = names;
+    std::replace(others.begin(), others.end(), rival.form, rival.instead);
+    subject.settle(others);
+    apart += (tips(subject, support, q, covariates) - best).colwise().squaredNorm().transpose();
+  }
+  subject.settle(names);
+
+  std::vector<Index> order(static_cast<std::size_t>(kCandidates));
+  std::iota(order.begin(), order.end(), Index{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](Index a, Index b) { return apart[a] > apart[b]; });
+  const Eigen::RowVectorXd near = kApart * (support.joints.high - support.joints.low).transpose();
+  std::vector<Index> taken;
+  for (const Index i : order) {
+    if (static_cast<int>(taken.size()) == count || !(apart[i] > 0.0)) break;
+    const bool twin = std::any_of(taken.begin(), taken.end(), [&](Index other) {
+      return ((q.row(i) - q.row(other)).cwiseAbs().array() <= near.array()).all();
+    });
+    if (!twin) taken.push_back(i);
+  }
+  return q(taken, Eigen::all);
+}
+
+}  // namespace bathyal

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bathyal/diagnosis/arm/internal/quantisation_step.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace bathyal {
+namespace {
+
+constexpr double kLeastStep = 1e-5;  ///< [rad]; finer ones move no tip by what can be measured
+constexpr double kRounding = 2e-8;  ///< [rad] that Euclid's steps may make of a value's last digits
+constexpr double kWhole = 1e-2;     ///< how far from a whole number a multiple may lie
+constexpr std::size_t kFewest = 20;  ///< different values: fewer lie on a grid by chance
+
+/// Values but 0, by rising size, each once.
+std::vector<double> sizes(const RowMatrix& q, const Arm& arm) {
+  std::vector<bool> turns(static_cast<std::size_t>(arm.size()), false);
+  for (const Joint& joint : arm.joints()) {
+    if (joint.type == JointType::kRevolute) turns[joint.coordinate] = true;
+  }
+  std::vector<double> out;
+  for (Index j = 0; j < q.cols(); ++j) {
+    for (Index i = 0; turns[j] && i < q.rows(); ++i) {
+      if (q(i, j) != 0.0) out.push_back(std::abs(q(i, j)));
+    }
+  }
+  std::sort(out.begin(), out.end());
+  out.erase(std::unique(out.begin(), out.end()), out.end());
+  return out;
+}
+
+/// Euclid's algorithm on lengths that are known to `tolerance`.
+double common_measure(double a, double b, double tolerance) {
+  while (b > tolerance) {
+    const double rest = a - std::floor(a / b) * b;
+    a = b;
+    b = b - rest < tolerance ? 0.0 : rest;
+  }
+  return a;
+}
+
+}  // namespace
+
+double logged_step(const RowMatrix& q, const Arm& arm) {
+  const std::vector<double> values = sizes(q, arm);
+  if (values.size() < kFewest) return 0.0;
+  double step = values.front();
+  for (const double value : values) {
+    step = common_measure(value, step, kRounding);
+    if (step < kLeastStep) return 0.0;
+  }
+  // The smallest value knows the step with its own rounding only: larger ones sharpen it.
+  for (const double value : values) {
+    const double multiple = std::round(value / step);
+    if (std::abs(value / step - multiple) > 0.1) return 0.0;
+    step = value / multiple;
+  }
+  for (const double value : values) {
+    if (std::abs(value / step - std::round(value / step)) > kWhole) return 0.0;
+  }
+  return step;
+}
+
+}  // namespace bathyal

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <cmath>
+
+#include "bathyal/diagnosis/arm/internal/model.hpp"
+#include "bathyal/estimation/gram.hpp"
+#include "bathyal/estimation/orthogonal.hpp"
+
+// What is told of the fit where the subject stands.
+
+namespace bathyal {
+
+std::vector<FoundEffect> ArmSubject::found() const {
+  std::vector<FoundEffect> out;
+  auto at = static_cast<Index>(geometry_);
+  for (const int form : standing_) {
+    const Source& source = sources_[form];
+    const auto wide = static_cast<Index>(source.variant.parameters.size());
+    out.push_back({source.effect, source.variant, x_.segment(at, wide)});
+    at += wide;
+  }
+  return out;
+}
+
+double ArmSubject::freedom() const {
+  const Eigen::MatrixXd& base = linearization_.base;
+  const auto effects = static_cast<Index>(problem_.columns.columns.size() - geometry_);
+  return static_cast<double>(base.rows() - base.cols() - effects) - linearization_.lost;
+}
+
+Eigen::MatrixXd ArmSubject::covariance() const {
+  const ArmSystem& system = *problem_.system;
+  const Eigen::MatrixXd jacobian = derivatives(x_);
+  const Index effects = jacobian.cols() - held_.rows();
+  const Eigen::MatrixXd scanned = by_scanned();
+  Eigen::MatrixXd all(jacobian.rows(), held_.cols() + effects + scanned.cols());
+  all << product(jacobian, moves(), system.num_threads()), scanned;
+  Eigen::VectorXd scale(all.cols());
+  for (Index c = 0; c < scale.size(); ++c) {
+    const double length = all.col(c).norm();
+    scale[c] = length > 0.0 ? 1.0 / length : 0.0;
+    all.col(c) *= scale[c];
+  }
+  const RankReport rank = reveal_rank(triangle_of(all, system.num_threads()), kSwallowed);
+  const Eigen::MatrixXd root = scale.asDiagonal() * rank.directions.leftCols(rank.rank) *
+                               rank.singular_values.head(rank.rank).cwiseInverse().asDiagonal();
+  Eigen::MatrixXd own = root.middleRows(held_.cols(), effects);
+  for (Index i = 0; i < effects; ++i) {
+    own.row(i) *= problem_.columns.columns[geometry_ + static_cast<std::size_t>(i)].scale;
+  }
+  const Eigen::VectorXd y = system.scaled(x_);
+  double squares = system.cost(y.data());
+  for (Index i = 0; i < effects; ++i) {  // what holds them measures nothing
+    const Column& column = problem_.columns.columns[geometry_ + static_cast<std::size_t>(i)];
+    squares -= std::pow(y[held_.rows() + i] * column.scale / column.prior_std, 2);
+  }
+  return squares / freedom() * (own * own.transpose());
+}
+
+Arm ArmSubject::arm() const {
+  const ArmState state = state_at(problem_.columns, x_);
+  Arm arm = state.arm;
+  arm.set_base(state.bases[0]);
+  arm.set_tool(state.tools[0]);
+  return arm;
+}
+
+Eigen::Matrix3Xd ArmSubject::deviations() const { return problem_.system->deviations(x_); }
+
+Eigen::Matrix3Xd ArmSubject::in_metres(const Eigen::VectorXd& rows) const {
+  Eigen::Matrix3Xd out(3, m_.rows());
+  for (Index i = 0; i < m_.rows(); ++i) {
+    out.col(i) = problem_.system->row_factor(i).ldlt().solve(rows.segment<3>(3 * i));
+  }
+  return out;
+}
+
+double ArmSubject::mean_noise() const {
+  double variances = 0.0, rows = 0.0;
+  for (Index i = 0; i < m_.rows(); ++i) {
+    if (is_left_out(i)) continue;
+    variances += m_.weights[i] * problem_.system->row_factor(i).inverse().squaredNorm();
+    rows += 3.0;
+  }
+  return rows > 0.0 ? std::sqrt(variances / rows) : noise();
+}
+
+double ArmSubject::mean_unit() const {
+  double precisions = 0.0, rows = 0.0;
+  for (Index i = 0; i < m_.rows(); ++i) {
+    if (is_left_out(i)) continue;
+    precisions += problem_.system->row_factor(i).squaredNorm() / m_.weights[i];
+    rows += 3.0;
+  }
+  return rows > 0.0 ? std::sqrt(rows / precisions) : noise();
+}
+
+}  // namespace bathyal

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bathyal/selection/internal/fold_least_squares.hpp"
+
+#include "bathyal/base/parallel.hpp"
+#include "bathyal/base/random.hpp"
+#include "bathyal/estimation/gram.hpp"
+
+namespace bathyal {
+namespace {
+
+/// Of a column's square: holds at 0 what the other blocks do not tell, and moves nothing else.
+constexpr double kRidge = 1e-8;
+
+}  // namespace
+
+HoldOut::HoldOut(const Eigen::VectorXd& misfit, const Eigen::MatrixXd& columns,
+                 const Eigen::VectorXd& held_by, const std::vector<int>& unit, const Blocks& blocks,
+                 int num_threads)
+    : misfit_(misfit),
+      columns_(columns),
+      num_threads_(num_threads),
+      rows_(static_cast<std::size_t>(blocks.count)),
+      squares_(static_cast<std::size_t>(blocks.count)) {
+  std::vector<Index> known;
+  for (Index r = 0; r < misfit.size(); ++r) {
+    (unit[r] < 0 ? known : rows_[blocks.of[unit[r]]]).push_back(r);
+  }
+  const auto square_of = [&](const std::vector<Index>& rows) {
+    Eigen::MatrixXd part(static_cast<Index>(rows.size()), columns.cols() + 1);
+    part << columns(rows, Eigen::all), misfit(rows);
+    return inner_products(part, num_threads);
+  };
+  parallel_for(rows_.size(), 1, num_threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t b = begin; b < end; ++b) squares_[b] = square_of(rows_[b]);
+  });
+  square_ = square_of(known);
+  square_.diagonal().head(held_by.size()) += held_by;
+  for (std::size_t b = 0; b < squares_.size(); ++b) {
+    square_ += squares_[b];
+    held_ += static_cast<double>(rows_[b].size());
+  }
+}
+
+HoldOut::Others HoldOut::others(const std::vector<Index>& which, std::size_t block) const {
+  const Index last = columns_.cols();
+  Eigen::MatrixXd square = square_(which, which) - squares_[block](which, which);
+  square.diagonal().array() += kRidge;
+  Others out{Eigen::LLT<Eigen::MatrixXd>(square), square_(which, last)};
+  out.values -= squares_[block](which, last);
+  out.root.solveInPlace(out.values);
+  return out;
+}
+
+double HoldOut::squares_of(const std::vector<Index>& which, const Eigen::VectorXd& values,
+                           std::size_t block) const {
+  const Index last = columns_.cols();
+  const Eigen::VectorXd against = squares_[block](which, last);
+  return squares_[block](last, last) - 2.0 * values.dot(against) +
+         values.dot(squares_[block](which, which) * values);
+}
+
+Eigen::VectorXd HoldOut::squares(const std::vector<Index>& which) const {
+  Eigen::VectorXd out(static_cast<Index>(squares_.size()));
+  parallel_for(squares_.size(), 1, num_threads_, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t b = begin; b < end; ++b) {
+      out[static_cast<Index>(b)] = squares_of(which, others(which, b).values, b);
+    }
+  });
+  return out;
+}
+
+double HoldOut::density(const std::vector<Index>& which) const {
+  const Index last = columns_.cols();
+  Eigen::MatrixXd square = square_(which, which);
+  square.diagonal().array() += kRidge;
+  const Eigen::LLT<Eigen::MatrixXd> all(square);
+  const auto half_log_determinant = [](const Eigen::LLT<Eigen::MatrixXd>& root) {
+    return root.matrixLLT().diagonal().array().log().sum();
+  };
+  Eigen::VectorXd out(static_cast<Index>(squares_.size()));
+  parallel_for(squares_.size(), 1, num_threads_, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t b = begin; b < end; ++b) {
+      // Errors e = misfit - X v of a block have covariance 1 + X A⁻¹ Xᵀ, A being the square of the
+      // others: by Woodbury and Sylvester, all of it follows from inner products.
+      const Others known = others(which, b);
+      const Eigen::VectorXd along =
+          squares_[b](which, last) - squares_[b](which, which) * known.values;
+      const double distance =
+          squares_of(which, known.values, b) - all.matrixL().solve(along).squaredNorm();
+      out[static_cast<Index>(b)] =
+          -0.5 * distance - half_log_determinant(all) + half_log_determinant(known.root);
+    }
+  });
+  return out.sum();
+}
+
+HeldOutErrors HoldOut::errors(const std::vector<Index>& which) const {
+  HeldOutErrors out{Eigen::VectorXd::Zero(misfit_.size()),
+                    Eigen::VectorXd::Zero(static_cast<Index>(squares_.size()))};
+  for (std::size_t b = 0; b < rows_.size(); ++b) {
+    const Eigen::VectorXd error =
+        misfit_(rows_[b]) - columns_(rows_[b], which) * others(which, b).values;
+    out.error(rows_[b]) = error;
+    out.of_block[static_cast<Index>(b)] = error.squaredNorm();
+  }
+  return out;
+}
+
+double sign_flip_p(const Eigen::VectorXd& gains) {
+  constexpr Index kAllOf = 16;
+  const bool all = gains.size() <= kAllOf;
+  const std::uint64_t count = std::uint64_t{1}
+                              << static_cast<unsigned>(std::min(gains.size(), kAllOf));
+  const double found = gains.sum();
+  const double rounding = 1e-12 * gains.cwiseAbs().sum();
+  RandomStream random(0);
+  std::uint64_t as_large = 0;
+  for (std::uint64_t k = 0; k < count; ++k) {
+    double sum = 0.0;
+    for (Index b = 0; b < gains.size(); ++b) {
+      const bool flip = all ? (k >> static_cast<unsigned>(b) & 1U) != 0 : random.uniform() < 0.5;
+      sum += flip ? -gains[b] : gains[b];
+    }
+    if (sum >= found - rounding) ++as_large;
+  }
+  return static_cast<double>(as_large) / static_cast<double>(count);
+}
+
+}  // namespace bathyal
