@@ -15,8 +15,8 @@ from numpy.typing import NDArray
 
 import bathyal
 from bathyal.effects import FoundEffect
-from bathyal.fit_curves import AXIS_COLOURS
-from bathyal.palette import INK
+from bathyal.identify.report.curves import AXIS_COLOURS
+from bathyal.view.palette import INK
 
 Floats = NDArray[np.floating]
 ROWS = 360

@@ -20,47 +20,48 @@ void add_arm_files(py::class_<Arm>& cls) {
          "from_urdf",
          [](const py::object& path, const py::object& tip, const py::object& root,
             const py::object& name) {
-           return call("bathyal.urdf", "arm_from_urdf", path, py::arg("tip") = tip,
+           return call("bathyal.arm.urdf_reader", "arm_from_urdf", path, py::arg("tip") = tip,
                        py::arg("root") = root, py::arg("name") = name)
                .cast<Arm>();
          },
          py::arg("path"), py::kw_only(), py::arg("tip") = py::none(), py::arg("root") = py::none(),
          py::arg("name") = py::none(),
-         "An arm from one path of a URDF's tree (bathyal.urdf.arm_from_urdf).")
+         "An arm from one path of a URDF's tree (bathyal.arm.urdf_reader.arm_from_urdf).")
       .def(
           "to_urdf",
           [](const py::object& arm, const py::object& path) {
-            return call("bathyal.urdf_writer", "urdf_of_arm", arm, path).cast<py::str>();
+            return call("bathyal.arm.urdf_writer", "urdf_of_arm", arm, path).cast<py::str>();
           },
           py::arg("path") = py::none(),
-          "The arm as the text of a URDF, written to `path` too (bathyal.urdf_writer.urdf_of_arm).")
+          "The arm as the text of a URDF, written to `path` too "
+          "(bathyal.arm.urdf_writer.urdf_of_arm).")
       .def(
           "save",
           [](const py::object& arm, const py::object& path) {
-            call("bathyal.arm_files", "save_arm", arm, path);
+            call("bathyal.arm.files", "save_arm", arm, path);
           },
           py::arg("path"),
-          "Write all of it to a .json file, for bathyal.read_arm (bathyal.arm_files.save_arm).")
+          "Write all of it to a .json file, for bathyal.read_arm (bathyal.arm.files.save_arm).")
       .def(
           "write",
           [](const py::object& arm, const py::object& path, const py::object& nominal) {
-            call("bathyal.arm_files", "write_arm", arm, path, py::arg("nominal") = nominal);
+            call("bathyal.arm.files", "write_arm", arm, path, py::arg("nominal") = nominal);
           },
           py::arg("path"), py::kw_only(), py::arg("nominal") = py::none(),
-          "Write a .json, .urdf, .yaml or .conf file (bathyal.arm_files.write_arm).")
+          "Write a .json, .urdf, .yaml or .conf file (bathyal.arm.files.write_arm).")
       .def(
           "show",
           [](const py::object& arm, const py::object& q) {
-            return call("bathyal.arm_views", "show_arm", arm, q);
+            return call("bathyal.view.arm_views", "show_arm", arm, q);
           },
-          py::arg("q") = py::none(), "An interactive figure (bathyal.arm_views.show_arm).")
+          py::arg("q") = py::none(), "An interactive figure (bathyal.view.arm_views.show_arm).")
       .def(
           "plot",
           [](const py::object& arm, const py::object& q, const py::object& path) {
-            return call("bathyal.arm_views", "plot_arm", arm, q, path);
+            return call("bathyal.view.arm_views", "plot_arm", arm, q, path);
           },
           py::arg("q") = py::none(), py::arg("path") = py::none(),
-          "A picture, written to `path` too (bathyal.arm_views.plot_arm).");
+          "A picture, written to `path` too (bathyal.view.arm_views.plot_arm).");
 }
 
 }  // namespace bathyal::python

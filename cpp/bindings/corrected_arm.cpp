@@ -150,7 +150,7 @@ void warn_of_support(const CorrectedArm& model, const RowMatrix& q, const Covari
   if (mask.all()) return;
   py::dict told;
   for (const auto& [name, values] : covariates) told[py::str(name)] = python::to_numpy(values);
-  py::module_::import("bathyal.support_warning")
+  py::module_::import("bathyal.arm.support_warning")
       .attr("warn")(py::cast(&model, py::return_value_policy::reference), python::to_numpy(q), told,
                     to_numpy(mask, false));
 }
@@ -288,11 +288,11 @@ void add_rigid_part(py::class_<CorrectedArm>& cls) {
 
 void add_files(py::class_<CorrectedArm>& cls) {
   const auto write = [](const py::object& model, const py::object& path) {
-    py::module_::import("bathyal.corrected_arm_files").attr("save_corrected_arm")(model, path);
+    py::module_::import("bathyal.arm.corrected_files").attr("save_corrected_arm")(model, path);
   };
   const char* doc =
       "Write all of it to a .json file, for bathyal.read_arm "
-      "(bathyal.corrected_arm_files.save_corrected_arm).";
+      "(bathyal.arm.corrected_files.save_corrected_arm).";
   cls.def("save", write, py::arg("path"), doc).def("write", write, py::arg("path"), doc);
 }
 

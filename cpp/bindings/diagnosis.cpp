@@ -117,7 +117,7 @@ void bind_held_out(py::module_& module) {
 }
 
 py::object words_about(const char* function, const py::object& self) {
-  return py::module_::import("bathyal.diagnosis_words").attr(function)(self);
+  return py::module_::import("bathyal.diagnosis.report.text").attr(function)(self);
 }
 
 void bind_result(py::module_& module) {
@@ -172,7 +172,7 @@ void bind_result(py::module_& module) {
       .def(
           "write",
           [](const py::object& self, const py::object& path) {
-            py::module_::import("bathyal.diagnosis_files").attr("write_diagnosis")(self, path);
+            py::module_::import("bathyal.diagnosis.files").attr("write_diagnosis")(self, path);
           },
           py::arg("path"), kDiagnosisWriteDoc)
       .def("__repr__", [](const Diagnosis& d) {

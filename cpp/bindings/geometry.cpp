@@ -122,15 +122,15 @@ Examples
       .def(
           "write",
           [](const py::object& cloud, const py::object& path) {
-            py::module_::import("bathyal.clouds").attr("write_cloud")(cloud, path);
+            py::module_::import("bathyal.seabed.clouds").attr("write_cloud")(cloud, path);
           },
           py::arg("path"), "Write a file of the format its suffix names: see bathyal.write_cloud.")
       .def(
           "show",
           [](const py::object& cloud) {
-            return py::module_::import("bathyal.views").attr("show_cloud")(cloud);
+            return py::module_::import("bathyal.view.scene3d").attr("show_cloud")(cloud);
           },
-          "An interactive figure (bathyal.views.show_cloud).")
+          "An interactive figure (bathyal.view.scene3d.show_cloud).")
       .def("__len__", &PointCloud::size)
       .def("__repr__",
            [](const PointCloud& c) { return "PointCloud(" + count_text(c.size(), "point") + ")"; });
@@ -182,15 +182,15 @@ TriangleMesh(3 vertices, 1 triangle)
       .def(
           "write",
           [](const py::object& mesh, const py::object& path) {
-            py::module_::import("bathyal.meshes").attr("write_mesh")(mesh, path);
+            py::module_::import("bathyal.seabed.meshes").attr("write_mesh")(mesh, path);
           },
           py::arg("path"), "Write a file of the format its suffix names: see bathyal.write_mesh.")
       .def(
           "show",
           [](const py::object& mesh) {
-            return py::module_::import("bathyal.views").attr("show_mesh")(mesh);
+            return py::module_::import("bathyal.view.scene3d").attr("show_mesh")(mesh);
           },
-          "An interactive figure (bathyal.views.show_mesh).")
+          "An interactive figure (bathyal.view.scene3d.show_mesh).")
       .def("__repr__", [](const TriangleMesh& m) {
         return "TriangleMesh(" + std::to_string(m.vertex_count()) +
                (m.vertex_count() == 1 ? " vertex, " : " vertices, ") +

@@ -135,7 +135,7 @@ void bind_forecast(py::module_& module) {
 
 void bind_plan(py::module_& module) {
   const auto call = [](const char* function, const py::object& plan, const py::object& path) {
-    return py::module_::import("bathyal.touch_plans").attr(function)(plan, path);
+    return py::module_::import("bathyal.identify.touch_plans").attr(function)(plan, path);
   };
   py::class_<TouchPlan>(module, "TouchPlan", kTouchPlanDoc)
       .def_readonly("arm", &TouchPlan::arm, "Arm: the one that was planned for.")
@@ -169,14 +169,14 @@ void bind_plan(py::module_& module) {
           },
           py::arg("path"),
           "Write a .csv table to touch by, for bathyal.read_touches "
-          "(bathyal.touch_plans.write_plan).")
+          "(bathyal.identify.touch_plans.write_plan).")
       .def(
           "plot",
           [call](const py::object& plan, const py::object& path) {
             return call("plot_plan", plan, path);
           },
           py::arg("path") = py::none(),
-          "A picture, written to `path` too (bathyal.touch_plans.plot_plan).")
+          "A picture, written to `path` too (bathyal.identify.touch_plans.plot_plan).")
       .def("summary", py::overload_cast<const TouchPlan&, bool>(&summarize), py::kw_only(),
            py::arg("warnings") = true, "One paragraph in plain words.")
       .def("__str__", [](const TouchPlan& p) { return summarize(p); })

@@ -188,15 +188,16 @@ void bind_path(py::module_& module) {
       .def(
           "write",
           [](const py::object& self, const py::object& path) {
-            py::module_::import("bathyal.paths").attr("write_path")(self, path);
+            py::module_::import("bathyal.toolpath.paths").attr("write_path")(self, path);
           },
-          py::arg("path"), "Write to a .csv, .json or .vtp file (bathyal.paths.write_path).")
+          py::arg("path"),
+          "Write to a .csv, .json or .vtp file (bathyal.toolpath.paths.write_path).")
       .def(
           "show",
           [](const py::object& self) {
-            return py::module_::import("bathyal.views").attr("show_path")(self);
+            return py::module_::import("bathyal.view.scene3d").attr("show_path")(self);
           },
-          "An interactive figure (bathyal.views.show_path).")
+          "An interactive figure (bathyal.view.scene3d.show_path).")
       .def("__len__", &ToolPath::size)
       .def("__repr__", [](const ToolPath& path) {
         return py::str("ToolPath({} samples, {:.3f} m, {:.1f} s)")

@@ -48,14 +48,14 @@ from bathyal._core import (
     simd_level,
     survey_height,
 )
-from bathyal.aims import read_aims
-from bathyal.arm_files import read_arm
-from bathyal.clouds import read_cloud, write_cloud
-from bathyal.meshes import read_mesh, write_mesh
-from bathyal.support_warning import SupportWarning
-from bathyal.terrain import SheetWarning, triangulate
-from bathyal.touch_files import read_touches, read_tracked
-from bathyal.verification import verify_arm
+from bathyal.arm.files import read_arm
+from bathyal.arm.support_warning import SupportWarning
+from bathyal.identify.touch_files import read_touches, read_tracked
+from bathyal.identify.verify import verify_arm
+from bathyal.seabed.clouds import read_cloud, write_cloud
+from bathyal.seabed.meshes import read_mesh, write_mesh
+from bathyal.seabed.triangulate import SheetWarning, triangulate
+from bathyal.toolpath.aims import read_aims
 
 __version__ = _version("bathyal")
 

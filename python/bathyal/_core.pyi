@@ -79,7 +79,7 @@ class PointCloud:
         ...
     def show(self) -> typing.Any:
         """
-        An interactive figure (bathyal.views.show_cloud).
+        An interactive figure (bathyal.view.scene3d.show_cloud).
         """
     def write(self, path: typing.Any) -> None:
         """
@@ -129,7 +129,7 @@ class TriangleMesh:
         ...
     def show(self) -> typing.Any:
         """
-        An interactive figure (bathyal.views.show_mesh).
+        An interactive figure (bathyal.view.scene3d.show_mesh).
         """
     def write(self, path: typing.Any) -> None:
         """
@@ -937,11 +937,11 @@ class ToolPath:
         ...
     def show(self) -> typing.Any:
         """
-        An interactive figure (bathyal.views.show_path).
+        An interactive figure (bathyal.view.scene3d.show_path).
         """
     def write(self, path: typing.Any) -> None:
         """
-        Write to a .csv, .json or .vtp file (bathyal.paths.write_path).
+        Write to a .csv, .json or .vtp file (bathyal.toolpath.paths.write_path).
         """
     @property
     def approach(self) -> numpy.ndarray:
@@ -1262,7 +1262,7 @@ class Arm:
     @staticmethod
     def from_urdf(path: typing.Any, *, tip: typing.Any = None, root: typing.Any = None, name: typing.Any = None) -> Arm:
         """
-        An arm from one path of a URDF's tree (bathyal.urdf.arm_from_urdf).
+        An arm from one path of a URDF's tree (bathyal.arm.urdf_reader.arm_from_urdf).
         """
     def __copy__(self) -> Arm:
         ...
@@ -1416,15 +1416,15 @@ class Arm:
         """
     def plot(self, q: typing.Any = None, path: typing.Any = None) -> typing.Any:
         """
-        A picture, written to `path` too (bathyal.arm_views.plot_arm).
+        A picture, written to `path` too (bathyal.view.arm_views.plot_arm).
         """
     def save(self, path: typing.Any) -> None:
         """
-        Write all of it to a .json file, for bathyal.read_arm (bathyal.arm_files.save_arm).
+        Write all of it to a .json file, for bathyal.read_arm (bathyal.arm.files.save_arm).
         """
     def show(self, q: typing.Any = None) -> typing.Any:
         """
-        An interactive figure (bathyal.arm_views.show_arm).
+        An interactive figure (bathyal.view.arm_views.show_arm).
         """
     def statics(self, q: typing.Any, wrench: typing.Any = None, *, frame: str = 'world', gravity: typing.Any = (0.0, 0.0, -9.80665), water_density: typing.SupportsFloat | typing.SupportsIndex = 1025.0, payload: typing.SupportsFloat | typing.SupportsIndex = 0.0, payload_center: typing.Any = (0, 0, 0), payload_volume: typing.SupportsFloat | typing.SupportsIndex = 0.0, payload_center_of_buoyancy: typing.Any = None, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> numpy.ndarray:
         """
@@ -1488,7 +1488,7 @@ class Arm:
         """
     def to_urdf(self, path: typing.Any = None) -> str:
         """
-        The arm as the text of a URDF, written to `path` too (bathyal.urdf_writer.urdf_of_arm).
+        The arm as the text of a URDF, written to `path` too (bathyal.arm.urdf_writer.urdf_of_arm).
         """
     def within_limits(self, q: typing.Any) -> typing.Any:
         """
@@ -1496,7 +1496,7 @@ class Arm:
         """
     def write(self, path: typing.Any, *, nominal: typing.Any = None) -> None:
         """
-        Write a .json, .urdf, .yaml or .conf file (bathyal.arm_files.write_arm).
+        Write a .json, .urdf, .yaml or .conf file (bathyal.arm.files.write_arm).
         """
     @property
     def base(self) -> numpy.ndarray:
@@ -2179,11 +2179,11 @@ class CorrectedArm:
         """
     def save(self, path: typing.Any) -> None:
         """
-        Write all of it to a .json file, for bathyal.read_arm (bathyal.corrected_arm_files.save_corrected_arm).
+        Write all of it to a .json file, for bathyal.read_arm (bathyal.arm.corrected_files.save_corrected_arm).
         """
     def write(self, path: typing.Any) -> None:
         """
-        Write all of it to a .json file, for bathyal.read_arm (bathyal.corrected_arm_files.save_corrected_arm).
+        Write all of it to a .json file, for bathyal.read_arm (bathyal.arm.corrected_files.save_corrected_arm).
         """
     @property
     def arm(self) -> Arm:
@@ -2655,7 +2655,7 @@ class TouchPlan:
         ...
     def plot(self, path: typing.Any = None) -> typing.Any:
         """
-        A picture, written to `path` too (bathyal.touch_plans.plot_plan).
+        A picture, written to `path` too (bathyal.identify.touch_plans.plot_plan).
         """
     def summary(self, *, warnings: bool = True) -> str:
         """
@@ -2663,7 +2663,7 @@ class TouchPlan:
         """
     def write(self, path: typing.Any) -> None:
         """
-        Write a .csv table to touch by, for bathyal.read_touches (bathyal.touch_plans.write_plan).
+        Write a .csv table to touch by, for bathyal.read_touches (bathyal.identify.touch_plans.write_plan).
         """
     @property
     def arm(self) -> Arm:

@@ -10,7 +10,7 @@ import pytest
 
 import bathyal
 import scenes
-from bathyal.examples import write_aims
+from bathyal.toolpath.example_aims import write_aims
 
 
 @pytest.fixture(scope="session")

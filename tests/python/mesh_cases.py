@@ -6,8 +6,8 @@ from __future__ import annotations
 import numpy as np
 
 import bathyal
-from bathyal.formats.cells import cells_of
-from bathyal.formats.polygons import triangles_of_polygons
+from bathyal.io.formats.meshes.cells import cells_of
+from bathyal.io.formats.meshes.polygons import triangles_of_polygons
 
 UTM = np.array([620152.873, 7246504.912, -51.987])
 

@@ -14,7 +14,7 @@ import yaml
 
 import bathyal
 from bathyal._core import arm_from_parts, arm_parts
-from bathyal.arm_exports import write_ros_kinematics
+from bathyal.arm.exports import write_ros_kinematics
 
 CATALOGUE = {name: getattr(bathyal.arms, name) for name in bathyal.arms.__all__}
 RIGHT = np.pi / 2

@@ -8,7 +8,7 @@ import pytest
 from matplotlib.image import imread
 
 import bathyal
-from bathyal.arm_solid import posture, resting_pose, size_of, solid
+from bathyal.view.arm_solid import posture, resting_pose, size_of, solid
 
 POSE = [0.2, -1.2, 1.5, -1.9, -1.6, 0.4]
 CATALOGUE = {name: getattr(bathyal.arms, name) for name in bathyal.arms.__all__}

@@ -60,9 +60,9 @@ def asked(monkeypatch):
 @pytest.fixture
 def undrawn(monkeypatch):
     """Pictures are tried elsewhere: here they cost time alone."""
-    monkeypatch.setattr("bathyal.diagnosis_page.write_page", lambda *_, **__: None)
-    monkeypatch.setattr("bathyal.diagnosis_figure.diagnosis_figure", lambda *_, **__: None)
-    monkeypatch.setattr("bathyal.figures.write_png", lambda *_: None)
+    monkeypatch.setattr("bathyal.diagnosis.report.page.write_page", lambda *_, **__: None)
+    monkeypatch.setattr("bathyal.diagnosis.report.figure.diagnosis_figure", lambda *_, **__: None)
+    monkeypatch.setattr("bathyal.view.figure.write_png", lambda *_: None)
 
 
 def test_everything_is_written_and_told(table, tmp_path, capsys, asked):
@@ -252,7 +252,7 @@ def test_refusals_are_one_line_and_leave_nothing(
     assert sorted(os.listdir(tmp_path)) == before
 
 
-@pytest.mark.parametrize("where", ["bathyal.diagnose", "bathyal.diagnosis_page.write_page"])
+@pytest.mark.parametrize("where", ["bathyal.diagnose", "bathyal.diagnosis.report.page.write_page"])
 def test_interrupted_leaves_nothing(where, table, tmp_path, monkeypatch, capsys, asked):
     def interrupted(*_, **__):
         raise KeyboardInterrupt

@@ -90,7 +90,7 @@ def test_people_are_told_what_was_found_and_what_to_touch_next(job, tmp_path, ca
 
 def test_warnings_are_told_first_and_do_not_fail(job, tmp_path, capsys, monkeypatch):
     """Whatever the fit warns of stands on stderr, in the page and in the summary."""
-    from bathyal import identify_report
+    from bathyal.identify import job as identify_report
 
     class Warned:
         """A fit that warns."""
@@ -249,7 +249,7 @@ def test_interrupted_identify_leaves_nothing(job, tmp_path, monkeypatch, capsys)
     def interrupted(*_, **__):
         raise KeyboardInterrupt
 
-    monkeypatch.setattr("bathyal.fit_page.write_page", interrupted)
+    monkeypatch.setattr("bathyal.identify.report.page.write_page", interrupted)
     code, _, err = run(capsys, "identify", job, "--arm", "ur10e", "-o", tmp_path / "new")
     assert code == 130
     assert "interrupted" in err

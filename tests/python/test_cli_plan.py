@@ -13,8 +13,8 @@ import pytest
 import bathyal
 import scenes
 from bathyal.cli import values
-from bathyal.examples import write_aims
-from bathyal.vtp import read_vtp
+from bathyal.io.formats.vtp.writer import read_vtp
+from bathyal.toolpath.example_aims import write_aims
 from command import FILES, bathyal_run, run
 
 CORAL = (

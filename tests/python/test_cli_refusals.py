@@ -78,7 +78,7 @@ def test_interrupted_plan_leaves_the_folder_as_it_was(job, tmp_path, monkeypatch
     def interrupted(*_):
         raise KeyboardInterrupt
 
-    monkeypatch.setattr("bathyal.figures.write_png", interrupted)
+    monkeypatch.setattr("bathyal.view.figure.write_png", interrupted)
     code, _, err = run(capsys, *common, "--standoff", 0.5)
     assert code == 130
     assert "interrupted" in err
@@ -91,10 +91,10 @@ def test_interrupted_plan_leaves_the_folder_as_it_was(job, tmp_path, monkeypatch
 def test_signal_ends_the_program_cleanly(job, tmp_path):
     """Ctrl-C while it works, in a process of its own: no half-written file, no traceback."""
     program = (
-        "import signal, time, bathyal.figures, bathyal.cli\n"
+        "import signal, time, bathyal.view.figure, bathyal.cli\n"
         "signal.signal(signal.SIGINT, signal.default_int_handler)\n"  # a background job ignores it
         "def slow(*_):\n    print('drawing', flush=True)\n    time.sleep(60)\n"
-        "bathyal.figures.write_png = slow\nbathyal.cli.app()\n"
+        "bathyal.view.figure.write_png = slow\nbathyal.cli.app()\n"
     )
     child = subprocess.Popen(
         [sys.executable, "-c", program, "plan", job / "survey.xyz", "--aims", job / "aims.csv",

@@ -304,7 +304,7 @@ def test_truncated_files_and_numbers_that_are_none_are_refused(tmp_path: Path) -
 
 
 def test_commands_that_want_a_rigid_arm_say_so(tmp_path: Path) -> None:
-    from bathyal.arm_files import find_arm
+    from bathyal.arm.files import find_arm
 
     model().save(tmp_path / "model.json")
     with pytest.raises(ValueError, match="an arm without effects"):

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import diagnosis_cases as cases
-from bathyal.diagnosis_files import told, write_diagnosis, write_residuals
+from bathyal.diagnosis.files import told, write_diagnosis, write_residuals
 
 ALL = pytest.mark.parametrize("name", cases.CASES)
 

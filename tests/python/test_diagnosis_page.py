@@ -13,11 +13,11 @@ import pytest
 
 import bathyal
 import diagnosis_cases as cases
-from bathyal import diagnosis_tables as tables
-from bathyal.diagnosis_advice import next_steps
-from bathyal.diagnosis_files import write_diagnosis
-from bathyal.diagnosis_page import _poses, write_page
-from bathyal.diagnosis_words import summary
+from bathyal.diagnosis.files import write_diagnosis
+from bathyal.diagnosis.report import quantities as tables
+from bathyal.diagnosis.report.advice import next_steps
+from bathyal.diagnosis.report.page import _poses, write_page
+from bathyal.diagnosis.report.text import summary
 
 ALL = pytest.mark.parametrize("name", cases.CASES)
 

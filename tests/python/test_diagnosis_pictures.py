@@ -7,10 +7,15 @@ import numpy as np
 import pytest
 
 import diagnosis_cases as cases
-from bathyal import diagnosis_curves as curves
-from bathyal import diagnosis_tables as tables
-from bathyal.diagnosis_figure import curve_figure, diagnosis_figure, show_figure, support_figure
-from bathyal.diagnosis_words import effect_text
+from bathyal.diagnosis.report import curves
+from bathyal.diagnosis.report import quantities as tables
+from bathyal.diagnosis.report.figure import (
+    curve_figure,
+    diagnosis_figure,
+    show_figure,
+    support_figure,
+)
+from bathyal.diagnosis.report.text import effect_text
 
 
 def test_residuals_along_a_joint_show_its_error():

@@ -13,10 +13,10 @@ from hypothesis import strategies as st
 
 import bathyal
 import diagnosis_cases as cases
-from bathyal import diagnosis_numbers as numbers
-from bathyal.diagnosis_advice import next_steps
-from bathyal.diagnosis_files import write_diagnosis
-from bathyal.diagnosis_words import groups_of, headline, summary
+from bathyal.diagnosis.files import write_diagnosis
+from bathyal.diagnosis.report import numbers
+from bathyal.diagnosis.report.advice import next_steps
+from bathyal.diagnosis.report.text import groups_of, headline, summary
 
 ALL = pytest.mark.parametrize("name", cases.CASES)
 

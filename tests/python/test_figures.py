@@ -13,10 +13,14 @@ import pytest
 
 import bathyal
 import scenes
-from bathyal import decimation, figures, map_figure, relief, stations, views
-from bathyal.page import write_html
-from bathyal.palette import GAP, INK, SEGMENTS
-from bathyal.window import map_window
+from bathyal.view import decimate as decimation
+from bathyal.view import figure as figures
+from bathyal.view import map as map_figure
+from bathyal.view import relief, stations
+from bathyal.view import scene3d as views
+from bathyal.view.html import write_html
+from bathyal.view.palette import GAP, INK, SEGMENTS
+from bathyal.view.window import map_window
 
 RED = np.array([int(GAP[k : k + 2], 16) for k in (1, 3, 5)])
 

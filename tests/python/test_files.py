@@ -10,8 +10,8 @@ import struct
 import pytest
 
 import bathyal
-from bathyal.files import need, opened, reading, replacing
-from bathyal.formats.safe_xml import parse_xml
+from bathyal.io.files import need, opened, reading, replacing
+from bathyal.io.formats.xml.safe import parse_xml
 
 
 def test_a_file_appears_whole(tmp_path):

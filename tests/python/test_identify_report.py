@@ -11,13 +11,14 @@ import numpy as np
 import pytest
 
 import bathyal
-from bathyal import fit_tables, fit_words
-from bathyal.figures import write_png
-from bathyal.fit_curves import curves_of
-from bathyal.fit_figure import fit_figure
-from bathyal.fit_page import write_page
-from bathyal.identify_report import identify
-from bathyal.touch_examples import simulate_touches, write_touches
+from bathyal.identify.job import identify
+from bathyal.identify.report import tables as fit_tables
+from bathyal.identify.report import text as fit_words
+from bathyal.identify.report.curves import curves_of
+from bathyal.identify.report.figure import fit_figure
+from bathyal.identify.report.page import write_page
+from bathyal.identify.simulate import simulate_touches, write_touches
+from bathyal.view.figure import write_png
 from touch_jobs import MUKCA, simulated, table, with_distance
 
 UR10E = bathyal.arms.ur10e()

@@ -13,8 +13,8 @@ import pytest
 
 import bathyal
 import scenes
-from bathyal.paths import json_text, path_columns, write_path
-from bathyal.vtp import read_vtp
+from bathyal.io.formats.vtp.writer import read_vtp
+from bathyal.toolpath.paths import json_text, path_columns, write_path
 
 
 @pytest.fixture(scope="module")

@@ -8,8 +8,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from bathyal.formats.cells import cells_of
-from bathyal.formats.polygons import triangles_of_polygons
+from bathyal.io.formats.meshes.cells import cells_of
+from bathyal.io.formats.meshes.polygons import triangles_of_polygons
 from mesh_cases import UTM
 
 

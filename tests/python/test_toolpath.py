@@ -12,7 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import bathyal
-import bathyal.aims
+import bathyal.toolpath.aims
 
 PLANE = bathyal.Plane((0, 0, 1), -5.0)
 

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 import bathyal
 from bathyal._core import arm_from_chain, arm_parts
-from bathyal.urdf_writer import rpy_of
+from bathyal.arm.urdf_writer import rpy_of
 from urdf_cases import (
     DATA,
     LIMIT,

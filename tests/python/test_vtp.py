@@ -15,9 +15,10 @@ from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 
 import bathyal
-from bathyal.formats.cells import Cells, cells_of
-from bathyal.formats.polygons import triangles_of_polygons, triangles_of_strips
-from bathyal.vtp import read_vtp, write_vtp
+from bathyal.io.formats.meshes.cells import Cells, cells_of
+from bathyal.io.formats.meshes.polygons import triangles_of_polygons, triangles_of_strips
+from bathyal.io.formats.vtp.reader import read_vtp
+from bathyal.io.formats.vtp.writer import write_vtp
 
 UTM = np.array([620152.873, 7246504.912, -51.987])
 MODES = list(itertools.product(["raw", "base64"], [True, False]))

@@ -6,7 +6,7 @@ from __future__ import annotations
 import pathlib
 
 import bathyal
-from bathyal.touch_examples import SimulatedTouches, simulate_touches, write_touches
+from bathyal.identify.simulate import SimulatedTouches, simulate_touches, write_touches
 
 FILES = [
     "arm.json", "arm.urdf", "fit.json", "parameters.csv", "report.html", "report.png",

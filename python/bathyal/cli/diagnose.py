@@ -45,7 +45,7 @@ def diagnose(
       bathyal diagnose monday.csv tuesday.csv --tracked --arm ur10 --temperature T_arm_C
       --covariate pressure=P_bar -o diagnosis
     """
-    from bathyal.diagnose_report import diagnose_files
+    from bathyal.diagnosis.job import diagnose_files
 
     talk = Talk(json=json, quiet=quiet)
     nominal = job.nominal()

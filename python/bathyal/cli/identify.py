@@ -54,7 +54,7 @@ def identify(
 
       bathyal identify tracked.csv --tracked --arm ur10 -o found
     """
-    from bathyal.identify_report import identify as make_identification
+    from bathyal.identify.job import identify as make_identification
 
     talk = Talk(json=json, quiet=quiet)
     nominal = job.nominal()

@@ -28,8 +28,8 @@ def info(
 
       bathyal info coral.ply --json
     """
-    from bathyal.bottom import noting, read_either
-    from bathyal.reports import describe
+    from bathyal.seabed.bottom import noting, read_either
+    from bathyal.seabed.describe import describe
 
     talk = Talk(json=json, quiet=quiet)
     warnings: list[str] = []

@@ -64,7 +64,7 @@ def plan(
 
       bathyal plan coral.ply --aims aims.csv --step 0.005 -o plan
     """
-    from bathyal.plan import plan as make_plan
+    from bathyal.toolpath.plan import plan as make_plan
 
     talk = Talk(json=json, quiet=quiet)
     with talk.progress() as progress:

@@ -12,7 +12,7 @@ from bathyal._core import generate_survey
 from bathyal.cli import options as opt
 from bathyal.cli.talk import Talk
 from bathyal.cli.values import default_note, given
-from bathyal.clouds import write_cloud
+from bathyal.seabed.clouds import write_cloud
 
 
 def survey(
@@ -44,7 +44,7 @@ def survey(
 
       bathyal survey survey.xyz --seed 7 --aims-out aims.csv
     """
-    from bathyal.examples import aims_over, write_aims
+    from bathyal.toolpath.example_aims import aims_over, write_aims
 
     talk = Talk(json=json, quiet=quiet)
     with talk.progress() as progress:

@@ -112,7 +112,7 @@ class Job:
 
     def nominal(self) -> bathyal.Arm:
         """The arm, read."""
-        from bathyal.arm_files import find_arm
+        from bathyal.arm.files import find_arm
 
         return find_arm(self.arm, **given(tip=self.tip))
 

@@ -44,8 +44,8 @@ def example(
 
       bathyal touches example touches.csv --arm ur10e
     """
-    from bathyal.arm_files import find_arm
-    from bathyal.touch_examples import simulate_touches, write_touches
+    from bathyal.arm.files import find_arm
+    from bathyal.identify.simulate import simulate_touches, write_touches
 
     talk = Talk(json=json, quiet=quiet)
     nominal = find_arm(arm)

@@ -129,7 +129,7 @@ def plan(
       bathyal touches plan --arm my.urdf --tool 0,0,150mm --count 40 --at 600,-200,100mm
       --at 500,300,100mm --known-distance 0,1 --floor 0mm -o plan.csv --picture plan.png
     """
-    from bathyal.arm_files import find_arm
+    from bathyal.arm.files import find_arm
 
     if at and points is not None:
         raise typer.BadParameter("either --at or --points, not both", param_hint="--points")

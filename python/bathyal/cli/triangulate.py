@@ -10,7 +10,7 @@ import typer
 
 from bathyal.cli import options as opt
 from bathyal.cli.talk import Talk
-from bathyal.meshes import write_mesh
+from bathyal.seabed.meshes import write_mesh
 
 
 def triangulate(
@@ -33,7 +33,7 @@ def triangulate(
 
       bathyal triangulate coral.pcd --method greedy --out coral.ply
     """
-    from bathyal.bottom import make_bottom
+    from bathyal.seabed.bottom import make_bottom
 
     talk = Talk(json=json, quiet=quiet)
     with talk.progress() as progress:

@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from bathyal.tables import ANGLES, LENGTHS
+from bathyal.io.tables import ANGLES, LENGTHS
 
 
 def engine_default(function: Callable[..., Any], name: str, *, degrees: bool = False) -> str:

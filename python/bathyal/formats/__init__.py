@@ -1,2 +1,0 @@
-# SPDX-License-Identifier: BSD-3-Clause
-"""One module a file format; `bathyal.clouds` and `bathyal.meshes` choose among them by suffix."""

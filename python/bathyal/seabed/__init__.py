@@ -1,0 +1,2 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The seabed from files: soundings, meshes, triangulation."""

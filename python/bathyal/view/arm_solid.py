@@ -1,0 +1,172 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The body that a picture gives an arm: a capsule a link, a drum a joint, from its axes alone."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from bathyal._core import Arm, arm_parts
+from bathyal.view.palette import DEPTH, SEGMENTS
+
+Floats = NDArray[np.float64]
+Indices = NDArray[np.int32]
+
+_SIDES = 20
+_RINGS = 5  # of a capsule's cap
+_LINK_COLOURS = (DEPTH[2], DEPTH[3])
+_FOOT_COLOUR = "#7d8590"
+_TURNING, _SLIDING = SEGMENTS[0], SEGMENTS[1]
+_LINK_RADIUS = 0.017  # of the arm's length, as all of these
+_DRUM_RADIUS, _DRUM_LENGTH = 0.028, 0.08
+_SLIDER_RADIUS, _SLIDER_LENGTH = 0.045, 0.05  # so that a drum on the same axis stays in sight
+_SHORTEST = 1e-9  # [m] of a link that is drawn
+
+
+@dataclass(frozen=True)
+class Part:
+    """A closed mesh of one colour, and what it is."""
+
+    name: str
+    colour: str
+    vertices: Floats
+    triangles: Indices
+
+
+@dataclass(frozen=True)
+class Posture:
+    """Where an arm stands, in the world [m].
+
+    `strokes` are polylines, one a link, the foot first; `axes` (m, 2, 3) a point on each moving
+    joint's axis and its direction.
+    """
+
+    base: Floats
+    tool: Floats
+    strokes: list[Floats]
+    axes: Floats
+    joint_names: list[str]
+    sliding: list[bool]
+
+
+def resting_pose(arm: Arm) -> Floats:
+    """Each coordinate at 0 or, where its limits leave 0 out, in the middle of them."""
+    lower, upper = np.asarray(arm.lower), np.asarray(arm.upper)
+    bounded = np.isfinite(lower) & np.isfinite(upper)
+    middle = np.where(bounded, (np.where(bounded, lower, 0) + np.where(bounded, upper, 0)) / 2, 0)
+    middle = np.where(bounded, middle, np.clip(0, lower, upper))
+    return np.where((lower <= 0) & (upper >= 0), 0.0, middle)
+
+
+def posture(arm: Arm, q: ArrayLike) -> Posture:
+    """The arm at one pose `q` (n,).
+
+    A link runs from its joint's axis to the next one's: along its own frames where those stand on
+    the axes, as a URDF's do, else along the axis and the common normal, as the table's.
+    """
+    parts = arm_parts(arm)
+    rows = np.stack([np.asarray(link["frame"]) for link in parts["links"]])
+    links = np.asarray(arm.forward(q, links=True))
+    before = links @ np.linalg.inv(rows)  # world_from_row
+    tool = np.asarray(arm.forward(q))
+    origin, direction = before[:-1, :3, 3], before[:-1, :3, 2]
+    moving = [joint["type"] != "fixed" for joint in parts["joints"]]
+    joint_at = _on_axes(links[1:, :3, 3], origin, direction)
+    own_frames = np.allclose(joint_at, links[1:, :3, 3], rtol=0, atol=1e-9)
+    flange = tool @ np.linalg.inv(np.asarray(arm.tool))
+    ends = np.vstack([joint_at[1:], flange[None, :3, 3]])
+    strokes = [np.vstack([np.asarray(arm.base)[:3, 3], joint_at[0]])]
+    for k, end in enumerate(ends):
+        knees = [joint_at[k], end] if own_frames else [joint_at[k], before[k + 1, :3, 3], end]
+        strokes.append(np.array(knees))
+    if not own_frames:
+        strokes[0] = np.vstack([np.asarray(arm.base)[:3, 3], origin[0], joint_at[0]])
+    strokes[-1] = np.vstack([strokes[-1], tool[:3, 3]])
+    moving_joints = [joint for joint in parts["joints"] if joint["type"] != "fixed"]
+    return Posture(
+        base=np.asarray(arm.base),
+        tool=tool,
+        strokes=strokes,
+        axes=np.stack([joint_at, direction], axis=1)[moving],
+        joint_names=[joint["name"] for joint in moving_joints],
+        sliding=[joint["type"] == "prismatic" for joint in moving_joints],
+    )
+
+
+def size_of(postures: list[Posture]) -> float:
+    """What lengths of drums and arrows are shares of: the longest arm stretched out [m]."""
+    lengths = [
+        sum(float(np.linalg.norm(np.diff(stroke, axis=0), axis=1).sum()) for stroke in p.strokes)
+        for p in postures
+    ]
+    return max([*lengths, 1e-3])
+
+
+def solid(at: Posture, size: float) -> list[Part]:
+    """The parts of an arm whose length is `size`."""
+    parts = []
+    for k, stroke in enumerate(at.strokes):
+        colour = _LINK_COLOURS[k % 2] if k else _FOOT_COLOUR
+        for start, end in pairwise(stroke):
+            if np.linalg.norm(end - start) > _SHORTEST:
+                mesh = _capsule(start, end, _LINK_RADIUS * size)
+                parts.append(Part(f"link {k}" if k else "foot", colour, *mesh))
+    for name, (point, direction), slides in zip(at.joint_names, at.axes, at.sliding, strict=True):
+        half = (_SLIDER_LENGTH if slides else _DRUM_LENGTH) * size / 2
+        mesh = _prism(
+            point - half * direction,
+            point + half * direction,
+            (_SLIDER_RADIUS if slides else _DRUM_RADIUS) * size,
+            4 if slides else _SIDES,
+        )
+        parts.append(Part(name, _SLIDING if slides else _TURNING, *mesh))
+    return parts
+
+
+def _on_axes(points: Floats, origin: Floats, direction: Floats) -> Floats:
+    """The nearest point of each axis."""
+    along = np.sum((points - origin) * direction, axis=1, keepdims=True)
+    return np.asarray(origin + along * direction)
+
+
+def _rings(axis: Floats, sides: int) -> Floats:
+    """(sides, 3) unit vectors square to an axis."""
+    helper = np.eye(3)[np.argmin(np.abs(axis))]
+    x = np.cross(axis, helper)
+    x /= np.linalg.norm(x)
+    angle = np.arange(sides)[:, None] * (2 * np.pi / sides)
+    return np.asarray(np.cos(angle) * x + np.sin(angle) * np.cross(axis, x))
+
+
+def _turned(profile: Floats, start: Floats, axis: Floats, sides: int) -> tuple[Floats, Indices]:
+    """A body of revolution: `profile` (K, 2) is the way along the axis and the radius there."""
+    around = _rings(axis, sides)
+    vertices = start + profile[:, None, :1] * axis + profile[:, None, 1:] * around
+    k, i = np.meshgrid(np.arange(len(profile) - 1), np.arange(sides), indexing="ij")
+    a, b = k * sides + i, k * sides + (i + 1) % sides
+    quads = np.stack([a, b, b + sides, a, b + sides, a + sides], axis=-1)
+    return vertices.reshape(-1, 3), quads.reshape(-1, 3).astype(np.int32)
+
+
+def _capsule(start: Floats, end: Floats, radius: float) -> tuple[Floats, Indices]:
+    length = float(np.linalg.norm(end - start))
+    angle = np.linspace(0, np.pi / 2, _RINGS)
+    cap = radius * np.column_stack([-np.cos(angle), np.sin(angle)])
+    profile = np.vstack([cap, _side(length, radius), cap[::-1] * [-1, 1] + [length, 0]])
+    return _turned(profile, start, (end - start) / length, _SIDES)
+
+
+def _prism(start: Floats, end: Floats, radius: float, sides: int) -> tuple[Floats, Indices]:
+    length = float(np.linalg.norm(end - start))
+    end_caps = np.array([[0, 0], [0, radius], [length, radius], [length, 0]])
+    profile = np.vstack([end_caps[:2], _side(length, radius), end_caps[2:]])
+    return _turned(profile, start, (end - start) / length, sides)
+
+
+def _side(length: float, radius: float) -> Floats:
+    """Rings between the ends: painters sort faces by their middles, which must lie close."""
+    along = np.linspace(0, length, max(2, round(length / radius)) + 1)[1:-1]
+    return np.column_stack([along, np.full(len(along), radius)])
