@@ -15,10 +15,10 @@ import subprocess
 import sys
 from pathlib import Path
 
-HERE = Path(__file__).parent
+HERE = Path(__file__).resolve().parent
 PAGE = HERE / "README.md"
-PYTHON = ["rays.py", "section.py", "read_text.py", "whole_plan.py", "identify.py", "intervals.py"]
-PYTHON += ["diagnose_speed.py", "diagnose_real.py", "score_card.py"]
+PYTHON = ["rays", "section", "read_text", "whole_plan", "identify", "intervals"]
+PYTHON += ["diagnose_speed", "diagnose_real", "score_card"]
 CPP = ["bench_delaunay", "bench_greedy", "bench_arm_forward", "bench_arm_inverse"]
 CPP += ["bench_gram"]
 PACKAGES = ["numpy", "scipy", "open3d-cpu", "embreex", "vtk", "pandas", "pyarrow", "pin"]
@@ -52,7 +52,7 @@ def main() -> None:
     parser.add_argument(
         "--cpp", type=Path, required=True, help="folder of the built C++ benchmarks"
     )
-    folder: Path = parser.parse_args().cpp
+    folder: Path = parser.parse_args().cpp.resolve()
     sections = [
         "# Benchmarks\n\n"
         "Made by `make bench`. Peers run in the same process or the same interleaved run, results "
@@ -62,10 +62,10 @@ def main() -> None:
         f"- date: {datetime.datetime.now(tz=datetime.timezone.utc):%Y-%m-%d}\n"
     ]
     commands = [[str(folder / name)] for name in CPP]
-    commands += [[sys.executable, str(HERE / "python" / name)] for name in PYTHON]
+    commands += [[sys.executable, "-m", f"benchmarks.python.{name}"] for name in PYTHON]
     for command in commands:
         print("running", " ".join(command), flush=True)
-        done = subprocess.run(command, stdout=subprocess.PIPE, text=True)
+        done = subprocess.run(command, stdout=subprocess.PIPE, text=True, cwd=HERE.parent)
         if done.returncode != 0:
             sys.exit(f"{command[-1]} failed with status {done.returncode}")
         print(done.stdout, flush=True)

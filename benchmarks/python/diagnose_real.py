@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What diagnosis makes of recordings of real arms: a table and the causes it names.
 
-    python benchmarks/python/diagnose_real.py [NAME ...]
+    python -m benchmarks.python.diagnose_real [NAME ...]
 
 Reads ../shared/data; names are those of RUNS ("UR10 C"), TRANSFERS ("A-B"), SITES, and "quarters",
 by default all.
@@ -11,20 +11,16 @@ Errors are 3-D rms in millimetres, of rows or poses that taught nothing.
 from __future__ import annotations
 
 import argparse
-import sys
 import time
 import warnings
 from collections.abc import Callable, Iterable
 from functools import cache
-from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
 import bathyal
-
-sys.path.insert(0, str(Path(__file__).parents[2] / "tests" / "python"))
-from real_arms import hilti, hilti_tilts, sockets, trailblazer, ur10
+from tests.support.real_arms import hilti, hilti_tilts, sockets, trailblazer, ur10
 
 MM = 1e3
 AT_START = {"time": 0.0}  # before anything drifted or slipped

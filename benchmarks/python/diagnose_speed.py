@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Diagnosis of an arm beside the same search written plainly with SciPy.
 
-The peer (tests/python/diagnose_peer.py) refits geometry, base and tool with each form of each
+The peer (tests/support/diagnose_peer.py) refits geometry, base and tool with each form of each
 effect in turn, by least_squares with its own derivatives on kinematics that NumPy computes for all
 poses at once, one round: the best single form. Bathyal looks through more orders and moments, grows
 sets, holds data out and weighs rivals besides. Both must name what is hidden, and agree on its
@@ -19,12 +19,11 @@ import numpy as np
 import scipy
 
 import bathyal
+from tests.simulated_cases.arm_draws import CATALOGUE
+from tests.simulated_cases.arms import SimArm, pose
+from tests.support.diagnose_peer import PlainSearch
 
 HERE = Path(__file__).parent
-sys.path.insert(0, str(HERE.parents[1] / "tests" / "python"))
-from diagnose_peer import PlainSearch  # noqa: E402
-from hidden_arm_draws import CATALOGUE  # noqa: E402
-from hidden_arms import SimArm, pose  # noqa: E402
 
 SERIES_A = "arms/ipa-ur10/Series_A/measurements_grid.csv"
 JOINTS = ["shoulder_pan", "shoulder_lift", "elbow", "wrist_1", "wrist_2", "wrist_3"]

@@ -19,10 +19,9 @@ from numpy.typing import NDArray
 from scipy.optimize import least_squares
 
 import bathyal
+from tests.support.identify_peer import Peer, built, touch
 
 HERE = Path(__file__).parent
-sys.path.insert(0, str(HERE.parents[1] / "tests" / "python"))
-from identify_peer import Peer, built, touch  # noqa: E402
 
 Array = NDArray[Any]
 SERIES_A = "arms/ipa-ur10/Series_A/measurements_grid.csv"

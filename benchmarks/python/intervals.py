@@ -1,21 +1,17 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Whether identify_arm's intervals hold the truth: ``python benchmarks/python/intervals.py``.
+"""Whether identify_arm's intervals hold the truth: ``python -m benchmarks.python.intervals``.
 
-Simulated sets whose truth is known, by the cases of tests/python/interval_cases.py. Ends with
+Simulated sets whose truth is known, by the cases of tests/support/interval_cases.py. Ends with
 status 1 where an interval covers less than 93 % or more than 97 % of the sets, or a number that the
 data tell is off by more than 0.1 of its scatter on average.
 """
 
 import argparse
-import sys
 import time
-from pathlib import Path
 
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "tests" / "python"))
-
-from interval_cases import CASES, show
+from tests.support.interval_cases import CASES, show
 
 TITLES = {
     "tracked": "63 tracked positions",

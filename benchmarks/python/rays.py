@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Rays and nearest points against Open3D and embreex: ``python benchmarks/python/rays.py``.
+"""Rays and nearest points against Open3D and embreex: ``python -m benchmarks.python.rays``.
 
 Peers, both on Embree, from PyPI (``pip install open3d-cpu embreex``), in the same run, on the same
 triangles and rays. Every call starts from numpy arrays in the peer's own precision (float32; ours

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Reading a text of soundings: bathyal against pandas' C engine and pyarrow, in the same run.
 
-    .venv/bin/python benchmarks/python/read_text.py [--rows 1000000] [--rounds 15]
+    .venv/bin/python -m benchmarks.python.read_text [--rows 1000000] [--rounds 15]
 
 The peers are installed when they are missing. Every reader must give the same numbers to the last
 bit, by the very call that is timed, before any time is taken. All get the same file from the page

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The score card of hidden effects over two thousand cases: tables, JSON and pictures.
 
-    python benchmarks/python/score_card.py [--seeds 7000:9000] [--out FOLDER]
+    python -m benchmarks.python.score_card [--seeds 7000:9000] [--out FOLDER]
 
-Each case is sealed by tests/python/hidden_effects.py, in NumPy and from its seed alone; bathyal
-sees the data, the judge compares with the answer. See tests/python/score_card.py. Seeds below 7000
-have been looked at while the engine was made; those of the card have not.
+Each case is sealed by tests/simulated_cases/cases.py, in NumPy and from its seed alone; bathyal
+sees the data, the judge compares with the answer. See tests/simulated_cases/score_card.py. Seeds
+below 7000 have been looked at while the engine was made; those of the card have not.
 """
 
 import argparse
@@ -15,9 +15,9 @@ import time
 from dataclasses import asdict
 from pathlib import Path
 
+from tests.simulated_cases.score_card import card, draw, run, text
+
 ROOT = Path(__file__).parents[2]
-sys.path.insert(0, str(ROOT / "tests" / "python"))
-from score_card import card, draw, run, text  # noqa: E402
 
 
 def main() -> None:

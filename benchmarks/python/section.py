@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Sections of a seabed against VTK: ``python benchmarks/python/section.py``.
+"""Sections of a seabed against VTK: ``python -m benchmarks.python.section``.
 
 Peers, from PyPI (``pip install vtk``), in the same run, on the same triangles: ``vtkCutter`` (every
 cell) and ``vtkPlaneCutter`` (keeps a sphere tree, which like our hierarchy is built before the

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 import bathyal
-import scenes
 from bathyal.toolpath.example_aims import write_aims
+from tests.support import scenes
 
 
 @pytest.fixture(scope="session")

@@ -14,7 +14,7 @@
 namespace bathyal {
 
 /// ln of the odds against a name, whatever it is: with `trials` it keeps clean data clean (the
-/// score card, tests/python/score_card.py, shows how often).
+/// score card, tests/simulated_cases/score_card.py, shows how often).
 inline constexpr double kNameCost = 4.5;
 
 /// What the freedom of `width` columns takes from the log evidence when their values were found

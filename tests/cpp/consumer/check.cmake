@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # cmake -DBUILD=<build tree> -DSOURCE=<this folder> -DWORK=<scratch> -P check.cmake
 # Installs the build tree, then configures, builds and runs the consumer against it: the C++ and the
-# CMake that the README and the page on installing show (tests/python/test_fragments.py).
+# CMake that the README and the page on installing show (tests/python/package/test_fragments.py).
 function(run)
   execute_process(COMMAND ${ARGV} RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
   if(NOT status EQUAL 0)

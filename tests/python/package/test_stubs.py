@@ -1,0 +1,36 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The committed stub of the engine is the one its bindings give, and the package type-checks."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[3]
+
+
+def run(*command: str) -> str:
+    done = subprocess.run(
+        [sys.executable, "-m", *command], cwd=ROOT, capture_output=True, text=True, check=False
+    )
+    assert done.returncode == 0, done.stdout + done.stderr
+    return done.stdout
+
+
+def test_stub_is_current(tmp_path: Path) -> None:
+    pytest.importorskip("pybind11_stubgen")
+    run("pybind11_stubgen", "bathyal._core", "-o", str(tmp_path))
+    made = (tmp_path / "bathyal" / "_core.pyi").read_text(encoding="utf-8")
+    kept = (ROOT / "python" / "bathyal" / "_core.pyi").read_text(encoding="utf-8")
+    assert made == kept, "make format writes the stub anew"
+
+
+def test_package_type_checks() -> None:
+    pytest.importorskip("mypy")
+    run("mypy")
+
+
+def test_documentation_builds_without_a_warning(tmp_path: Path) -> None:
+    pytest.importorskip("furo")
+    run("sphinx", "-W", "--keep-going", "-q", "-b", "html", "docs", str(tmp_path))
