@@ -90,7 +90,7 @@ class Talk:
 
     def result(self, data: dict[str, Any], rows: dict[str, str], title: str = "") -> None:
         """A table for people, or JSON."""
-        from bathyal.toolpath.paths import json_text
+        from bathyal.io.json import json_text
 
         if self.json:
             sys.stdout.write(json_text(data))

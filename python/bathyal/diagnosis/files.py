@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from bathyal.diagnosis.report.advice import next_steps
 from bathyal.diagnosis.report.text import summary
 from bathyal.io.files import PathLike, known_suffix, replacing
-from bathyal.toolpath.paths import json_text
+from bathyal.io.json import json_text
 
 if TYPE_CHECKING:
     from bathyal._core import Diagnosis

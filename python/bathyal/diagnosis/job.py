@@ -20,7 +20,7 @@ from bathyal.diagnosis.report.advice import next_steps
 from bathyal.diagnosis.report.text import facts_of, summary
 from bathyal.identify.job import plain_settings, read_data
 from bathyal.io.files import PathLike, filling
-from bathyal.seabed.bottom import Step, file_facts
+from bathyal.io.provenance import Step, file_facts
 
 _LONG = ("residuals_before_m", "residuals_after_m")  # a number a row: of files, not of a screen
 

@@ -28,8 +28,8 @@ from bathyal.identify.report.tables import distances, groups, write_parameters, 
 from bathyal.identify.report.text import next_touches, surely_text
 from bathyal.identify.touch_files import read_touches, read_tracked
 from bathyal.io.files import PathLike, filling
+from bathyal.io.provenance import Step, file_facts
 from bathyal.io.tables import read_table
-from bathyal.seabed.bottom import Step, file_facts
 
 _MOST_NAMES = 6
 
@@ -173,7 +173,7 @@ class Identification:
         """
         from bathyal.identify.report.figure import fit_figure
         from bathyal.identify.report.page import write_page
-        from bathyal.toolpath.paths import json_text
+        from bathyal.io.json import json_text
         from bathyal.view.figure import write_png
 
         step = step or nullcontext

@@ -3,10 +3,9 @@
 
 from __future__ import annotations
 
-import hashlib
 import warnings
-from collections.abc import Callable, Iterator, Mapping
-from contextlib import AbstractContextManager, contextmanager, nullcontext
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager, nullcontext
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -22,11 +21,10 @@ from bathyal._core import (
 )
 from bathyal.errors import argument_error
 from bathyal.io.files import PathLike
+from bathyal.io.provenance import Step, file_facts
 from bathyal.seabed.clouds import read_cloud
 from bathyal.seabed.meshes import read_mesh
 from bathyal.seabed.triangulate import triangulate
-
-Step = Callable[[str], AbstractContextManager[Any]]
 
 # Files that hold faces, and files that may hold either.
 MESH_SUFFIXES = (".dae", ".obj", ".stl")
@@ -201,15 +199,6 @@ def _told_by_cleaning(report: Mapping[str, int]) -> list[str]:
     if report["same_place"] > report["same_place_dropped"]:
         told.append(f"{report['same_place']:,} soundings share their place with another depth")
     return told
-
-
-def file_facts(path: PathLike) -> dict[str, Any]:
-    digest = hashlib.sha256()
-    with open(path, "rb") as stream:
-        while block := stream.read(1 << 20):
-            digest.update(block)
-        size = stream.tell()
-    return {"file": Path(path).name, "bytes": size, "sha256": digest.hexdigest()}
 
 
 @contextmanager

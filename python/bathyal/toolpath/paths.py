@@ -4,8 +4,6 @@
 from __future__ import annotations
 
 import csv
-import json
-import math
 import os
 from collections.abc import Mapping
 from importlib.metadata import version
@@ -18,6 +16,7 @@ from numpy.typing import NDArray
 from bathyal.errors import argument_error
 from bathyal.io.files import replacing
 from bathyal.io.formats.vtp.writer import write_vtp
+from bathyal.io.json import json_text
 
 if TYPE_CHECKING:
     from bathyal._core import Targets, ToolPath
@@ -102,12 +101,6 @@ def target_columns(targets: Targets) -> dict[str, NDArray[Any]]:
     return _flat(targets, _TARGET_COLUMNS)
 
 
-def json_text(value: Any) -> str:
-    """JSON in which an object stands on lines of its own and a list on one; NaN and infinities are
-    null."""
-    return _lines(_plain(value), "") + "\n"
-
-
 def _flat(
     source: Any, columns: tuple[tuple[str, str, tuple[str, ...]], ...]
 ) -> dict[str, NDArray[Any]]:
@@ -185,29 +178,3 @@ def _datum_notes(provenance: Mapping[str, Any]) -> list[str]:
     return [
         f"{name} {' '.join(provenance[name].split())}" for name in _DATUM if provenance.get(name)
     ]
-
-
-def _plain(value: Any) -> Any:
-    """What JSON can hold: no numpy, no NaN."""
-    if isinstance(value, Mapping):
-        return {str(key): _plain(item) for key, item in value.items()}
-    if isinstance(value, np.ndarray | np.generic):
-        value = value.tolist()
-    if isinstance(value, list | tuple):
-        return [_plain(item) for item in value]
-    if isinstance(value, float) and not math.isfinite(value):
-        return None
-    if isinstance(value, os.PathLike):
-        return os.fspath(value)
-    return value
-
-
-def _lines(value: Any, indent: str) -> str:
-    if not isinstance(value, dict) or not value:
-        return json.dumps(value, allow_nan=False, ensure_ascii=False)
-    inner = indent + "  "
-    items = ",\n".join(
-        f"{inner}{json.dumps(key, ensure_ascii=False)}: {_lines(item, inner)}"
-        for key, item in value.items()
-    )
-    return f"{{\n{items}\n{indent}}}"

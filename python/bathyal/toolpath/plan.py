@@ -17,7 +17,8 @@ from numpy.typing import NDArray
 from bathyal._core import ToolPath, plan_toolpath
 from bathyal.errors import argument_error
 from bathyal.io.files import PathLike, filling
-from bathyal.seabed.bottom import Bottom, Step, file_facts, make_bottom
+from bathyal.io.provenance import Step, file_facts
+from bathyal.seabed.bottom import Bottom, make_bottom
 from bathyal.toolpath.aims import read_axes
 
 

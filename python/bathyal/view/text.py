@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The grammar of sentences that are put together."""
+"""Numbers as they are printed, and the grammar of sentences that are put together."""
 
 from __future__ import annotations
 
@@ -38,3 +38,11 @@ def sentence(text: str) -> str:
     """With a capital and a stop."""
     text = upper(text.strip())
     return text if text.endswith((".", "!", "?")) else f"{text}."
+
+
+def number(value: float, digits: int = 3, sign: str = "") -> str:
+    """A number as it is printed: with a true minus, and no minus before zeros."""
+    text = f"{value:{sign}.{digits}f}"
+    if not text.strip("+-0."):
+        text = text.lstrip("+-")
+    return text.replace("-", "−")

@@ -13,7 +13,8 @@ import pytest
 
 import bathyal
 from bathyal.io.formats.vtp.writer import read_vtp
-from bathyal.toolpath.paths import json_text, path_columns, write_path
+from bathyal.io.json import json_text
+from bathyal.toolpath.paths import path_columns, write_path
 from tests.support import scenes
 
 

@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from bathyal.arm.joint_values import joint_values
 from bathyal.diagnosis.report.quantities import joint_label
-from bathyal.identify.report.curves import joint_values
 
 if TYPE_CHECKING:
     from bathyal._core import Diagnosis

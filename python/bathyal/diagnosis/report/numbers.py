@@ -7,7 +7,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from bathyal.identify.report.tables import number
+from bathyal.view.text import number
 
 # Units as they are kept, and as they are shown: the unit, and how many of it make one.
 _SHOWN = {

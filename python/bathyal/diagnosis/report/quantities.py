@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bathyal._core import Tracked
-from bathyal.identify.report.curves import joint_values
+from bathyal.arm.joint_values import joint_values
 
 if TYPE_CHECKING:
     from bathyal._core import Diagnosis

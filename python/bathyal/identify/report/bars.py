@@ -11,9 +11,10 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from bathyal._core import ArmFit
-from bathyal.identify.report.tables import INTERVAL, Line, bar_limit, lines, number
+from bathyal.identify.report.tables import INTERVAL, Line, bar_limit, lines
 from bathyal.identify.report.text import STATUS
 from bathyal.view.palette import INK, STATUSES
+from bathyal.view.text import number
 
 _MOST_LINES = 40
 # Shares of the table's width: right ends of the columns of numbers, the bars, the words.

@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from bathyal._core import Arm, ArmFit, Touches, Tracked
+from bathyal._core import ArmFit, Touches, Tracked
 from bathyal.identify.report.tables import Pairs, groups, pair_distances
 
 Floats = NDArray[np.float64]
@@ -50,15 +50,6 @@ class Curves:
         return max(low, _NOTHING), 1.5 * max(high, 10 * _NOTHING)
 
 
-@dataclass(frozen=True)
-class JointValues:
-    """A joint's values as people read them."""
-
-    name: str
-    unit: str
-    values: Floats
-
-
 def curves_of(fit: ArmFit, data: Touches | Tracked) -> Curves:
     """Pairs of touches; poses where they were tracked, or where no point was touched twice."""
     pairs = pair_distances(fit, data) if isinstance(data, Touches) else []
@@ -79,16 +70,6 @@ def rank_gap(fit: ArmFit) -> tuple[Floats, float]:
     """Singular values that a logarithm can be taken of, and the foot of their axis."""
     values = np.maximum(fit.singular_values, _DEEPEST)
     return values, float(values[-1]) / 10 if fit.rank < len(values) else float(values[-1]) / 100
-
-
-def joint_values(arm: Arm, data: Touches | Tracked) -> list[JointValues]:
-    """Each coordinate in degrees or millimetres."""
-    return [
-        JointValues(name, "mm", 1e3 * values)
-        if kind == "prismatic"
-        else JointValues(name, "°", np.degrees(values))
-        for name, kind, values in zip(arm.joint_names, arm.joint_types, data.q.T, strict=True)
-    ]
 
 
 def thinned(count: int, most: int = _MOST_MARKS) -> NDArray[np.intp]:

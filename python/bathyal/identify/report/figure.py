@@ -14,12 +14,12 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from bathyal._core import ArmFit, Touches, Tracked
+from bathyal.arm.joint_values import joint_values
 from bathyal.identify.report.bars import draw_parameters
 from bathyal.identify.report.curves import (
     AXIS_COLOURS,
     Curves,
     curves_of,
-    joint_values,
     rank_gap,
     thinned,
 )

@@ -19,12 +19,12 @@ from bathyal.identify.report.tables import (
     distances,
     groups,
     lines,
-    number,
     point_name,
 )
 from bathyal.identify.report.text import STATUS, next_touches, surely_text
 from bathyal.io.files import PathLike, replacing
 from bathyal.view.palette import GAP, INK, STATUSES
+from bathyal.view.text import number
 
 
 def write_page(

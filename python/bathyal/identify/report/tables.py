@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from bathyal._core import ArmFit, FitParameter, Touches, Tracked
 from bathyal.errors import argument_error
 from bathyal.io.files import PathLike, replacing
+from bathyal.view.text import number
 
 Floats = NDArray[np.float64]
 Rows = NDArray[np.intp]
@@ -83,14 +84,6 @@ class Distance:
     second: str
     told: float
     found: float
-
-
-def number(value: float, digits: int = 3, sign: str = "") -> str:
-    """A number as it is printed: with a true minus, and no minus before zeros."""
-    text = f"{value:{sign}.{digits}f}"
-    if not text.strip("+-0."):
-        text = text.lstrip("+-")
-    return text.replace("-", "−")
 
 
 def bar_limit(table: list[Line]) -> float:

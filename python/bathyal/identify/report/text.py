@@ -9,7 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bathyal._core import Arm, ArmFit, Touches, Tracked
-from bathyal.identify.report.tables import distances, number, point_name
+from bathyal.identify.report.tables import distances, point_name
+from bathyal.view.text import number
 
 Floats = NDArray[np.float64]
 

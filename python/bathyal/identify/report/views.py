@@ -9,7 +9,8 @@ import plotly.graph_objects as go  # type: ignore[import-untyped]
 from plotly.subplots import make_subplots  # type: ignore[import-untyped]
 
 from bathyal._core import ArmFit, Touches, Tracked
-from bathyal.identify.report.curves import AXIS_COLOURS, curves_of, joint_values, rank_gap, thinned
+from bathyal.arm.joint_values import joint_values
+from bathyal.identify.report.curves import AXIS_COLOURS, curves_of, rank_gap, thinned
 from bathyal.identify.report.tables import point_name
 from bathyal.view.arm_views import show_arm
 from bathyal.view.palette import AFTER, BEFORE, GAP, INK
