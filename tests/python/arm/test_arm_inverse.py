@@ -7,7 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import bathyal
-from tests.python.arm.test_arm import CATALOGUE, poses_of, random_arm
+from tests.support.random_arms import CATALOGUE, poses_of, random_arm
 
 
 @pytest.mark.parametrize("make", CATALOGUE, ids=lambda make: make.__name__)

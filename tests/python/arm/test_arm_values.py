@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 import bathyal
-from tests.python.arm.test_arm import CATALOGUE, poses_of, random_arm
 from tests.support.pin_arms import PinArm, pin
+from tests.support.random_arms import CATALOGUE, poses_of, random_arm
 from tests.support.urdf_cases import LIMIT, joint, links, read_text, robot
 
 PARTS = {"all": slice(0, 6), "linear": slice(0, 3), "angular": slice(3, 6)}

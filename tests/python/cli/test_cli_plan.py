@@ -12,7 +12,7 @@ import pytest
 
 import bathyal
 from bathyal.cli import values
-from bathyal.io.formats.vtp.writer import read_vtp
+from bathyal.io.formats.vtp.reader import read_vtp
 from bathyal.toolpath.example_aims import write_aims
 from tests.support import scenes
 from tests.support.command import FILES, bathyal_run, run

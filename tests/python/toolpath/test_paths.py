@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 import bathyal
-from bathyal.io.formats.vtp.writer import read_vtp
+from bathyal.io.formats.vtp.reader import read_vtp
 from bathyal.io.json import json_text
 from bathyal.toolpath.paths import path_columns, write_path
 from tests.support import scenes
