@@ -77,7 +77,7 @@ def test_only_base_starts_threads() -> None:
 
 def test_selection_knows_no_subject() -> None:
     """Arms, sonars and vehicles are models that it is given."""
-    for path in sorted((MODULES / "selection").iterdir()):
+    for path in sorted((MODULES / "selection").rglob("*.[hc]pp")):
         text = path.read_text("utf-8")
         rooms = set(re.findall(r'#\s*include\s*[<"]bathyal/(\w+)/', text))
         assert rooms <= {"base", "estimation", "selection"}, path.name
