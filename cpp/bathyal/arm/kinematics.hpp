@@ -15,6 +15,7 @@ namespace bathyal {
 
 using JointMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 using JointView = Eigen::Map<const JointMatrix>;
+inline JointView view_of(const JointMatrix& q) { return {q.data(), q.rows(), q.cols()}; }
 
 /// Axes along which a Jacobian or a wrench at the tool centre point is told.
 enum class TipFrame { kWorld, kTool };

@@ -10,7 +10,7 @@
 namespace bathyal {
 namespace {
 
-constexpr std::size_t kGrain = 256;  ///< poses of one task
+constexpr std::size_t kTorqueGrain = 256;  ///< poses of one task
 
 /// Force and its moment about the origin of the arm's base.
 struct Load {
@@ -101,7 +101,7 @@ std::vector<double> statics(const Arm& arm, JointView q, Wrenches wrenches,
   std::vector<double> torques(static_cast<std::size_t>(q.rows()) * size);
   const std::size_t wrench_step = wrenches.rows() > 1 ? 6 : 0;
   const double* wrench = wrenches.rows() > 0 ? wrenches.data() : nullptr;
-  parallel_for(static_cast<std::size_t>(q.rows()), kGrain, options.num_threads,
+  parallel_for(static_cast<std::size_t>(q.rows()), kTorqueGrain, options.num_threads,
                [&](std::size_t begin, std::size_t end) {
                  Balance balance(arm, options);
                  for (std::size_t i = begin; i < end; ++i) {

@@ -13,6 +13,12 @@ void throw_argument(std::string_view name, std::string_view expected, std::strin
   throw std::invalid_argument(text);
 }
 
+void throw_at(std::string_view name, std::ptrdiff_t line, std::string_view why) {
+  std::string text(name);
+  text.append(":").append(std::to_string(line)).append(": ").append(why);
+  throw Error(text);
+}
+
 std::string to_text(double value) {
   std::array<char, 32> buffer{};
   const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);

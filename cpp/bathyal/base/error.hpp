@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -18,6 +19,9 @@ class Error : public std::runtime_error {
 /// "`name`: expected <expected>, got <got>". Every caller's mistake is told through this function.
 [[noreturn]] void throw_argument(std::string_view name, std::string_view expected,
                                  std::string_view got);
+
+/// Throws Error with the text "name:line: why": what is wrong in a line of a file, counted from 1.
+[[noreturn]] void throw_at(std::string_view name, std::ptrdiff_t line, std::string_view why);
 
 /// A number as a person would write it: shortest text that reads back as the same double.
 std::string to_text(double value);

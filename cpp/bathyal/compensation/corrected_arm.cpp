@@ -17,8 +17,6 @@ using RowMajor4 = Eigen::Matrix<double, 4, 4, Eigen::RowMajor>;
 constexpr std::size_t kGrain = 256;  ///< poses of one task
 constexpr double kStep = 1e-6;       ///< of differences [rad] or [m]
 
-JointView view_of(const JointMatrix& q) { return {q.data(), q.rows(), q.cols()}; }
-
 void write_pose(const Pose& pose, double* out) { Eigen::Map<RowMajor4>{out} = pose.matrix(); }
 
 /// Calls `body` with each action and the one at its place in `other`.

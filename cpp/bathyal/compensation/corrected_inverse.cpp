@@ -42,8 +42,6 @@ Eigen::Matrix3d turn_left(const Pose& target, const Pose& tool, const InverseOpt
   return target.linear() * tool.linear().transpose();
 }
 
-JointView view_of(const JointMatrix& q) { return {q.data(), q.rows(), q.cols()}; }
-
 /// Targets on their way: what the rigid arm is sent to, and what came of it.
 class Rounds {
  public:

@@ -15,7 +15,7 @@
 namespace bathyal {
 namespace {
 
-constexpr std::size_t kGrain = 8192;
+constexpr std::size_t kTriangleGrain = 8192;
 constexpr double kFlat = 1e-12;  // height over longest edge below which a triangle has no area
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
@@ -53,7 +53,7 @@ Facet facet_of(const TriangleMesh& mesh, Index t, const Vec3& twice_area) {
 
 Sums sum_facets(const TriangleMesh& mesh, std::vector<Facet>& facets, int num_threads) {
   const Vec3 origin = local_origin(mesh.vertices());
-  return parallel_sum<Sums>(facets.size(), kGrain, num_threads,
+  return parallel_sum<Sums>(facets.size(), kTriangleGrain, num_threads,
                             [&](std::size_t begin, std::size_t end) {
                               Sums sums;
                               for (std::size_t i = begin; i < end; ++i) {

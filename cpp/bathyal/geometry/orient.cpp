@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kClosed = 0.1;  // sum of area vectors over sum of areas; 0 for a closed surface
 
-struct Side {
+struct DirectedEdge {
   std::int32_t low, high;
   std::int32_t triangle;
   bool upward;
@@ -25,7 +25,7 @@ struct Neighbour {
 
 /// Up to three neighbours of each triangle, across edges that exactly two triangles share.
 std::vector<std::array<Neighbour, 3>> find_neighbours(const TriangleMatrix& triangles) {
-  std::vector<Side> sides;
+  std::vector<DirectedEdge> sides;
   sides.reserve(static_cast<std::size_t>(triangles.size()));
   for (Index t = 0; t < triangles.rows(); ++t) {
     for (int c = 0; c < 3; ++c) {
@@ -34,12 +34,12 @@ std::vector<std::array<Neighbour, 3>> find_neighbours(const TriangleMatrix& tria
       sides.push_back({std::min(a, b), std::max(a, b), static_cast<std::int32_t>(t), a < b});
     }
   }
-  const auto key = [](const Side& s) { return std::array{s.low, s.high, s.triangle}; };
+  const auto key = [](const DirectedEdge& s) { return std::array{s.low, s.high, s.triangle}; };
   std::sort(sides.begin(), sides.end(),
-            [&](const Side& a, const Side& b) { return key(a) < key(b); });
+            [&](const DirectedEdge& a, const DirectedEdge& b) { return key(a) < key(b); });
 
   std::vector<std::array<Neighbour, 3>> result(static_cast<std::size_t>(triangles.rows()));
-  const auto add = [&](const Side& to, const Side& other) {
+  const auto add = [&](const DirectedEdge& to, const DirectedEdge& other) {
     for (Neighbour& slot : result[static_cast<std::size_t>(to.triangle)]) {
       if (slot.triangle >= 0) continue;
       slot = {other.triangle, to.upward == other.upward};

@@ -10,7 +10,7 @@ namespace bathyal {
 namespace scene {
 namespace {
 
-constexpr std::size_t kGrain = 4096;  ///< rays of one task
+constexpr std::size_t kRayGrain = 4096;  ///< rays of one task
 
 CastKernels kernels() {
 #if defined(BATHYAL_X86_KERNELS)
@@ -65,7 +65,7 @@ void Scene::cast(PointView origins, PointView directions, std::span<RayHit> hits
   scene::check_rows(origins, directions, "origins", "directions");
   const scene::CastScene view = scene::cast_scene(*hierarchy_);
   const scene::CastKernel kernel = scene::kernels().cast;
-  parallel_for(hits.size(), scene::kGrain, num_threads, [&](std::size_t begin, std::size_t end) {
+  parallel_for(hits.size(), scene::kRayGrain, num_threads, [&](std::size_t begin, std::size_t end) {
     const std::size_t bad =
         kernel(view, scene::batch_of(origins, directions, begin, end), hits.data());
     if (bad != scene::kNoRow) {
@@ -80,12 +80,14 @@ std::vector<bool> Scene::occluded(PointView from, PointView to, int num_threads)
   const scene::CastScene view = scene::cast_scene(*hierarchy_);
   const scene::OccludedKernel kernel = scene::kernels().occluded;
   std::vector<std::uint8_t> blocked(static_cast<std::size_t>(to.rows()));
-  parallel_for(blocked.size(), scene::kGrain, num_threads, [&](std::size_t begin, std::size_t end) {
-    const std::size_t bad = kernel(view, scene::batch_of(from, to, begin, end), blocked.data());
-    if (bad != scene::kNoRow) {
-      scene::throw_bad_row(from, to, static_cast<Index>(bad), "from", "to", "finite coordinates");
-    }
-  });
+  parallel_for(
+      blocked.size(), scene::kRayGrain, num_threads, [&](std::size_t begin, std::size_t end) {
+        const std::size_t bad = kernel(view, scene::batch_of(from, to, begin, end), blocked.data());
+        if (bad != scene::kNoRow) {
+          scene::throw_bad_row(from, to, static_cast<Index>(bad), "from", "to",
+                               "finite coordinates");
+        }
+      });
   return {blocked.begin(), blocked.end()};
 }
 

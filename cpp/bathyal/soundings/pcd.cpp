@@ -24,7 +24,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "PCD data are little-endian");
 
-constexpr std::size_t kGrain = std::size_t{1} << 14U;  ///< points converted by one thread
+constexpr std::size_t kRecordGrain = std::size_t{1} << 14U;  ///< points converted by one thread
 
 /// Where one number of every point lies in memory.
 struct Stored {
@@ -73,7 +73,7 @@ void convert_any(const Stored& from, std::size_t begin, std::size_t end, double*
 /// Converts `count` numbers to every `to_step`-th place.
 void convert_all(const Stored& from, std::size_t count, double* to, std::size_t to_step,
                  int num_threads) {
-  parallel_for(count, kGrain, num_threads, [&](std::size_t begin, std::size_t end) {
+  parallel_for(count, kRecordGrain, num_threads, [&](std::size_t begin, std::size_t end) {
     convert_any(from, begin, end, to, to_step);
   });
 }

@@ -17,7 +17,7 @@ namespace {
 
 using Matrix3 = Eigen::Matrix3d;
 
-constexpr std::size_t kGrain = 1 << 15;
+constexpr std::size_t kDistanceGrain = 1 << 15;
 constexpr Index kMaxRanked = 2000;  // points that rank a trial; the median needs no more
 constexpr double kFarthest = 1e75;  // so that fourth powers of coordinates stay finite
 constexpr int kLineTrials = 50;
@@ -26,7 +26,7 @@ constexpr double kCut = 3.0;                   // sigmas within which a point is
 constexpr double kCutToSigma = 1.0 / 0.98658;  // rms of normal residuals cut at 3 sigma
 
 /// The cloud about a local origin, with the smallest residual that means anything there.
-struct Local {
+struct LocalCloud {
   PointView points;
   Vec3 origin;
   double rounding;  ///< [m]
@@ -56,10 +56,10 @@ struct Scatter {
 };
 
 template <class Body>
-Sums sum_over(const Local& cloud, const std::vector<std::uint8_t>& mask, int num_threads,
+Sums sum_over(const LocalCloud& cloud, const std::vector<std::uint8_t>& mask, int num_threads,
               const Body& body) {
-  return parallel_sum<Sums>(static_cast<std::size_t>(cloud.points.rows()), kGrain, num_threads,
-                            [&](std::size_t begin, std::size_t end) {
+  return parallel_sum<Sums>(static_cast<std::size_t>(cloud.points.rows()), kDistanceGrain,
+                            num_threads, [&](std::size_t begin, std::size_t end) {
                               Sums sums;
                               for (std::size_t i = begin; i < end; ++i) {
                                 if (mask.empty() || mask[i] != 0) {
@@ -70,7 +70,7 @@ Sums sum_over(const Local& cloud, const std::vector<std::uint8_t>& mask, int num
                             });
 }
 
-Scatter scatter(const Local& cloud, const std::vector<std::uint8_t>& mask, int num_threads) {
+Scatter scatter(const LocalCloud& cloud, const std::vector<std::uint8_t>& mask, int num_threads) {
   Scatter result;
   const Sums first = sum_over(cloud, mask, num_threads, [](Sums& s, const Vec3& p) {
     s.n += 1.0;
@@ -110,7 +110,7 @@ struct LocalPlane {
 
 /// The best of `trials` planes through three random points, by the median absolute residual of a
 /// random part of the cloud.
-LocalPlane least_median_plane(const Local& cloud, const FitPlaneOptions& options) {
+LocalPlane least_median_plane(const LocalCloud& cloud, const FitPlaneOptions& options) {
   const Index n = cloud.points.rows();
   RandomStream draw(options.seed);
   const auto any = [&] {
@@ -147,9 +147,9 @@ LocalPlane least_median_plane(const Local& cloud, const FitPlaneOptions& options
   return best;
 }
 
-std::vector<double> distances(const Local& cloud, const LocalPlane& plane, int num_threads) {
+std::vector<double> distances(const LocalCloud& cloud, const LocalPlane& plane, int num_threads) {
   std::vector<double> result(static_cast<std::size_t>(cloud.points.rows()));
-  parallel_for(result.size(), kGrain, num_threads, [&](std::size_t begin, std::size_t end) {
+  parallel_for(result.size(), kDistanceGrain, num_threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       result[i] = plane.distance(cloud.at(static_cast<Index>(i)));
     }
@@ -165,7 +165,7 @@ struct Refined {
 };
 
 /// Total least squares over the points within 3 sigma, until these no longer change.
-Refined refine(const Local& cloud, LocalPlane plane, const FitPlaneOptions& options) {
+Refined refine_plane(const LocalCloud& cloud, LocalPlane plane, const FitPlaneOptions& options) {
   Refined result;
   double sigma = 0.0;
   for (int round = 0; round < 50; ++round) {
@@ -193,7 +193,7 @@ Refined refine(const Local& cloud, LocalPlane plane, const FitPlaneOptions& opti
 
 /// Refuses inliers that lie on one line but for fewer than one in ten: any plane through that line
 /// would do. (Of three points, two are always on a line.)
-void check_not_on_a_line(const Local& cloud, const Refined& fit, std::uint64_t seed) {
+void check_not_on_a_line(const LocalCloud& cloud, const Refined& fit, std::uint64_t seed) {
   std::vector<Vec3> points;
   RandomStream draw(seed, 1);
   const auto size = static_cast<double>(cloud.points.rows());
@@ -248,7 +248,7 @@ std::uint64_t patch_key(double u, double v) {
 }
 
 /// Distances of the patches' medians from the plane [m].
-std::vector<double> patch_distances(const Local& cloud, const Refined& fit, int patch_points) {
+std::vector<double> patch_distances(const LocalCloud& cloud, const Refined& fit, int patch_points) {
   const auto n = static_cast<double>(cloud.points.rows());
   std::vector<double> result;
   if (n < 2.0 * patch_points) {
@@ -273,7 +273,7 @@ std::vector<double> patch_distances(const Local& cloud, const Refined& fit, int 
   return result;
 }
 
-void judge_flatness(const Local& cloud, const Refined& refined, const FitPlaneOptions& options,
+void judge_flatness(const LocalCloud& cloud, const Refined& refined, const FitPlaneOptions& options,
                     PlaneFit& fit) {
   const std::vector<double> patches = patch_distances(cloud, refined, options.patch_points);
   if (patches.empty()) return;
@@ -305,15 +305,15 @@ PlaneFit fit_plane(PointView points, const FitPlaneOptions& options) {
   if (largest > kFarthest) {
     throw_argument("points", "coordinates of 1e75 at most", to_text(largest));
   }
-  const Local cloud{points, local_origin(points),
-                    8.0 * std::numeric_limits<double>::epsilon() * largest};
+  const LocalCloud cloud{points, local_origin(points),
+                         8.0 * std::numeric_limits<double>::epsilon() * largest};
   const Scatter all = scatter(cloud, {}, options.num_threads);
   if (on_a_line(all, cloud.rounding)) {
     throw_argument("points", "three points or more that are not on one line",
                    std::to_string(points.rows()) + " points on one line or in one place");
   }
 
-  const Refined refined = refine(cloud, least_median_plane(cloud, options), options);
+  const Refined refined = refine_plane(cloud, least_median_plane(cloud, options), options);
   check_not_on_a_line(cloud, refined, options.seed);
   PlaneFit fit;
   const Vec3 normal = turned_up(refined.plane.normal);

@@ -15,9 +15,9 @@
 namespace bathyal {
 namespace {
 
-constexpr double kFarthest = 1e75;       // so that squares and their sums stay finite
-constexpr double kPointsPerCell = 2.25;  // cells of 1.5 spacings
-constexpr int kMinSeeds = 3;             // one or two alone are chance
+constexpr double kLargest = 1e75;              // so that squares and their sums stay finite
+constexpr double kNeighbourhoodPoints = 2.25;  // cells of 1.5 spacings
+constexpr int kMinSeeds = 3;                   // one or two alone are chance
 
 std::size_t root(std::vector<std::size_t>& parent, std::size_t i) {
   while (parent[i] != i) i = parent[i] = parent[parent[i]];
@@ -119,11 +119,11 @@ SheetReport find_sheets(PointView points, const FindSheetsOptions& options) {
   SheetReport report;
   if (points.rows() < 2 * options.min_points) return report;
   const double largest = points.cwiseAbs().maxCoeff();
-  if (largest > kFarthest) {
+  if (largest > kLargest) {
     throw_argument("points", "coordinates of 1e75 at most", to_text(largest));
   }
 
-  const PlanGrid grid(points, kPointsPerCell);
+  const PlanGrid grid(points, kNeighbourhoodPoints);
   const double cell_area = grid.cell_size() * grid.cell_size();
   report.cell_size = grid.cell_size();
   report.covered_area = static_cast<double>(grid.cells().size()) * cell_area;

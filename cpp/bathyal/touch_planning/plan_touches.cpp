@@ -16,7 +16,7 @@
 namespace bathyal {
 namespace {
 
-constexpr double kUnit = 1e-3;  ///< of lengths among scaled columns [m]
+constexpr double kLengthUnit = 1e-3;  ///< of lengths among scaled columns [m]
 /// How far a point may lie from where it is said to: so far that it tells nothing beside touches
 /// [m].
 constexpr double kVague = 1.0;
@@ -53,20 +53,20 @@ Eigen::MatrixXd prior_information(const TouchModel& model, const Eigen::Matrix3X
                                   const PlanTouchesOptions& options) {
   const auto columns = static_cast<Index>(model.free.size());
   const Index unknowns = columns + 3 * points.cols();
-  Eigen::VectorXd diagonal = Eigen::VectorXd::Constant(unknowns, std::pow(kUnit / kVague, 2));
+  Eigen::VectorXd diagonal = Eigen::VectorXd::Constant(unknowns, std::pow(kLengthUnit / kVague, 2));
   for (Index i = 0; i < columns; ++i) {
     const Column& column = model.columns.columns[model.free[i]];
     diagonal[i] = std::pow(column.scale / column.prior_std, 2);
   }
   for (const int p : options.known_points) {
-    diagonal.segment<3>(columns + 3 * p).array() += std::pow(kUnit / options.point_std, 2);
+    diagonal.segment<3>(columns + 3 * p).array() += std::pow(kLengthUnit / options.point_std, 2);
   }
   Eigen::MatrixXd information = diagonal.asDiagonal();
   for (const auto& [first, second] : options.known_distances) {
     const Vec3 unit = (points.col(second) - points.col(first)).normalized();
     Eigen::VectorXd row = Eigen::VectorXd::Zero(unknowns);
-    row.segment<3>(columns + 3 * second) = kUnit / options.distance_std * unit;
-    row.segment<3>(columns + 3 * first) = -kUnit / options.distance_std * unit;
+    row.segment<3>(columns + 3 * second) = kLengthUnit / options.distance_std * unit;
+    row.segment<3>(columns + 3 * first) = -kLengthUnit / options.distance_std * unit;
     information += row * row.transpose();
   }
   return information;
@@ -81,7 +81,7 @@ TouchDesign make_design(const TouchModel& model, const Candidates& candidates,
   design.touches = tip_derivatives(model, candidates.q, threads) / noise;
   design.point = candidates.point;
   design.points = static_cast<int>(points.cols());
-  design.point_weight = kUnit / noise;
+  design.point_weight = kLengthUnit / noise;
   design.prior = prior_information(model, points, options);
   if (options.criterion == TouchCriterion::kWorstTip) {
     design.tips = tip_derivatives(model, workspace, threads);

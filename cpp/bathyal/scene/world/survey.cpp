@@ -13,7 +13,7 @@
 namespace bathyal {
 namespace {
 
-constexpr double kTurn = 2.0 * std::numbers::pi;
+constexpr double kFullTurn = 2.0 * std::numbers::pi;
 constexpr double kMostSoundings = 1e8;
 constexpr std::uint64_t kMotionStream = 0x100;
 constexpr std::uint64_t kBeamStream = std::uint64_t{1} << 32U;
@@ -37,15 +37,15 @@ struct Swing {
   double phase_a, phase_b, amplitude, length;
 
   double at(double along) const {
-    const double k = kTurn / length;
+    const double k = kFullTurn / length;
     return amplitude *
            (0.7 * std::sin(k * along + phase_a) + 0.3 * std::sin(2.37 * k * along + phase_b));
   }
 };
 
 Swing swing(RandomStream& random, double amplitude, double length) {
-  const double phase_a = random.uniform(0.0, kTurn);
-  return {phase_a, random.uniform(0.0, kTurn), amplitude, length};
+  const double phase_a = random.uniform(0.0, kFullTurn);
+  return {phase_a, random.uniform(0.0, kFullTurn), amplitude, length};
 }
 
 int pings_a_line(const SurveyOptions& options) {

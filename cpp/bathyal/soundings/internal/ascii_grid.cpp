@@ -37,10 +37,6 @@ struct alignas(kPartAlignment) GridPart {
   std::optional<std::string> failure;
 };
 
-[[noreturn]] void throw_at(const std::string& name, Index line, const std::string& why) {
-  throw Error(name + ":" + std::to_string(line) + ": " + why);
-}
-
 std::string lower(std::string_view text) {
   std::string result(text);
   std::transform(result.begin(), result.end(), result.begin(), [](char c) {

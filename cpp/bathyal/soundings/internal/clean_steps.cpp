@@ -12,7 +12,7 @@
 namespace bathyal {
 namespace {
 
-constexpr std::size_t kGrain = std::size_t{1} << 14U;
+constexpr std::size_t kPointGrain = std::size_t{1} << 14U;
 constexpr double kMadToStd = 1.4826;  ///< for normal noise
 
 /// Median by value (the upper one of two); reorders.
@@ -39,13 +39,14 @@ std::int64_t cell_of(double coordinate, double voxel) {
 
 std::vector<Cell> sorted_cells(const Soundings& soundings, const CleanOptions& options) {
   std::vector<Cell> cells(soundings.size());
-  parallel_for(cells.size(), kGrain, options.num_threads, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const Sounding& s = soundings[i];
-      cells[i] = {cell_of(s.x, options.voxel), cell_of(s.y, options.voxel),
-                  cell_of(s.z, options.voxel), static_cast<std::uint32_t>(i)};
-    }
-  });
+  parallel_for(cells.size(), kPointGrain, options.num_threads,
+               [&](std::size_t begin, std::size_t end) {
+                 for (std::size_t i = begin; i < end; ++i) {
+                   const Sounding& s = soundings[i];
+                   cells[i] = {cell_of(s.x, options.voxel), cell_of(s.y, options.voxel),
+                               cell_of(s.z, options.voxel), static_cast<std::uint32_t>(i)};
+                 }
+               });
   parallel_sort(
       cells,
       [](const Cell& a, const Cell& b) {
@@ -123,7 +124,7 @@ Marks mark_outliers(const Soundings& soundings, const CleanOptions& options) {
                         distance[i] = sum / found.count;
                       });
   const auto sum_of = [&](const auto& term) {
-    return parallel_sum<double>(distance.size(), kGrain, options.num_threads,
+    return parallel_sum<double>(distance.size(), kPointGrain, options.num_threads,
                                 [&](std::size_t begin, std::size_t end) {
                                   double sum = 0.0;
                                   for (std::size_t i = begin; i < end; ++i)

@@ -83,10 +83,6 @@ class Columns {
   std::vector<GrowingArray<double>> extra_;
 };
 
-[[noreturn]] void throw_at(const std::string& name, Index line, const std::string& why) {
-  throw Error(name + ":" + std::to_string(line) + ": " + why);
-}
-
 Columns new_columns(const TextFormat& format, Index leading) {
   if (leading > format.chosen) {
     throw_argument("leading", "no more than the " + std::to_string(format.chosen) + " columns",

@@ -16,7 +16,7 @@
 namespace bathyal {
 namespace {
 
-constexpr std::size_t kGrain = 1 << 16;
+constexpr std::size_t kKeyGrain = 1 << 16;
 constexpr std::size_t kFew = 8;  // up to so many points in a cell are simply sorted
 constexpr std::size_t kRadixSort =
     4096;  // from so many points on the radix sort is worth its tables
@@ -48,7 +48,7 @@ constexpr auto kCurve = [] {
   return table;
 }();
 
-struct Box {
+struct Extent {
   double x_low = std::numeric_limits<double>::infinity(), x_high = -x_low;
   double y_low = x_low, y_high = -x_low;
 
@@ -64,7 +64,7 @@ struct Box {
 /// Square cells over a box, 8^triples on its longer side.
 class Curve {
  public:
-  Curve(const Box& box, std::size_t count) : box_(box) {
+  Curve(const Extent& box, std::size_t count) : box_(box) {
     while (triples_ < 5 && std::size_t{1} << (6 * triples_) < 2 * count) ++triples_;
     cells_ = static_cast<double>(1U << (3 * triples_));
   }
@@ -89,13 +89,13 @@ class Curve {
     return static_cast<std::uint32_t>(std::min(offset / box_.extent() * cells_, cells_ - 1.0));
   }
 
-  Box box_;
+  Extent box_;
   unsigned triples_ = 1;
   double cells_ = 8.0;
 };
 
-Box bounding_box(PointView points, std::span<const Item> items) {
-  Box box;
+Extent bounding_box(PointView points, std::span<const Item> items) {
+  Extent box;
   for (const Item item : items) box.add(points(row_of(item), 0), points(row_of(item), 1));
   return box;
 }
@@ -150,7 +150,7 @@ void sort_directly(PointView points, std::span<Item> items) {
 
 /// A crowded cell, which holds clusters: a curve of its own over what it holds.
 void sort_crowd(PointView points, std::span<Item> items) {
-  const Box box = bounding_box(points, items);
+  const Extent box = bounding_box(points, items);
   if (items.size() <= kFew || !(box.extent() > 0.0)) return sort_directly(points, items);
   const Curve curve(box, items.size());
   for (Item& item : items) {
@@ -175,24 +175,24 @@ void sort_cells(PointView points, std::span<Item> items) {
 std::vector<std::size_t> cut_between_cells(std::span<const Item> items) {
   std::vector<std::size_t> cuts{0};
   while (cuts.back() < items.size()) {
-    std::size_t cut = std::min(cuts.back() + kGrain, items.size());
+    std::size_t cut = std::min(cuts.back() + kKeyGrain, items.size());
     while (cut < items.size() && key_of(items[cut]) == key_of(items[cut - 1])) ++cut;
     cuts.push_back(cut);
   }
   return cuts;
 }
 
-Box bounding_box(PointView points, int num_threads) {
+Extent bounding_box(PointView points, int num_threads) {
   const auto count = static_cast<std::size_t>(points.rows());
-  std::vector<Box> boxes((count + kGrain - 1) / kGrain);
-  parallel_for(count, kGrain, num_threads, [&](std::size_t begin, std::size_t end) {
-    Box& box = boxes[begin / kGrain];
+  std::vector<Extent> boxes((count + kKeyGrain - 1) / kKeyGrain);
+  parallel_for(count, kKeyGrain, num_threads, [&](std::size_t begin, std::size_t end) {
+    Extent& box = boxes[begin / kKeyGrain];
     for (auto i = static_cast<Index>(begin); i < static_cast<Index>(end); ++i) {
       box.add(points(i, 0), points(i, 1));
     }
   });
-  Box box;
-  for (const Box& part : boxes) {
+  Extent box;
+  for (const Extent& part : boxes) {
     box.add(part.x_low, part.y_low);
     box.add(part.x_high, part.y_high);
   }
@@ -201,11 +201,11 @@ Box bounding_box(PointView points, int num_threads) {
 
 PageVector<Item> sorted_items(PointView points, int num_threads) {
   const auto count = static_cast<std::size_t>(points.rows());
-  const Box box = bounding_box(points, num_threads);
+  const Extent box = bounding_box(points, num_threads);
   const Curve curve(box, count);
   const bool one_place = !(box.extent() > 0.0);
   PageVector<Item> items(count);
-  parallel_for(count, kGrain, num_threads, [&](std::size_t begin, std::size_t end) {
+  parallel_for(count, kKeyGrain, num_threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const auto row = static_cast<Index>(i);
       const Item place = one_place ? 0 : curve.place(points(row, 0), points(row, 1));

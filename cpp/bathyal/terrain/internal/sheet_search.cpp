@@ -12,7 +12,7 @@
 namespace bathyal {
 namespace {
 
-constexpr std::size_t kGrain = 2048;
+constexpr std::size_t kCellGrain = 2048;
 constexpr std::size_t kNoiseSamples = 4000;
 
 /// A neighbourhood's points and where each stands in PlanGrid::points(). A place with very many
@@ -40,15 +40,15 @@ struct Neighbourhood {
   std::span<const PlanGrid::Point> points() const { return {storage.data(), count}; }
 };
 
-struct Heights {
+struct HeightRange {
   double low = std::numeric_limits<double>::infinity();
   double high = -std::numeric_limits<double>::infinity();
 };
 
-std::vector<Heights> heights_of_cells(const PlanGrid& grid, int num_threads) {
+std::vector<HeightRange> heights_of_cells(const PlanGrid& grid, int num_threads) {
   const auto& cells = grid.cells();
-  std::vector<Heights> heights(cells.size());
-  parallel_for(cells.size(), kGrain, num_threads, [&](std::size_t begin, std::size_t end) {
+  std::vector<HeightRange> heights(cells.size());
+  parallel_for(cells.size(), kCellGrain, num_threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t c = begin; c < end; ++c) {
       for (std::size_t i = cells[c].begin; i < cells[c].end; ++i) {
         heights[c].low = std::min(heights[c].low, grid.points()[i].z);
@@ -116,10 +116,10 @@ class Search {
 
  private:
   void look_at(const std::vector<std::size_t>& wave) {
-    std::vector<std::vector<SheetCell>> found((wave.size() + kGrain - 1) / kGrain);
-    parallel_for(wave.size(), kGrain, num_threads_, [&](std::size_t begin, std::size_t end) {
+    std::vector<std::vector<SheetCell>> found((wave.size() + kCellGrain - 1) / kCellGrain);
+    parallel_for(wave.size(), kCellGrain, num_threads_, [&](std::size_t begin, std::size_t end) {
       Neighbourhood around;
-      for (std::size_t i = begin; i < end; ++i) look_at(wave[i], around, found[begin / kGrain]);
+      for (std::size_t i = begin; i < end; ++i) look_at(wave[i], around, found[begin / kCellGrain]);
     });
     for (const auto& part : found) {
       result_.found.insert(result_.found.end(), part.begin(), part.end());
@@ -127,10 +127,10 @@ class Search {
   }
 
   void look_at(std::size_t cell, Neighbourhood& around, std::vector<SheetCell>& found) {
-    Heights range;
+    HeightRange range;
     for (const auto& run : grid_.neighbours(cell)) {
       for (const PlanGrid::Cell& other : run) {
-        const Heights& heights = heights_[index_of(grid_, other)];
+        const HeightRange& heights = heights_[index_of(grid_, other)];
         range.low = std::min(range.low, heights.low);
         range.high = std::max(range.high, heights.high);
       }
@@ -151,7 +151,7 @@ class Search {
   const PlanGrid& grid_;
   double min_separation_;
   int num_threads_;
-  std::vector<Heights> heights_;
+  std::vector<HeightRange> heights_;
   SheetSearch result_;
 };
 

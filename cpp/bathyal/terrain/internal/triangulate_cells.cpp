@@ -14,9 +14,9 @@
 namespace bathyal {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 constexpr std::size_t kSample = 4096;  // points looked at to place the cuts
-constexpr std::size_t kGrain = 1 << 15;
+constexpr std::size_t kTriangleGrain = 1 << 15;
 
 /// The same triangle, beginning with its lowest vertex.
 Corners lowest_first(const Corners& t) {
@@ -26,15 +26,16 @@ Corners lowest_first(const Corners& t) {
 }
 
 /// low ≤ x < high, the same for y; infinite where no cut was made.
-struct Box {
-  double x_low = -kInfinity, x_high = kInfinity;
-  double y_low = -kInfinity, y_high = kInfinity;
+struct CellBox {
+  double x_low = -kUnbounded, x_high = kUnbounded;
+  double y_low = -kUnbounded, y_high = kUnbounded;
 
   bool holds(const Point2& p) const {
     return p.x >= x_low && p.x < x_high && p.y >= y_low && p.y < y_high;
   }
   bool is_plane() const {
-    return x_low == -kInfinity && x_high == kInfinity && y_low == -kInfinity && y_high == kInfinity;
+    return x_low == -kUnbounded && x_high == kUnbounded && y_low == -kUnbounded &&
+           y_high == kUnbounded;
   }
   double distance_to_cut(const Point2& p) const {
     return std::min(std::min(p.x - x_low, x_high - p.x), std::min(p.y - y_low, y_high - p.y));
@@ -43,13 +44,13 @@ struct Box {
 
 /// One box, what was made of its points, and which of it is not yet known to be final.
 struct Cell {
-  Box box;
+  CellBox box;
   PageVector<Corners> triangles;  ///< those to leave out carry a ghost
   std::vector<Corners> open;      ///< not final, lowest vertex first, sorted
 };
 
 /// Median cuts through a sample, across the longer side, until there are `count` boxes.
-void cut(std::span<Point2> sample, const Box& box, int count, std::vector<Cell>& cells) {
+void cut(std::span<Point2> sample, const CellBox& box, int count, std::vector<Cell>& cells) {
   if (count == 1 || sample.empty()) {
     cells.push_back({box, {}, {}});
     return;
@@ -62,7 +63,7 @@ void cut(std::span<Point2> sample, const Box& box, int count, std::vector<Cell>&
   const int first = count / 2;
   const std::size_t middle = sample.size() * static_cast<std::size_t>(first) / count;
   const auto at = sample.begin() + static_cast<std::ptrdiff_t>(middle);
-  Box low = box, high = box;
+  CellBox low = box, high = box;
   if (across_x) {
     std::nth_element(sample.begin(), at, sample.end(), by_x);
     low.x_high = high.x_low = at->x;
@@ -83,7 +84,7 @@ std::vector<Cell> make_cells(std::span<const Point2> points, int count) {
   return cells;
 }
 
-PageVector<std::int32_t> vertices_within(std::span<const Point2> points, const Box& box) {
+PageVector<std::int32_t> vertices_within(std::span<const Point2> points, const CellBox& box) {
   PageVector<std::int32_t> vertices;
   vertices.reserve(points.size());  // what stays empty is never touched
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -95,7 +96,7 @@ PageVector<std::int32_t> vertices_within(std::span<const Point2> points, const B
 /// Whether the circle through a, b, c lies within the box for certain. It reaches no further from a
 /// than its diameter |ab| |bc| |ca| / (2 area); the margin is far above the rounding of all of it,
 /// and lengths whose products could leave the range of a double count as not certain.
-bool is_final(const Point2& a, const Point2& b, const Point2& c, const Box& box) {
+bool is_final(const Point2& a, const Point2& b, const Point2& c, const CellBox& box) {
   const double abx = b.x - a.x, aby = b.y - a.y;
   const double acx = c.x - a.x, acy = c.y - a.y;
   const double bcx = c.x - b.x, bcy = c.y - b.y;
@@ -185,11 +186,12 @@ class Ordering {
     auto* sorted = reinterpret_cast<Corners*>(matrix.data());
     for_all([&](const Corners& t) { sorted[place_[static_cast<std::size_t>(t[0])]++] = t; });
     // place_[v] has come to where the triangles of v end.
-    parallel_for(place_.size() - 1, kGrain, num_threads_, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t v = begin; v < end; ++v) {
-        sort_bucket(sorted + (v == 0 ? 0 : place_[v - 1]), sorted + place_[v]);
-      }
-    });
+    parallel_for(place_.size() - 1, kTriangleGrain, num_threads_,
+                 [&](std::size_t begin, std::size_t end) {
+                   for (std::size_t v = begin; v < end; ++v) {
+                     sort_bucket(sorted + (v == 0 ? 0 : place_[v - 1]), sorted + place_[v]);
+                   }
+                 });
     return matrix;
   }
 

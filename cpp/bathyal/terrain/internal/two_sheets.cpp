@@ -10,7 +10,7 @@ namespace {
 
 using Point = PlanGrid::Point;
 using Mask = std::array<std::uint8_t, kMaxNeighbourhood>;
-using Heights = std::array<double, kMaxNeighbourhood>;
+using HeightArray = std::array<double, kMaxNeighbourhood>;
 
 constexpr std::size_t kMinGroup = 5;  // two more than a plane needs, so that its rms says something
 constexpr double kHopeless = 2.0;     // contrast of a first guess that no refinement mends
@@ -63,11 +63,11 @@ struct Moments {
 };
 
 /// The points about the middle one, so that sums of squares keep their digits.
-struct Local {
+struct LocalPoints {
   std::array<Point, kMaxNeighbourhood> points;
   std::size_t count;
 
-  explicit Local(std::span<const Point> all) : count(all.size()) {
+  explicit LocalPoints(std::span<const Point> all) : count(all.size()) {
     const Point& o = all[all.size() / 2];
     for (std::size_t i = 0; i < count; ++i) {
       points[i] = {all[i].x - o.x, all[i].y - o.y, all[i].z - o.z};
@@ -82,8 +82,8 @@ struct Local {
 
 /// Cuts the points at the widest void of their heights over `plane` that leaves kMinGroup of them
 /// on each side.
-void cut_at_widest_void(const Local& local, const Fit& plane, Mask& mask) {
-  Heights sorted;
+void cut_at_widest_void(const LocalPoints& local, const Fit& plane, Mask& mask) {
+  HeightArray sorted;
   for (std::size_t i = 0; i < local.count; ++i) {
     sorted[i] = local.points[i].z - plane.at(local.points[i]);
   }
@@ -105,7 +105,7 @@ struct Split {
 };
 
 /// Fits both groups of `split.mask`. False when one of them is too small.
-bool fit_groups(const Local& local, Split& split, Fit& lower, Fit& upper) {
+bool fit_groups(const LocalPoints& local, Split& split, Fit& lower, Fit& upper) {
   Moments groups[2];
   for (std::size_t i = 0; i < local.count; ++i) groups[split.mask[i]].add(local.points[i]);
   const auto least = static_cast<double>(kMinGroup);
@@ -130,7 +130,7 @@ bool fit_groups(const Local& local, Split& split, Fit& lower, Fit& upper) {
 }
 
 /// From the cut in `split.mask`, gives each point to the nearer plane until nothing changes.
-void refine(const Local& local, Split& split) {
+void refine_split(const LocalPoints& local, Split& split) {
   Fit lower, upper;
   for (int round = 0; round < 6; ++round) {
     if (!fit_groups(local, split, lower, upper)) {
@@ -151,14 +151,14 @@ void refine(const Local& local, Split& split) {
 }
 
 /// A cut by height, or where that is not clear, by height over the joint plane.
-Split best_split(const Local& local, const Fit& joint) {
+Split best_split(const LocalPoints& local, const Fit& joint) {
   Split level;
   cut_at_widest_void(local, Fit{}, level.mask);
-  refine(local, level);
+  refine_split(local, level);
   if (level.contrast >= kSeed.contrast) return level;
   Split tilted;
   cut_at_widest_void(local, joint, tilted.mask);
-  refine(local, tilted);
+  refine_split(local, tilted);
   return tilted.contrast > level.contrast ? tilted : level;
 }
 
@@ -180,7 +180,7 @@ std::size_t hull(std::span<const Point> points, std::array<Point, 2 * kMaxNeighb
 }
 
 /// Share of a group that lies inside the convex hull of the other.
-double share_inside(const Local& local, const Mask& mask, std::uint8_t group) {
+double share_inside(const LocalPoints& local, const Mask& mask, std::uint8_t group) {
   std::array<Point, kMaxNeighbourhood> others;
   std::size_t count = 0;
   for (std::size_t i = 0; i < local.count; ++i) {
@@ -207,7 +207,7 @@ double share_inside(const Local& local, const Mask& mask, std::uint8_t group) {
 
 double rms_about_sheets(std::span<const Point> points) {
   if (points.size() < 4) return 0.0;
-  const Local local(points);
+  const LocalPoints local(points);
   const Fit joint = local.fit();
   if (points.size() < 2 * kMinGroup) return joint.rms;
   const Split split = best_split(local, joint);
@@ -217,7 +217,7 @@ double rms_about_sheets(std::span<const Point> points) {
 TwoSheets split_into_sheets(std::span<const Point> points, double min_separation) {
   TwoSheets result;
   if (points.size() < 2 * kMinGroup) return result;
-  const Local local(points);
+  const LocalPoints local(points);
   const Fit joint = local.fit();
   // Two sheets apart by s, a tenth or more of the points on each, scatter by 0.3 s about one plane.
   if (joint.rms < 0.3 * min_separation) return result;

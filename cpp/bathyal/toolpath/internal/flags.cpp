@@ -5,14 +5,11 @@
 #include <cmath>
 
 #include "bathyal/base/parallel.hpp"
+#include "bathyal/toolpath/internal/polygon.hpp"
 #include "bathyal/toolpath/internal/route.hpp"
 
 namespace bathyal {
 namespace {
-
-using Point2 = Eigen::Vector2d;
-
-double cross2(const Point2& a, const Point2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 /// Whether the insides of two segments cross.
 bool cross(const Point2& a, const Point2& b, const Point2& c, const Point2& d) {

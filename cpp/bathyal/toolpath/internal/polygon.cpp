@@ -12,8 +12,6 @@
 namespace bathyal {
 namespace {
 
-double cross2(const Point2& a, const Point2& b) { return a.x() * b.y() - a.y() * b.x(); }
-
 double signed_area(const Corners& corners) {
   double area = 0.0;
   for (std::size_t i = 0; i < corners.size(); ++i) {

@@ -10,6 +10,8 @@ namespace bathyal {
 using Point2 = Eigen::Vector2d;
 using Corners = std::vector<Point2>;
 
+inline double cross2(const Point2& a, const Point2& b) { return a.x() * b.y() - a.y() * b.x(); }
+
 /// Part of a line, from low to high along it.
 struct Interval {
   double low, high;

@@ -10,16 +10,16 @@ namespace bathyal {
 namespace {
 
 /// The stretch from one sample to the next.
-struct Stretch {
+struct TimedSegment {
   double length = 0.0;  ///< [m]
   double turn = 0.0;    ///< [rad]
   double speed = 0.0;   ///< the fastest it allows [m/s]; 0 where the tool turns in place
 };
 
-std::vector<Stretch> stretches_of(const ToolPath& path, const MotionLimits& limits) {
-  std::vector<Stretch> stretches(path.size() - 1);
+std::vector<TimedSegment> stretches_of(const ToolPath& path, const MotionLimits& limits) {
+  std::vector<TimedSegment> stretches(path.size() - 1);
   for (std::size_t j = 0; j < stretches.size(); ++j) {
-    Stretch& s = stretches[j];
+    TimedSegment& s = stretches[j];
     s.length = (path.position[j + 1] - path.position[j]).norm();
     s.turn = turn_between(path, j, j + 1);
     if (s.length <= kCoincident) {
@@ -35,7 +35,7 @@ std::vector<Stretch> stretches_of(const ToolPath& path, const MotionLimits& limi
 
 /// The fastest speed at each sample: what the stretches beside it allow, then what can be reached
 /// from behind and slowed down from ahead.
-std::vector<double> speeds_at(const ToolPath& path, const std::vector<Stretch>& stretches,
+std::vector<double> speeds_at(const ToolPath& path, const std::vector<TimedSegment>& stretches,
                               double acceleration) {
   const std::size_t count = path.size();
   std::vector<double> speed(count, 0.0);
@@ -43,7 +43,7 @@ std::vector<double> speeds_at(const ToolPath& path, const std::vector<Stretch>& 
     if (path.gap[j - 1] || path.gap[j]) continue;
     speed[j] = std::min(stretches[j - 1].speed, stretches[j].speed);
   }
-  const auto reached = [&](double from, const Stretch& s) {
+  const auto reached = [&](double from, const TimedSegment& s) {
     return std::sqrt(from * from + 2.0 * acceleration * s.length);
   };
   for (std::size_t j = 1; j < count; ++j) {
@@ -56,7 +56,7 @@ std::vector<double> speeds_at(const ToolPath& path, const std::vector<Stretch>& 
 }
 
 /// Time over a stretch entered at v0 and left at v1: up to a peak, along at it, and down.
-double duration(const Stretch& s, double v0, double v1, const MotionLimits& limits) {
+double duration(const TimedSegment& s, double v0, double v1, const MotionLimits& limits) {
   const double turning = s.turn / limits.angular_rate;
   if (s.length == 0.0) return s.turn > 1e-9 ? turning : 0.0;
   const double a = limits.acceleration;
@@ -74,7 +74,7 @@ void set_times(ToolPath& path, const MotionLimits& limits) {
   path.arc_length.assign(count, 0.0);
   path.time.assign(count, 0.0);
   if (count < 2) return;
-  const std::vector<Stretch> stretches = stretches_of(path, limits);
+  const std::vector<TimedSegment> stretches = stretches_of(path, limits);
   const std::vector<double> speed = speeds_at(path, stretches, limits.acceleration);
   for (std::size_t j = 0; j + 1 < count; ++j) {
     path.arc_length[j + 1] = path.arc_length[j] + (path.position[j + 1] - path.position[j]).norm();

@@ -11,7 +11,7 @@ namespace bathyal {
 namespace {
 
 constexpr Index kCandidates = 600;
-constexpr std::size_t kMostRivals = 4;
+constexpr std::size_t kMaxAlternatives = 4;
 constexpr double kApart = 0.15;  ///< of a joint's range, in one joint at least
 
 /// Poses anywhere in the ranges that the data cover: there the explanations are at home.
@@ -57,7 +57,7 @@ RowMatrix next_poses(ArmSubject& subject, const Examination& found, double rival
   Eigen::VectorXd apart = Eigen::VectorXd::Zero(kCandidates);
   std::size_t asked = 0;
   for (const RivalForm& rival : found.rivals) {
-    if (rival.odds < rival_odds || asked == kMostRivals) continue;
+    if (rival.odds < rival_odds || asked == kMaxAlternatives) continue;
     ++asked;
     std::vector<int> others = names;
     std::replace(others.begin(), others.end(), rival.form, rival.instead);

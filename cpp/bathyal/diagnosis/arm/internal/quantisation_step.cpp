@@ -9,8 +9,9 @@ namespace bathyal {
 namespace {
 
 constexpr double kLeastStep = 1e-5;  ///< [rad]; finer ones move no tip by what can be measured
-constexpr double kRounding = 2e-8;  ///< [rad] that Euclid's steps may make of a value's last digits
-constexpr double kWhole = 1e-2;     ///< how far from a whole number a multiple may lie
+constexpr double kDigitTolerance =
+    2e-8;                        ///< [rad] that Euclid's steps may make of a value's last digits
+constexpr double kWhole = 1e-2;  ///< how far from a whole number a multiple may lie
 constexpr std::size_t kFewest = 20;  ///< different values: fewer lie on a grid by chance
 
 /// Values but 0, by rising size, each once.
@@ -47,7 +48,7 @@ double logged_step(const RowMatrix& q, const Arm& arm) {
   if (values.size() < kFewest) return 0.0;
   double step = values.front();
   for (const double value : values) {
-    step = common_measure(value, step, kRounding);
+    step = common_measure(value, step, kDigitTolerance);
     if (step < kLeastStep) return 0.0;
   }
   // The smallest value knows the step with its own rounding only: larger ones sharpen it.

@@ -17,7 +17,7 @@ constexpr double kLeastSigma = 6.0;   ///< below it a long tail of honest noise 
 /// point all of whose touches are doubted keeps a centre.
 constexpr double kWhisper = 1e-20;
 constexpr double kLeastDistance = 5e-5;  ///< [m] no touch is told apart from its point by less
-constexpr int kMostRounds = 10;
+constexpr int kMaxSearchRounds = 10;
 
 /// Each row against the others.
 struct Study {
@@ -218,7 +218,7 @@ Study settle(ArmSystem& system, Eigen::VectorXd& x) {
     if (norms[i] > kLeastSigma * noise) trust[i] = kWhisper;
   }
   Study found;
-  for (int round = 0; round < kMostRounds; ++round) {
+  for (int round = 0; round < kMaxSearchRounds; ++round) {
     system.set_trust(trust);
     solve(system, 5, x);
     found = study(system, x);

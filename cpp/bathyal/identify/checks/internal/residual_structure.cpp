@@ -11,7 +11,7 @@
 namespace bathyal {
 namespace {
 
-constexpr Index kMostPoses = 2000;
+constexpr Index kMaxComparedPoses = 2000;
 constexpr Index kFunctions = 2;           ///< of one joint
 constexpr Index kMoves = 3 * kFunctions;  ///< each along three axes
 constexpr double kBeside = 1e-3;          ///< what is left of a move once the arm took its part
@@ -221,13 +221,13 @@ JointStructure test(ArmSystem& system, const Eigen::VectorXd& x) {
 JointStructure find_structure(const ArmSystem& system, const Eigen::VectorXd& x,
                               const std::vector<double>& trust) {
   const Measurement& all = system.measurement();
-  if (all.rows() <= kMostPoses) {
+  if (all.rows() <= kMaxComparedPoses) {
     ArmSystem asked = system;
     asked.set_criterion(Criterion::kCentroid, false);
     asked.set_trust(trust);
     return test(asked, x);
   }
-  const Index stride = (all.rows() + kMostPoses - 1) / kMostPoses;
+  const Index stride = (all.rows() + kMaxComparedPoses - 1) / kMaxComparedPoses;
   std::vector<int> rows;
   std::vector<double> some_trust;
   for (Index i = 0; i < all.rows(); i += stride) {
