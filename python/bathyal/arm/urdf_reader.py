@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import os
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,9 +13,10 @@ from numpy.typing import NDArray
 from bathyal._core import Arm, Error, arm_from_chain
 from bathyal.errors import argument_error
 from bathyal.io.files import PathLike, reading
-from bathyal.io.formats.xml.robot import read_robot
+from bathyal.io.formats.xml.robot import Joint, Link, Robot, read_robot
 
 Pose = NDArray[np.float64]
+Named = TypeVar("Named", Joint, Link)
 
 # The joints by which `Arm.to_urdf` tells what the user set; read back as such.
 BASE_JOINT = "world_from_base"
@@ -103,16 +104,16 @@ def arm_from_urdf(
 class _Tree:
     """Links and joints by name, each link below one joint at most, all below one root."""
 
-    def __init__(self, robot: Any) -> None:
+    def __init__(self, robot: Robot) -> None:
         self.links = _by_name(robot.links, "link")
         self.joints = _by_name(robot.joints, "joint")
-        self.above: dict[str, Any] = {}
-        self.below: dict[str, list[Any]] = {link: [] for link in self.links}
+        self.above: dict[str, Joint] = {}
+        self.below: dict[str, list[Joint]] = {link: [] for link in self.links}
         for joint in robot.joints:
             self._add(joint)
         self.root = self._find_root()
 
-    def _add(self, joint: Any) -> None:
+    def _add(self, joint: Joint) -> None:
         if joint.type not in _KINDS:
             raise Error(f"joint {joint.name}: expected type {', '.join(_KINDS)}, got {joint.type}")
         for end in (joint.parent, joint.child):
@@ -149,7 +150,7 @@ class _Tree:
         if len(only) != 1 or only[0].name != BASE_JOINT or only[0].type != "fixed":
             return np.eye(4)
         self.root = only[0].child
-        return _origin(only[0])
+        return only[0].origin
 
     def take_tool(self) -> tuple[str, Pose] | None:
         """The flange and flange_from_tool, where `to_urdf` told them; the tool's link goes."""
@@ -157,11 +158,11 @@ class _Tree:
         if joint is None or joint.type != "fixed" or self.below[joint.child]:
             return None
         self.below[joint.parent].remove(joint)
-        return joint.parent, _origin(joint)
+        return joint.parent, joint.origin
 
 
-def _by_name(things: list[Any], what: str) -> dict[str, Any]:
-    named: dict[str, Any] = {}
+def _by_name(things: list[Named], what: str) -> dict[str, Named]:
+    named: dict[str, Named] = {}
     for thing in things:
         if thing.name in named:
             raise Error(f"{what} {thing.name}: it is told twice")
@@ -184,7 +185,7 @@ def _known(tree: _Tree, tip: str) -> str:
     if tip in tree.links:
         return tip
     if tip in tree.joints:
-        return str(tree.joints[tip].child)
+        return tree.joints[tip].child
     raise argument_error(
         "tip", f"the name of a link or joint, for instance {_listed(_tips(tree))}", repr(tip)
     )
@@ -212,8 +213,8 @@ def _only_tip(tree: _Tree, first: str) -> str:
     raise argument_error("tip", f"one of {told}, or any other link", None)
 
 
-def _path(tree: _Tree, first: str, last: str) -> list[Any]:
-    joints: list[Any] = []
+def _path(tree: _Tree, first: str, last: str) -> list[Joint]:
+    joints: list[Joint] = []
     link = last
     while link != first:
         joint = tree.above.get(link)
@@ -226,7 +227,7 @@ def _path(tree: _Tree, first: str, last: str) -> list[Any]:
     return joints[::-1]
 
 
-def _chain(tree: _Tree, first: str, path: list[Any]) -> dict[str, Any]:
+def _chain(tree: _Tree, first: str, path: list[Joint]) -> dict[str, Any]:
     coordinates: dict[str, int] = {}
     joints = [_joint(tree, joint, coordinates) for joint in path]
     path_names = {joint.name for joint in path}
@@ -234,11 +235,11 @@ def _chain(tree: _Tree, first: str, path: list[Any]) -> dict[str, Any]:
     return {"joints": joints, "links": [_link(tree, link, path_names) for link in links]}
 
 
-def _joint(tree: _Tree, joint: Any, coordinates: dict[str, int]) -> dict[str, Any]:
+def _joint(tree: _Tree, joint: Joint, coordinates: dict[str, int]) -> dict[str, Any]:
     kind = _KINDS[joint.type]
     if not kind:
         raise Error(f"joint {joint.name}: a {joint.type} joint cannot be part of an arm")
-    told = {"name": joint.name, "type": kind, "origin": _origin(joint)}
+    told: dict[str, Any] = {"name": joint.name, "type": kind, "origin": joint.origin}
     if kind == "fixed":
         return told
     leader, multiplier, offset = _leader(tree, joint)
@@ -261,26 +262,27 @@ def _joint(tree: _Tree, joint: Any, coordinates: dict[str, int]) -> dict[str, An
     }
 
 
-def _leader(tree: _Tree, joint: Any) -> tuple[Any, float, float]:
+def _leader(tree: _Tree, joint: Joint) -> tuple[Joint, float, float]:
     """The joint that moves this one, and value = multiplier * the leader's + offset."""
     multiplier, offset = 1.0, 0.0
     seen = {joint.name}
     while joint.mimic is not None:
         offset += multiplier * joint.mimic.offset
         multiplier *= joint.mimic.multiplier
-        follower, joint = joint, tree.joints.get(joint.mimic.joint)
-        if joint is None:
-            missing = follower.mimic.joint
-            raise Error(f"joint {follower.name}: it mimics {missing}, which is missing")
-        if _KINDS[joint.type] not in ("revolute", "prismatic"):
-            raise Error(f"joint {follower.name}: it mimics {joint.name}, a {joint.type} joint")
+        leader = tree.joints.get(joint.mimic.joint)
+        if leader is None:
+            missing = joint.mimic.joint
+            raise Error(f"joint {joint.name}: it mimics {missing}, which is missing")
+        if _KINDS[leader.type] not in ("revolute", "prismatic"):
+            raise Error(f"joint {joint.name}: it mimics {leader.name}, a {leader.type} joint")
+        joint = leader
         if joint.name in seen:
             raise Error(f"joint {joint.name}: it mimics itself, through {_listed(sorted(seen))}")
         seen.add(joint.name)
     return joint, multiplier, offset
 
 
-def _limits(joint: Any) -> tuple[float, float]:
+def _limits(joint: Joint) -> tuple[float, float]:
     if joint.type == "continuous":
         return -np.inf, np.inf
     limit = joint.limit
@@ -295,7 +297,7 @@ def _limits(joint: Any) -> tuple[float, float]:
     )
 
 
-def _most(joint: Any, what: str) -> float:
+def _most(joint: Joint, what: str) -> float:
     value = None if joint.limit is None else getattr(joint.limit, what)
     return np.inf if value is None or value >= UNLIMITED else float(value)
 
@@ -310,25 +312,21 @@ def _link(tree: _Tree, link: str, path: set[str]) -> dict[str, Any]:
             if joint.name in path or not _KINDS[joint.type]:
                 continue  # what floats, or slides on a plane, does not hang here
             fixed = rigid and joint.type == "fixed"
-            pose = link_from_carrier @ _origin(joint)
+            pose = link_from_carrier @ joint.origin
             body = _body(tree.links[joint.child]) | {"name": joint.child if fixed else ""}
             attached.append({"pose": pose, "body": body})
             waiting.append((joint.child, pose, fixed))
     return _body(tree.links[link]) | {"attached": attached}
 
 
-def _body(link: Any) -> dict[str, Any]:
-    told = {"name": link.name}
+def _body(link: Link) -> dict[str, Any]:
+    told: dict[str, Any] = {"name": link.name}
     if link.inertial is None:
         return told
-    pose = np.eye(4) if link.inertial.origin is None else link.inertial.origin
+    pose = link.inertial.origin
     turn = pose[:3, :3]
     return told | {
         "mass": link.inertial.mass,
         "center_of_mass": pose[:3, 3],
         "inertia": turn @ link.inertial.inertia @ turn.T,
     }
-
-
-def _origin(joint: Any) -> Pose:
-    return np.eye(4) if joint.origin is None else np.asarray(joint.origin)

@@ -160,13 +160,17 @@ def opened(path: PathLike) -> Iterator[tuple[BinaryIO, int]]:
         yield stream, size
 
 
-def need(module: str, package: str, purpose: str) -> Any:
-    """Import an optional library, or say what it is for and how to get it."""
+def need(module: str, package: str, purpose: str, *, extra: str = "") -> Any:
+    """Import an optional library, or say what it is for and how to get it.
+
+    `extra` is the one of bathyal's own that brings it along.
+    """
     try:
         imported: ModuleType = importlib.import_module(module)
     except ImportError as error:
+        with_extra = f", or bathyal with its extra [{extra}]" if extra else ""
         raise Error(
-            f"{purpose} needs the Python package {package}: pip install '{package}'"
+            f"{purpose} needs the Python package {package}: pip install '{package}'{with_extra}"
         ) from error
     return imported
 

@@ -105,10 +105,13 @@ def test_arguments_are_named(tmp_path):
 def test_a_missing_library_is_named(tmp_path, monkeypatch):
     import sys
 
-    for suffix, module in ((".las", "laspy"), (".laz", "lazrs"), (".bag", "h5py"),
-                           (".tif", "rasterio")):  # fmt: skip
+    for suffix, module, extra in ((".las", "laspy", ""), (".laz", "lazrs", ""),
+                                  (".bag", "h5py", r"extra \[geo\]"),
+                                  (".tif", "rasterio", r"extra \[geo\]")):  # fmt: skip
         path = example(tmp_path / f"a{suffix}")
         with monkeypatch.context() as patch:
             patch.setitem(sys.modules, module, None)
-            with pytest.raises(bathyal.Error, match=r"needs the Python package .* pip install"):
+            with pytest.raises(
+                bathyal.Error, match=rf"needs the Python package .* pip install.*{extra}"
+            ):
                 bathyal.read_cloud(path)

@@ -73,6 +73,24 @@ def test_is_repaired_and_links_the_system_only(wheel: Path, tmp_path: Path) -> N
     assert wheel.stat().st_size < 5_000_000
 
 
+def test_an_install_is_light_and_reads_what_needs_no_extra(bare: Path, tmp_path: Path) -> None:
+    code = (
+        "import bathyal, pathlib, sysconfig\n"
+        "arm = bathyal.arms.ur10e()\n"
+        "arm.write('arm.urdf')\n"
+        "assert bathyal.read_arm('arm.urdf').size == 6\n"
+        "for name, package in (('a.bag', 'h5py'), ('a.tif', 'rasterio')):\n"
+        "    pathlib.Path(name).write_bytes(bytes(100))\n"
+        "    try: bathyal.read_cloud(name)\n"
+        "    except bathyal.Error as error: text = str(error)\n"
+        "    assert package in text and '[geo]' in text, text\n"
+        "files = pathlib.Path(sysconfig.get_paths()['purelib']).rglob('*')\n"
+        "print(sum(file.stat().st_size for file in files if file.is_file()))\n"
+    )
+    done = run(bare / "python", "-c", code, cwd=tmp_path)
+    assert int(done.stdout) < 300e6
+
+
 def test_plans_with_the_heavy_libraries_hidden(
     bare: Path, hidden: list[str], tmp_path: Path
 ) -> None:

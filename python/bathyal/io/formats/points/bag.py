@@ -49,7 +49,7 @@ def read_bag(path: PathLike) -> Soundings:
     one cell in files that take it for the outer edge), a warning says by how much, and it is not
     used.
     """
-    h5py = need("h5py", "h5py", "reading BAG")
+    h5py = need("h5py", "h5py", "reading BAG", extra="geo")
     with opened(path) as (stream, size), reading(path, "BAG"):
         if stream.read(8) != b"\x89HDF\r\n\x1a\n":
             raise Error("it is not an HDF5 file")

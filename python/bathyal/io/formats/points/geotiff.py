@@ -29,7 +29,7 @@ def read_geotiff(path: PathLike, band: int | None) -> Soundings:
 
     `band` counts from 1; None takes the first, and a band described as uncertainty with it.
     """
-    rasterio = need("rasterio", "rasterio", "reading GeoTIFF")
+    rasterio = need("rasterio", "rasterio", "reading GeoTIFF", extra="geo")
     with opened(path) as (stream, size):
         if stream.read(4) not in (b"II*\0", b"MM\0*", b"II+\0", b"MM\0+"):
             raise Error(f"{os.fspath(path)}: it is not a TIFF file")

@@ -1,36 +1,98 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A URDF's links and joints, from files nobody vouches for.
 
-yourdfpy reads the elements. What it would let pass (entities, broken markup that it mends by
-guessing, half a vector, two parents) is refused before, and all that arms do not use (shapes,
-meshes, materials, transmissions) never reaches it.
+Every number is checked as it is read. Shapes, materials, transmissions, sensors and whatever else
+a URDF holds are not looked at.
 """
 
 from __future__ import annotations
 
-import io
-import math
-from collections.abc import Iterable
-from typing import Any
-from xml.etree.ElementTree import Element, SubElement, tostring
+from dataclasses import dataclass
+from xml.etree.ElementTree import Element
+
+import numpy as np
+from numpy.typing import NDArray
 
 from bathyal._core import Error
 from bathyal.io.files import PathLike, opened, reading
+from bathyal.io.formats.xml.robot_values import (
+    name_of,
+    needed_number,
+    number_value,
+    only_part,
+    origin_of,
+    tag_of,
+    text_value,
+    vector_value,
+)
 from bathyal.io.formats.xml.safe import parse_xml
 
+Array = NDArray[np.float64]
+
 _MOST_BYTES = 64 << 20  # a robot of 10 000 links takes about 5 MB
-_LINK_PARTS = ("inertial",)
-_JOINT_PARTS = ("origin", "parent", "child", "axis", "limit", "mimic")
-_VECTORS = ("xyz", "rpy")
-_NUMBERS = (
-    "value", "ixx", "ixy", "ixz", "iyy", "iyz", "izz",
-    "lower", "upper", "velocity", "effort", "multiplier", "offset",
-)  # fmt: skip
-_INERTIA = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
 
 
-def read_robot(path: PathLike) -> Any:
-    """The `yourdfpy.Robot` of a file, its links and joints only.
+@dataclass(frozen=True)
+class Inertial:
+    """What a link weighs; `inertia` about the origin of `origin`, along its axes."""
+
+    origin: Array
+    mass: float
+    inertia: Array
+
+
+@dataclass(frozen=True)
+class Link:
+    """A body of the robot."""
+
+    name: str
+    inertial: Inertial | None
+
+
+@dataclass(frozen=True)
+class Limit:
+    """What a joint may do; None where the file does not say."""
+
+    lower: float | None = None
+    upper: float | None = None
+    velocity: float | None = None
+    effort: float | None = None
+
+
+@dataclass(frozen=True)
+class Mimic:
+    """value = multiplier * that of `joint` + offset."""
+
+    joint: str
+    multiplier: float
+    offset: float
+
+
+@dataclass(frozen=True)
+class Joint:
+    """How two links hang together; `origin` is parent_from_child at the value 0."""
+
+    name: str
+    type: str
+    parent: str
+    child: str
+    origin: Array
+    axis: Array
+    limit: Limit | None
+    mimic: Mimic | None
+
+
+@dataclass(frozen=True)
+class Robot:
+    """A URDF's links and joints, each in the file's order."""
+
+    name: str
+    links: list[Link]
+    joints: list[Joint]
+
+
+def read_robot(path: PathLike) -> Robot:
+    """The links and joints of a file.
 
     Raises
     ------
@@ -44,99 +106,65 @@ def read_robot(path: PathLike) -> Any:
         if size > _MOST_BYTES:
             raise Error(f"expected at most {_MOST_BYTES >> 20} MB, got {size / 2**20:.0f} MB")
         root = parse_xml(stream.read())
-        if _tag(root) != "robot":
-            raise Error(f"its root element is {_tag(root)}, not robot")
+        if tag_of(root) != "robot":
+            raise Error(f"its root element is {tag_of(root)}, not robot")
         if any("xacro" in element.tag for element in root.iter()):
             raise Error("it is a xacro file: expand it first (xacro FILE > arm.urdf)")
-        return _parsed(_essentials(root))
+        return Robot(
+            root.get("name", ""),
+            [_link(element) for element in root if tag_of(element) == "link"],
+            [_joint(element) for element in root if tag_of(element) == "joint"],
+        )
 
 
-def _parsed(robot: Element) -> Any:
-    # Imported late: it takes a second, and few sessions read a URDF.
-    from yourdfpy import URDF, filename_handler_null  # type: ignore[import-untyped]
-
-    return URDF.load(
-        io.BytesIO(tostring(robot)),
-        build_scene_graph=False,
-        load_meshes=False,
-        filename_handler=filename_handler_null,
-    ).robot
+def _link(element: Element) -> Link:
+    name = name_of(element)
+    inertial = only_part(element, "inertial", f"link {name}")
+    return Link(name, None if inertial is None else _inertial(inertial, f"link {name}, inertial"))
 
 
-def _tag(element: Element) -> str:
-    return element.tag.rpartition("}")[2]
+def _inertial(element: Element, where: str) -> Inertial:
+    mass = only_part(element, "mass", where)
+    inertia = only_part(element, "inertia", where)
+    keys = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
+    value = needed_number(mass, "mass", "value", where)
+    xx, xy, xz, yy, yz, zz = (needed_number(inertia, "inertia", key, where) for key in keys)
+    return Inertial(
+        origin_of(element, where), value, np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
+    )
 
 
-def _essentials(root: Element) -> Element:
-    """A copy with what an arm is made of, every part of it checked."""
-    robot = Element("robot", name=root.get("name", ""))
-    for element in root:
-        match _tag(element):
-            case "link":
-                link = SubElement(robot, "link", name=_name(element))
-                _copy_parts(element, link, _LINK_PARTS, f"link {link.get('name')}")
-            case "joint":
-                name = _name(element)
-                joint = SubElement(robot, "joint", name=name, type=element.get("type", ""))
-                _copy_parts(element, joint, _JOINT_PARTS, f"joint {name}")
-                _need(joint, f"joint {name}", {"parent": "link", "child": "link"})
-                if joint.find("mimic") is not None:
-                    _need(joint, f"joint {name}", {"mimic": "joint"})
-    return robot
+def _joint(element: Element) -> Joint:
+    name = name_of(element)
+    where = f"joint {name}"
+    parts = {
+        tag: only_part(element, tag, where)
+        for tag in ("origin", "parent", "child", "axis", "limit", "mimic")
+    }
+    axis = None if parts["axis"] is None else vector_value(parts["axis"], "xyz", f"{where}, axis")
+    return Joint(
+        name,
+        element.get("type", "").strip(),
+        text_value(parts["parent"], "parent", "link", where),
+        text_value(parts["child"], "child", "link", where),
+        origin_of(element, where),
+        np.array([1.0, 0.0, 0.0]) if axis is None else axis,
+        None if parts["limit"] is None else _limit(parts["limit"], f"{where}, limit"),
+        None if parts["mimic"] is None else _mimic(parts["mimic"], where),
+    )
 
 
-def _name(element: Element) -> str:
-    name = element.get("name", "").strip()
-    if not name:
-        raise Error(f"a {_tag(element)} has no name")
-    return name
+def _limit(element: Element, where: str) -> Limit:
+    return Limit(
+        *(number_value(element, key, where) for key in ("lower", "upper", "velocity", "effort"))
+    )
 
 
-def _need(joint: Element, what: str, attributes: dict[str, str]) -> None:
-    for tag, attribute in attributes.items():
-        part = joint.find(tag)
-        if part is None or not part.get(attribute, "").strip():
-            raise Error(f"{what}: it has no {tag} {attribute}")
-
-
-def _copy_parts(source: Element, target: Element, tags: Iterable[str], what: str) -> None:
-    for tag in tags:
-        found = [child for child in source if _tag(child) == tag]
-        if len(found) > 1:
-            raise Error(f"{what}: it has {len(found)} elements {tag}")
-        for part in found:
-            where = f"{what}, {tag}"
-            copy = SubElement(target, tag, _checked(part, where))
-            if tag == "inertial":
-                _copy_parts(part, copy, ("origin", "mass", "inertia"), where)
-                _check_inertial(copy, where)
-
-
-def _check_inertial(inertial: Element, where: str) -> None:
-    needed = {"mass": ("value",), "inertia": _INERTIA}
-    for tag, attributes in needed.items():
-        part = inertial.find(tag)
-        missing = attributes if part is None else [a for a in attributes if part.get(a) is None]
-        if missing:
-            raise Error(f"{where}: it has no {tag} {missing[0]}")
-
-
-def _checked(part: Element, where: str) -> dict[str, str]:
-    """Its attributes, every number readable."""
-    attributes = {key: value.strip() for key, value in part.attrib.items()}
-    for key, text in attributes.items():
-        if key in _VECTORS:
-            numbers = [_number(word) for word in text.split()]
-            if len(numbers) != 3 or not all(map(math.isfinite, numbers)):
-                raise Error(f"{where} {key}: expected three finite numbers, got {text!r}")
-        elif key in _NUMBERS and math.isnan(_number(text)):
-            raise Error(f"{where} {key}: expected a number, got {text!r}")
-    return attributes
-
-
-def _number(word: str) -> float:
-    """NaN for what is none; Python's own digits with underscores are none."""
-    try:
-        return math.nan if "_" in word else float(word)
-    except ValueError:
-        return math.nan
+def _mimic(element: Element, where: str) -> Mimic:
+    multiplier = number_value(element, "multiplier", f"{where}, mimic")
+    offset = number_value(element, "offset", f"{where}, mimic")
+    return Mimic(
+        text_value(element, "mimic", "joint", where),
+        1.0 if multiplier is None else multiplier,
+        0.0 if offset is None else offset,
+    )
