@@ -7,8 +7,8 @@ namespace bathyal::python {
 
 inline constexpr const char* kLinkDoc = R"(What hangs on an arm behind one of its joints.
 
-Link 0 is the foot, before any joint; link k moves with joint k. All numbers but `frame` are told in
-the link's own frame.
+Link 0 is the foot, before any joint; link k moves with joint k. All numbers but `frame` are given
+in the link's own frame.
 
 Parameters
 ----------
@@ -25,6 +25,13 @@ center_of_buoyancy : (3,) array
     [m]
 frame : (4, 4) array, optional
     row_from_link; the frame behind the joint's row itself unless given.
+collision, visual : list of Shape
+    Outlines in the link's frame.
+
+Raises
+------
+ValueError
+    For what `RigidBody` refuses, and a frame that is not rigid.
 
 Examples
 --------

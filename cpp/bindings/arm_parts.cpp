@@ -11,6 +11,7 @@
 #include "arrays.hpp"
 #include "bathyal/arm/chain.hpp"
 #include "bathyal/base/error.hpp"
+#include "rigid_body.hpp"
 
 namespace bathyal::python {
 namespace {
@@ -63,6 +64,16 @@ class Fields {
     if (!object.is_none()) matrix = square_argument(name(key), object, 3);
   }
 
+  void take(const char* key, std::vector<Shape>& shapes) {
+    const py::object object = take(key);
+    if (object.is_none()) return;
+    try {
+      shapes = object.cast<std::vector<Shape>>();
+    } catch (const py::cast_error&) {
+      throw_argument(name(key), "a list of Shapes", py::repr(object).cast<std::string>());
+    }
+  }
+
   py::list list(const char* key) {
     const py::object object = take(key);
     if (object.is_none()) return py::list();
@@ -113,11 +124,13 @@ Link take_link(Fields& fields) {
   fields.take("name", link.name);
   fields.where(link.name);
   fields.take("frame", link.row_from_link);
-  fields.take("mass", link.mass);
-  fields.take("center_of_mass", link.center_of_mass);
-  fields.take("inertia", link.inertia);
-  fields.take("volume", link.volume);
-  fields.take("center_of_buoyancy", link.center_of_buoyancy);
+  fields.take("mass", link.body.mass);
+  fields.take("center_of_mass", link.body.center_of_mass);
+  fields.take("inertia", link.body.inertia);
+  fields.take("volume", link.body.volume);
+  fields.take("center_of_buoyancy", link.body.center_of_buoyancy);
+  fields.take("collision", link.collision);
+  fields.take("visual", link.visual);
   for (const py::handle& told : fields.list("frames")) {
     Fields frame("frame", told);
     Frame& added = link.frames.emplace_back();
@@ -190,11 +203,13 @@ py::dict joint_parts(const Joint& joint) {
 py::dict link_parts(const Link& link) {
   py::dict told;
   told["name"] = link.name;
-  told["mass"] = link.mass;
-  told["center_of_mass"] = to_numpy(link.center_of_mass);
-  told["inertia"] = to_numpy(link.inertia);
-  told["volume"] = link.volume;
-  told["center_of_buoyancy"] = to_numpy(link.center_of_buoyancy);
+  told["mass"] = link.body.mass;
+  told["center_of_mass"] = to_numpy(link.body.center_of_mass);
+  told["inertia"] = to_numpy(link.body.inertia);
+  told["volume"] = link.body.volume;
+  told["center_of_buoyancy"] = to_numpy(link.body.center_of_buoyancy);
+  told["collision"] = link.collision;
+  told["visual"] = link.visual;
   return told;
 }
 
@@ -232,11 +247,6 @@ const Words<JointType>& type_words() {
                                       {"prismatic", JointType::kPrismatic},
                                       {"fixed", JointType::kFixed}};
   return words;
-}
-
-py::array to_numpy(const Eigen::Matrix3d& matrix) {
-  const Eigen::Matrix<double, 3, 3, Eigen::RowMajor> rows = matrix;
-  return to_numpy(std::vector<double>(rows.data(), rows.data() + 9), {3});
 }
 
 py::dict arm_parts(const Arm& arm) {

@@ -7,15 +7,12 @@
 #include "bathyal/arm/arm.hpp"
 #include "words.hpp"
 
-// Everything an arm is made of as plain Python (dict, list, str, float, arrays), for files and for
-// pickle; and a chain of joint origins in the same words.
+// Everything an arm is made of as plain Python (dict, list, str, float, arrays, Shape), for files
+// and for pickle; and a chain of joint origins in the same words.
 
 namespace bathyal::python {
 
 const Words<JointType>& type_words();
-
-/// (3, 3)
-pybind11::array to_numpy(const Eigen::Matrix3d& matrix);
 
 /// {"name", "source", "joints", "links", "root", "flange", "base", "tool"}
 pybind11::dict arm_parts(const Arm& arm);

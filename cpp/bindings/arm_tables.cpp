@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pybind11/stl.h>
+#include <pybind11/typing.h>
 
 #include <optional>
 #include <string>
@@ -11,6 +12,7 @@
 #include "arrays.hpp"
 #include "bathyal/arm/dh.hpp"
 #include "bathyal/base/error.hpp"
+#include "rigid_body.hpp"
 #include "words.hpp"
 
 namespace bathyal::python {
@@ -71,42 +73,56 @@ DhTable table_argument(const py::object& a, const py::object& alpha, const py::o
 
 Link make_link(const std::string& name, double mass, const py::object& center_of_mass,
                const py::object& inertia, double volume, const py::object& center_of_buoyancy,
-               const py::object& frame) {
+               const py::object& frame, std::vector<Shape> collision, std::vector<Shape> visual) {
   Link link;
   link.name = name;
-  link.mass = mass;
-  link.center_of_mass = vector_argument("center_of_mass", center_of_mass);
-  if (!inertia.is_none()) link.inertia = square_argument("inertia", inertia, 3);
-  link.volume = volume;
-  link.center_of_buoyancy = vector_argument("center_of_buoyancy", center_of_buoyancy);
+  link.body = rigid_body_arguments(mass, center_of_mass, inertia, volume, center_of_buoyancy);
   link.row_from_link = pose_argument("frame", frame);
+  check_rigid("frame", link.row_from_link);
+  link.collision = std::move(collision);
+  link.visual = std::move(visual);
   return link;
+}
+
+py::typing::Tuple<Shape, py::ellipsis> tuple_of(const std::vector<Shape>& shapes) {
+  return py::tuple(py::cast(shapes));
 }
 
 void bind_link(py::module_& module) {
   py::class_<Link>(module, "Link", kLinkDoc)
-      .def(py::init(&make_link), py::arg("name") = "", py::kw_only(), py::arg("mass") = Link().mass,
-           py::arg("center_of_mass") = py::make_tuple(0, 0, 0), py::arg("inertia") = py::none(),
-           py::arg("volume") = Link().volume,
-           py::arg("center_of_buoyancy") = py::make_tuple(0, 0, 0), py::arg("frame") = py::none())
+      .def(py::init(&make_link), py::arg("name") = "", py::kw_only(),
+           py::arg("mass") = Link().body.mass, py::arg("center_of_mass") = py::make_tuple(0, 0, 0),
+           py::arg("inertia") = py::none(), py::arg("volume") = Link().body.volume,
+           py::arg("center_of_buoyancy") = py::make_tuple(0, 0, 0), py::arg("frame") = py::none(),
+           py::arg("collision") = std::vector<Shape>(), py::arg("visual") = std::vector<Shape>())
       .def_readonly("name", &Link::name)
-      .def_readonly("mass", &Link::mass, "[kg]; 0 is unknown.")
+      .def_readonly("body", &Link::body, "The RigidBody in the link's frame.")
       .def_property_readonly(
-          "center_of_mass", [](const Link& l) { return python::to_numpy(l.center_of_mass); },
+          "mass", [](const Link& l) { return l.body.mass; }, "[kg]; 0 is unknown.")
+      .def_property_readonly(
+          "center_of_mass", [](const Link& l) { return python::to_numpy(l.body.center_of_mass); },
           "(3,) in the link's frame [m].")
       .def_property_readonly(
-          "inertia", [](const Link& l) { return python::to_numpy(l.inertia); },
+          "inertia", [](const Link& l) { return python::to_numpy(l.body.inertia); },
           "(3, 3) about the centre of mass, along the link's axes [kg m²].")
-      .def_readonly("volume", &Link::volume, "Displaced [m³]; 0 is unknown.")
+      .def_property_readonly(
+          "volume", [](const Link& l) { return l.body.volume; }, "Displaced [m³]; 0 is unknown.")
       .def_property_readonly(
           "center_of_buoyancy",
-          [](const Link& l) { return python::to_numpy(l.center_of_buoyancy); },
+          [](const Link& l) { return python::to_numpy(l.body.center_of_buoyancy); },
           "(3,) in the link's frame [m].")
       .def_property_readonly(
           "frame", [](const Link& l) { return python::to_numpy(l.row_from_link); },
           "(4, 4) row_from_link: the link's frame, seen from the frame behind its row.")
-      .def("__repr__",
-           [](const Link& l) { return "Link(\"" + l.name + "\", mass=" + to_text(l.mass) + ")"; });
+      .def_property_readonly(
+          "collision", [](const Link& l) { return tuple_of(l.collision); },
+          "Tuple of Shapes in the link's frame that must not touch anything.")
+      .def_property_readonly(
+          "visual", [](const Link& l) { return tuple_of(l.visual); },
+          "Tuple of Shapes in the link's frame: what it looks like.")
+      .def("__repr__", [](const Link& l) {
+        return "Link(\"" + l.name + "\", mass=" + to_text(l.body.mass) + ")";
+      });
 }
 
 void bind_table(py::module_& module) {

@@ -7,6 +7,8 @@ PYBIND11_MODULE(_core, module) {
   bind_base(module);
   bind_geometry(module);
   bind_mesh_report(module);
+  bind_rigid_body(module);
+  bind_shape(module);
   bind_soundings(module);
   bind_terrain(module);
   bind_scene(module);

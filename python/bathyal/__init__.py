@@ -21,7 +21,9 @@ from bathyal._core import (
     PlaneFit,
     PointCloud,
     Polyline,
+    RigidBody,
     Scene,
+    Shape,
     SheetPatch,
     SheetReport,
     Targets,
@@ -49,6 +51,7 @@ from bathyal._core import (
     survey_height,
 )
 from bathyal.arm.files import read_arm
+from bathyal.arm.mesh_paths import mesh_path
 from bathyal.arm.support_warning import SupportWarning
 from bathyal.identify.touch_files import read_touches, read_tracked
 from bathyal.identify.verify import verify_arm
@@ -76,7 +79,9 @@ __all__ = [
     "PlaneFit",
     "PointCloud",
     "Polyline",
+    "RigidBody",
     "Scene",
+    "Shape",
     "SheetPatch",
     "SheetReport",
     "SheetWarning",
@@ -100,6 +105,7 @@ __all__ = [
     "generate_survey",
     "identify_arm",
     "intersect_moller_trumbore",
+    "mesh_path",
     "mesh_report",
     "plan_toolpath",
     "plan_touches",

@@ -7,7 +7,7 @@ import numpy
 import numpy.typing
 import os
 import typing
-__all__: list[str] = ['Arm', 'ArmFit', 'Cause', 'CleanReport', 'CleanResult', 'CorrectedArm', 'DhTable', 'Diagnosis', 'Effect', 'EffectRange', 'EffectRows', 'Error', 'Estimate', 'FitParameter', 'FoundEffect', 'HeldOut', 'HeldOutPart', 'Hits', 'InverseResult', 'Link', 'MeshReport', 'NamedEffect', 'Nearest', 'Outlier', 'Plane', 'PlaneFit', 'PointCloud', 'Polyline', 'Scene', 'SheetPatch', 'SheetReport', 'Structure', 'Support', 'Targets', 'TextTable', 'ToolPath', 'TouchForecast', 'TouchPlan', 'Touches', 'Tracked', 'Trade', 'TriangleMesh', 'Verification', 'arm_from_chain', 'arm_from_parts', 'arm_parts', 'chain_from_arm', 'clean_cloud', 'cover_polygon', 'diagnose', 'find_sheets', 'find_targets', 'fit_plane', 'forecast_touches', 'generate_survey', 'identify_arm', 'intersect_moller_trumbore', 'library_effects', 'mesh_report', 'plan_toolpath', 'plan_touches', 'read_pcd', 'read_text_table', 'set_simd_level', 'simd_level', 'survey_height', 'triangulate', 'triangulate_delaunay', 'verify_positions', 'write_xyz']
+__all__: list[str] = ['Arm', 'ArmFit', 'Cause', 'CleanReport', 'CleanResult', 'CorrectedArm', 'DhTable', 'Diagnosis', 'Effect', 'EffectRange', 'EffectRows', 'Error', 'Estimate', 'FitParameter', 'FoundEffect', 'HeldOut', 'HeldOutPart', 'Hits', 'InverseResult', 'Link', 'MeshReport', 'NamedEffect', 'Nearest', 'Outlier', 'Plane', 'PlaneFit', 'PointCloud', 'Polyline', 'RigidBody', 'Scene', 'Shape', 'SheetPatch', 'SheetReport', 'Structure', 'Support', 'Targets', 'TextTable', 'ToolPath', 'TouchForecast', 'TouchPlan', 'Touches', 'Tracked', 'Trade', 'TriangleMesh', 'Verification', 'arm_from_chain', 'arm_from_parts', 'arm_parts', 'chain_from_arm', 'clean_cloud', 'cover_polygon', 'diagnose', 'find_sheets', 'find_targets', 'fit_plane', 'forecast_touches', 'generate_survey', 'identify_arm', 'intersect_moller_trumbore', 'library_effects', 'mesh_report', 'plan_toolpath', 'plan_touches', 'read_pcd', 'read_text_table', 'set_simd_level', 'simd_level', 'survey_height', 'triangulate', 'triangulate_delaunay', 'verify_positions', 'write_xyz']
 class Error(RuntimeError):
     """
     A broken file, a solver that failed or a part that is not installed.
@@ -284,6 +284,172 @@ class MeshReport:
     @property
     def zero_area_triangles(self) -> int:
         ...
+class RigidBody:
+    """
+    What a body weighs, how it resists turning, and the water it displaces.
+    
+    All of it in one frame, which the owner names: of a link its own, of a vehicle the vehicle's.
+    
+    Parameters
+    ----------
+    mass : float
+        [kg]; 0 is unknown.
+    center_of_mass : (3,) array
+        [m]
+    inertia : (3, 3) array, optional
+        About the centre of mass [kg m²]; zero, unknown, unless given.
+    volume : float
+        Displaced water [m³]; 0 is unknown.
+    center_of_buoyancy : (3,) array
+        [m]
+    
+    Raises
+    ------
+    ValueError
+        For a mass or volume that is negative or not finite, and an inertia that no body has: not
+        symmetric, or with a principal moment that is negative or above the sum of the two others (by
+        more than a thousandth of their sum: files round).
+    
+    Examples
+    --------
+    >>> import bathyal
+    >>> hull = bathyal.RigidBody(20, volume=0.02)
+    >>> lead = bathyal.RigidBody(5, center_of_mass=(0, 0, -0.5))
+    >>> hull.combined(lead).center_of_mass
+    array([ 0. ,  0. , -0.1])
+    """
+    def __getstate__(self) -> tuple[float, numpy.ndarray, numpy.ndarray, float, numpy.ndarray]:
+        ...
+    def __init__(self, mass: typing.SupportsFloat | typing.SupportsIndex = 0.0, *, center_of_mass: typing.Any = (0, 0, 0), inertia: typing.Any = None, volume: typing.SupportsFloat | typing.SupportsIndex = 0.0, center_of_buoyancy: typing.Any = (0, 0, 0)) -> None:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def __setstate__(self, arg0: tuple) -> None:
+        ...
+    def combined(self, other: RigidBody) -> RigidBody:
+        """
+        This body and another of the same frame, fixed to each other (Steiner).
+        """
+    def in_frame(self, pose: typing.Any) -> RigidBody:
+        """
+        The body in the frame of `pose` (4, 4), new_from_body.
+        """
+    @property
+    def center_of_buoyancy(self) -> numpy.ndarray:
+        """
+        (3,) [m].
+        """
+    @property
+    def center_of_mass(self) -> numpy.ndarray:
+        """
+        (3,) [m].
+        """
+    @property
+    def inertia(self) -> numpy.ndarray:
+        """
+        (3, 3) about the centre of mass [kg m²].
+        """
+    @property
+    def mass(self) -> float:
+        """
+        [kg]; 0 is unknown.
+        """
+    @property
+    def volume(self) -> float:
+        """
+        Displaced [m³]; 0 is unknown.
+        """
+class Shape:
+    """
+    The outline of a body, or a part of it, as a robot's file gives it.
+    
+    Parameters
+    ----------
+    kind : str
+        "box" (with `size`), "cylinder" (`radius`, `length`), "sphere" (`radius`) or "mesh" (`file`).
+    size : (3,) array
+        Full lengths of a box along its x, y and z [m].
+    radius, length : float
+        Of a cylinder, which lies along z with its middle in the origin, and of a sphere [m].
+    file : str
+        Of a mesh: the name that its owner's file gives. It is never opened here; `bathyal.mesh_path`
+        finds it.
+    folder : str
+        The folder from which a relative `file` starts; empty where it is unknown.
+    scale : (3,) array
+        Of a mesh along its x, y and z; 1 unless given, negative mirrors.
+    pose : (4, 4) array, optional
+        body_from_shape: of a link's shape, link_from_shape.
+    part : str
+        The body that it outlines, where several were made one: a finger of a gripper.
+    
+    Raises
+    ------
+    ValueError
+        For what the kind has not or lacks, lengths that are negative or not finite, a scale of 0, a
+        pose that is not rigid.
+    
+    Examples
+    --------
+    >>> import bathyal
+    >>> bathyal.Shape("cylinder", radius=0.05, length=0.4)
+    Shape("cylinder", radius=0.05, length=0.4)
+    """
+    def __init__(self, kind: str, *, size: typing.Any = None, radius: typing.Any = None, length: typing.Any = None, file: str | None = None, folder: str = '', scale: typing.Any = None, pose: typing.Any = None, part: str = '') -> None:
+        ...
+    def __reduce__(self) -> tuple[typing.Any, tuple]:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def as_dict(self) -> dict:
+        """
+        What the constructor takes, without what the kind has not: for files and tables.
+        """
+    @property
+    def file(self) -> str | None:
+        """
+        Of a mesh, as its owner's file names it; None of the others.
+        """
+    @property
+    def folder(self) -> str:
+        """
+        Where a relative `file` starts; empty where it is unknown.
+        """
+    @property
+    def kind(self) -> str:
+        """
+        "box", "cylinder", "sphere" or "mesh".
+        """
+    @property
+    def length(self) -> float | None:
+        """
+        Of a cylinder [m]; None of the others.
+        """
+    @property
+    def part(self) -> str:
+        """
+        The body that it outlines; empty where nobody said.
+        """
+    @property
+    def pose(self) -> numpy.ndarray:
+        """
+        (4, 4) body_from_shape.
+        """
+    @property
+    def radius(self) -> float | None:
+        """
+        Of a cylinder or sphere [m]; None of the others.
+        """
+    @property
+    def scale(self) -> numpy.ndarray | None:
+        """
+        (3,) of a mesh; None of the others.
+        """
+    @property
+    def size(self) -> numpy.ndarray | None:
+        """
+        (3,) full lengths of a box [m]; None of the others.
+        """
 class TextTable:
     """
     Numbers of a text file, and how it was understood.
@@ -1037,8 +1203,8 @@ class Link:
     """
     What hangs on an arm behind one of its joints.
     
-    Link 0 is the foot, before any joint; link k moves with joint k. All numbers but `frame` are told in
-    the link's own frame.
+    Link 0 is the foot, before any joint; link k moves with joint k. All numbers but `frame` are given
+    in the link's own frame.
     
     Parameters
     ----------
@@ -1055,6 +1221,13 @@ class Link:
         [m]
     frame : (4, 4) array, optional
         row_from_link; the frame behind the joint's row itself unless given.
+    collision, visual : list of Shape
+        Outlines in the link's frame.
+    
+    Raises
+    ------
+    ValueError
+        For what `RigidBody` refuses, and a frame that is not rigid.
     
     Examples
     --------
@@ -1062,10 +1235,15 @@ class Link:
     >>> bathyal.Link("forearm", mass=2.5, center_of_mass=(-0.1, 0, 0), volume=1.2e-3)
     Link("forearm", mass=2.5)
     """
-    def __init__(self, name: str = '', *, mass: typing.SupportsFloat | typing.SupportsIndex = 0.0, center_of_mass: typing.Any = (0, 0, 0), inertia: typing.Any = None, volume: typing.SupportsFloat | typing.SupportsIndex = 0.0, center_of_buoyancy: typing.Any = (0, 0, 0), frame: typing.Any = None) -> None:
+    def __init__(self, name: str = '', *, mass: typing.SupportsFloat | typing.SupportsIndex = 0.0, center_of_mass: typing.Any = (0, 0, 0), inertia: typing.Any = None, volume: typing.SupportsFloat | typing.SupportsIndex = 0.0, center_of_buoyancy: typing.Any = (0, 0, 0), frame: typing.Any = None, collision: collections.abc.Sequence[Shape] = [], visual: collections.abc.Sequence[Shape] = []) -> None:
         ...
     def __repr__(self) -> str:
         ...
+    @property
+    def body(self) -> RigidBody:
+        """
+        The RigidBody in the link's frame.
+        """
     @property
     def center_of_buoyancy(self) -> numpy.ndarray:
         """
@@ -1075,6 +1253,11 @@ class Link:
     def center_of_mass(self) -> numpy.ndarray:
         """
         (3,) in the link's frame [m].
+        """
+    @property
+    def collision(self) -> tuple[Shape, ...]:
+        """
+        Tuple of Shapes in the link's frame that must not touch anything.
         """
     @property
     def frame(self) -> numpy.ndarray:
@@ -1094,6 +1277,11 @@ class Link:
     @property
     def name(self) -> str:
         ...
+    @property
+    def visual(self) -> tuple[Shape, ...]:
+        """
+        Tuple of Shapes in the link's frame: what it looks like.
+        """
     @property
     def volume(self) -> float:
         """

@@ -32,12 +32,9 @@ void check_joint(const Joint& joint) {
 void check_link(const Link& link) {
   const std::string name = "link " + link.name;
   check_rigid(name + " frame", link.row_from_link);
-  check_not_negative(name + " mass", link.mass);
-  check_not_negative(name + " volume", link.volume);
-  if (!link.center_of_mass.allFinite() || !link.center_of_buoyancy.allFinite() ||
-      !link.inertia.allFinite()) {
-    throw_argument(name, "finite centres and inertia", "nan or inf");
-  }
+  link.body.check(name);
+  for (const Shape& shape : link.collision) shape.check(name + " collision");
+  for (const Shape& shape : link.visual) shape.check(name + " visual");
 }
 
 /// Coordinates are numbered in the order in which joints first use them.

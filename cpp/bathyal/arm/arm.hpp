@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "bathyal/geometry/pose.hpp"
+#include "bathyal/geometry/rigid_body.hpp"
+#include "bathyal/geometry/shape.hpp"
 
 namespace bathyal {
 
@@ -56,16 +58,14 @@ struct Frame {
 };
 
 /// What hangs on the frame behind a row: link 0 is the foot, before any joint; link k moves with
-/// joint k - 1. All but `row_from_link` is told in the link's own frame.
+/// joint k - 1. All but `row_from_link` is given in the link's own frame.
 struct Link {
   std::string name;
   Pose row_from_link = Pose::Identity();  ///< from the link's frame to the frame of its row
-  double mass = 0.0;                      ///< [kg]; 0 is unknown
-  Vec3 center_of_mass = Vec3::Zero();     ///< [m]
-  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();  ///< about the centre of mass [kg m²]
-  double volume = 0.0;                                ///< displaced [m³]; 0 is unknown
-  Vec3 center_of_buoyancy = Vec3::Zero();             ///< [m]
-  std::vector<Frame> frames;  ///< that move with it; what they weigh is told in `mass`
+  RigidBody body;
+  std::vector<Frame> frames;     ///< that move with it; `body` includes what they weigh
+  std::vector<Shape> collision;  ///< what must not touch anything, frames' too
+  std::vector<Shape> visual;     ///< what it looks like
 };
 
 /// A serial arm: world_from_tool = base * root * row 1 * … * row m * flange * tool.

@@ -167,24 +167,23 @@ Line axis_before(const MovingChain& chain, std::size_t k) {
   return chain.parent_from_joint[k] * Line{Vec3::Zero(), chain.axis[k]};
 }
 
-Eigen::Matrix3d steiner(double mass, const Vec3& arm) {
-  return mass * (arm.squaredNorm() * Eigen::Matrix3d::Identity() - arm * arm.transpose());
+void move(std::vector<Shape>& shapes, const Pose& new_from_link) {
+  for (Shape& shape : shapes) shape.body_from_shape = new_from_link * shape.body_from_shape;
 }
 
-Vec3 weighted(double weight, const Vec3& point, double other_weight, const Vec3& other) {
-  const double sum = weight + other_weight;
-  return sum > 0.0 ? Vec3((weight * point + other_weight * other) / sum) : point;
-}
-
-/// `link` told in another frame.
+/// `link` in another frame.
 Link in_frame(const Link& link, const Pose& new_from_link) {
   Link moved = link;
-  const Eigen::Matrix3d turn = new_from_link.linear();
-  moved.center_of_mass = new_from_link * link.center_of_mass;
-  moved.inertia = turn * link.inertia * turn.transpose();
-  moved.center_of_buoyancy = new_from_link * link.center_of_buoyancy;
+  moved.body = bathyal::in_frame(link.body, new_from_link);
   for (Frame& frame : moved.frames) frame.link_from_frame = new_from_link * frame.link_from_frame;
+  move(moved.collision, new_from_link);
+  move(moved.visual, new_from_link);
   return moved;
+}
+
+template <class Thing>
+void append(std::vector<Thing>& things, const std::vector<Thing>& more) {
+  things.insert(things.end(), more.begin(), more.end());
 }
 
 /// Its frames as bodies without mass.
@@ -209,16 +208,11 @@ bool stands_on_axis(JointType type, const Pose& before_from_link) {
 
 void attach(Link& link, const Pose& link_from_body, const Link& body) {
   const Link here = in_frame(body, link_from_body);
-  const Vec3 center = weighted(link.mass, link.center_of_mass, here.mass, here.center_of_mass);
-  link.inertia += steiner(link.mass, link.center_of_mass - center) + here.inertia +
-                  steiner(here.mass, here.center_of_mass - center);
-  link.center_of_mass = center;
-  link.mass += here.mass;
-  link.center_of_buoyancy =
-      weighted(link.volume, link.center_of_buoyancy, here.volume, here.center_of_buoyancy);
-  link.volume += here.volume;
+  link.body = combined(link.body, here.body);
   if (!body.name.empty()) link.frames.push_back({body.name, link_from_body});
-  link.frames.insert(link.frames.end(), here.frames.begin(), here.frames.end());
+  append(link.frames, here.frames);
+  append(link.collision, here.collision);
+  append(link.visual, here.visual);
 }
 
 void ChainOptions::check() const { check_range("nearly_parallel", nearly_parallel, 0.0, 0.5); }

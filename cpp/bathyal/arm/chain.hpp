@@ -71,8 +71,8 @@ Arm arm_from_chain(const JointChain& chain, const ChainOptions& options = {});
 /// behind a fixed joint without a name.
 JointChain chain_from_arm(const Arm& arm);
 
-/// `link` and `body` as one: masses and volumes added, centres and inertia taken about the new
-/// centre (Steiner), in the frame of `link`. The body's name and frames become frames of the link.
+/// `link` and `body` as one (`combined`), in the frame of `link`. The body's name and frames become
+/// frames of the link, its shapes the link's.
 void attach(Link& link, const Pose& link_from_body, const Link& body);
 
 }  // namespace bathyal

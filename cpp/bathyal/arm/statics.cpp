@@ -44,22 +44,18 @@ class Balance {
       load.add(-(axes * Eigen::Map<const Vec3>(wrench)), tool.translation());
       load.moment -= axes * Eigen::Map<const Vec3>(wrench + 3);
     }
-    const Payload& payload = options_.payload;
-    add_body(tool, payload.mass, payload.center_of_mass, payload.volume, payload.center_of_buoyancy,
-             load);
+    add_body(tool, options_.payload, load);
     for (std::size_t k = arm_.joints().size(); k-- > 0;) {
       const Link& link = arm_.links()[k + 1];
-      add_body(frames_.world_from_row[k + 1] * link.row_from_link, link.mass, link.center_of_mass,
-               link.volume, link.center_of_buoyancy, load);
+      add_body(frames_.world_from_row[k + 1] * link.row_from_link, link.body, load);
       hold(arm_.joints()[k], frames_.world_from_row[k], load, torque);
     }
   }
 
  private:
-  void add_body(const Pose& frame, double mass, const Vec3& center_of_mass, double volume,
-                const Vec3& center_of_buoyancy, Load& load) const {
-    load.add(mass * gravity_, frame * center_of_mass);
-    load.add(-options_.water_density * volume * gravity_, frame * center_of_buoyancy);
+  void add_body(const Pose& frame, const RigidBody& body, Load& load) const {
+    load.add(body.mass * gravity_, frame * body.center_of_mass);
+    load.add(-options_.water_density * body.volume * gravity_, frame * body.center_of_buoyancy);
   }
 
   static void hold(const Joint& joint, const Pose& frame, const Load& load, double* torque) {

@@ -8,20 +8,12 @@
 
 namespace bathyal {
 
-/// What the arm carries, rigid with its tool.
-struct Payload {
-  double mass = 0.0;                       ///< [kg], 0 or more
-  double volume = 0.0;                     ///< displaced [m³], 0 or more
-  Vec3 center_of_mass = Vec3::Zero();      ///< in the tool's frame [m]
-  Vec3 center_of_buoyancy = Vec3::Zero();  ///< in the tool's frame [m]
-};
-
 struct StaticsOptions {
   /// In the arm's base frame, which turns with the vehicle: a pitched vehicle has another gravity
   /// here [m/s²].
   Vec3 gravity = {0.0, 0.0, -9.80665};
-  double water_density = 1025.0;  ///< [kg/m³], 0 or more; 0 in air
-  Payload payload;
+  double water_density = 1025.0;      ///< [kg/m³], 0 or more; 0 in air
+  RigidBody payload;                  ///< what the arm carries, in the tool's frame
   TipFrame frame = TipFrame::kWorld;  ///< axes along which the wrench is told
   int num_threads = 0;
 

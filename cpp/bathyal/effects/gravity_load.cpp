@@ -20,7 +20,7 @@ double pull_along(const Joint& joint, const Pose& frame, const Burden& burden,
 
 bool masses_known(const Arm& arm) {
   return std::any_of(arm.links().begin() + 1, arm.links().end(),
-                     [](const Link& link) { return link.mass > 0.0; });
+                     [](const Link& link) { return link.body.mass > 0.0; });
 }
 
 Eigen::VectorXd payload_of(const EffectData& data) {
@@ -43,9 +43,10 @@ GravityLoads::GravityLoads(const EffectData& data, Bodies bodies, Eigen::VectorX
       beyond[k] = beyond[k + 1];
       if (bodies == Bodies::kNone) continue;
       const Link& link = arm.links()[k];
-      const Vec3 center = frames.world_from_row[k] * (link.row_from_link * link.center_of_mass);
-      beyond[k].mass += link.mass;
-      beyond[k].moment += link.mass * center;
+      const Vec3 center =
+          frames.world_from_row[k] * (link.row_from_link * link.body.center_of_mass);
+      beyond[k].mass += link.body.mass;
+      beyond[k].moment += link.body.mass * center;
     }
   }
 }

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from bathyal._core import Arm, Error, arm_from_parts, arm_parts
+from bathyal._core import Arm, Error, Shape, arm_from_parts, arm_parts
 from bathyal.io.files import PathLike, replacing
 
 FORMAT = "bathyal arm"
@@ -53,7 +53,20 @@ _LINK_KEYS = {
     "volume": "volume_m3",
     "center_of_buoyancy": "center_of_buoyancy_m",
     "frames": "frames",
+    "collision": "collision",
+    "visual": "visual",
 }
+_SHAPE_KEYS = {
+    "kind": "kind",
+    "size": "size_m",
+    "radius": "radius_m",
+    "length": "length_m",
+    "file": "file",
+    "scale": "scale",
+    "pose": "link_from_shape_m",
+    "part": "part",
+}
+_SHAPES = ("collision", "visual")
 _FRAME_KEYS = {"name": "name", "pose": "link_from_frame_m"}
 _UNITS = {"revolute": ("rad", "Nm"), "prismatic": ("m", "N"), "fixed": ("rad", "Nm")}
 
@@ -70,6 +83,10 @@ def arm_told(arm: Arm) -> dict[str, Any]:
     parts["joints"] = [_renamed(joint, _joint_keys(joint["type"])) for joint in parts["joints"]]
     for link in parts["links"]:
         link["frames"] = [_renamed(frame, _FRAME_KEYS) for frame in link["frames"]]
+        for key in _SHAPES:  # an arm without shapes has the file it always had
+            shapes = [_renamed(shape.as_dict(), _SHAPE_KEYS) for shape in link.pop(key)]
+            if shapes:
+                link[key] = shapes
     parts["links"] = [_renamed(link, _LINK_KEYS) for link in parts["links"]]
     return {"format": FORMAT, "version": VERSION, **_renamed(parts, _ARM_KEYS)}
 
@@ -87,7 +104,7 @@ def _laid_out(value: Any, indent: str = "") -> str:
 
 
 def _renamed(parts: dict[str, Any], keys: dict[str, str]) -> dict[str, Any]:
-    return {told: _plain(parts[key]) for key, told in keys.items()}
+    return {told: _plain(parts[key]) for key, told in keys.items() if key in parts}
 
 
 def _plain(value: Any) -> Any:
@@ -124,12 +141,22 @@ def rigid_arm(told: dict[str, Any]) -> Arm:
     parts["links"] = [read_keys(link, _LINK_KEYS, "a link") for link in listed(parts, "links")]
     for link in parts["links"]:
         link["frames"] = [read_keys(f, _FRAME_KEYS, "a frame") for f in listed(link, "frames")]
+        for key in _SHAPES:
+            link[key] = [_shape(shape) for shape in listed(link, key)]
     return arm_from_parts(parts)
 
 
 def _joint(told: Any) -> dict[str, Any]:
     kind = told.get("type", "revolute") if isinstance(told, dict) else "revolute"
     return read_keys(told, _joint_keys(str(kind)), "a joint")
+
+
+def _shape(told: Any) -> Shape:
+    keys = read_keys(told, _SHAPE_KEYS, "a shape")
+    try:
+        return Shape(**keys)
+    except TypeError:
+        raise Error(f"a shape: expected text for kind, file and part, got {told!r:.80}") from None
 
 
 def read_keys(told: Any, keys: dict[str, str], what: str) -> dict[str, Any]:

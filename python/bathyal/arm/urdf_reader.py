@@ -43,7 +43,8 @@ def arm_from_urdf(
     Parameters
     ----------
     path : path
-        A URDF; xacro must be expanded first. Meshes are never opened.
+        A URDF; xacro must be expanded first. Meshes are never opened: `bathyal.mesh_path` finds
+        them.
     tip : str, optional
         The link, or the joint whose child link, becomes the flange. Needed where the tree has
         several ends; one that alone has moving joints before it is taken unasked.
@@ -59,8 +60,9 @@ def arm_from_urdf(
         rows with Hayati's beta. Joints that mimic share a coordinate, also with a joint off the
         path; their limits bind each other. ``continuous`` joints have none. Links behind fixed
         joints become frames of the link that carries them, and weigh on it, as do the branches
-        that leave the path, their joints taken at 0. What `to_urdf` wrote as base and tool is
-        `base` and `tool` again.
+        that leave the path, their joints taken at 0; their shapes become that link's too
+        (`Link.collision`, `Link.visual`), each with the name of its own link as its `part`. What
+        `to_urdf` wrote as base and tool is `base` and `tool` again.
 
     Raises
     ------
@@ -320,7 +322,11 @@ def _link(tree: _Tree, link: str, path: set[str]) -> dict[str, Any]:
 
 
 def _body(link: Link) -> dict[str, Any]:
-    told: dict[str, Any] = {"name": link.name}
+    told: dict[str, Any] = {
+        "name": link.name,
+        "collision": link.collision,
+        "visual": link.visual,
+    }
     if link.inertial is None:
         return told
     pose = link.inertial.origin

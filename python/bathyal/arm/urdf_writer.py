@@ -9,7 +9,7 @@ from xml.etree.ElementTree import Element, SubElement, indent, tostring
 import numpy as np
 from numpy.typing import NDArray
 
-from bathyal._core import Arm, chain_from_arm
+from bathyal._core import Arm, Shape, chain_from_arm
 from bathyal.arm.urdf_reader import BASE_JOINT, TOOL_JOINT, UNLIMITED
 from bathyal.io.files import PathLike, replacing
 
@@ -32,8 +32,9 @@ def urdf_of_arm(arm: Arm, path: PathLike | None = None) -> str:
     str
         `Arm.from_urdf` makes the same arm of it: motion to rounding, names, limits, masses and
         inertia, joints that follow others, `base` (a fixed joint ``world_from_base``) and `tool`
-        (``flange_from_tool``, which is always there and marks the tip). Volumes and centres of
-        buoyancy are lost: URDF has no word for them; `Arm.save` keeps them. A joint that follows
+        (``flange_from_tool``, which is always there and marks the tip), shapes, with the names of
+        meshes as they are. Volumes and centres of buoyancy are lost: URDF has no place for them;
+        `Arm.save` keeps them. A joint that follows
         one outside the arm gets that one beside it, on a link without mass. What is unlimited is
         told as the largest double.
 
@@ -166,6 +167,9 @@ class _Writer:
             values = link["inertia"][rows, columns]
             keys = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
             SubElement(inertial, "inertia", dict(zip(keys, map(_text, values), strict=True)))
+        for tag in ("visual", "collision"):
+            for shape in link.get(tag, ()):
+                _add_shape(SubElement(element, tag), shape)
         return name
 
     def _add_fixed(self, name: str, origin: Pose, parent: str, child: str) -> None:
@@ -187,6 +191,20 @@ class _Writer:
                 element, "limit", {key: _text(joint[key]) for key in (*ends, "velocity", "effort")}
             )
         return element
+
+
+def _add_shape(element: Element, shape: Shape) -> None:
+    SubElement(element, "origin", xyz=_words(shape.pose[:3, 3]), rpy=_words(rpy_of(shape.pose)))
+    solid = SubElement(SubElement(element, "geometry"), shape.kind)
+    if shape.kind == "box":
+        solid.set("size", _words(shape.size))
+    elif shape.kind == "mesh":
+        solid.set("filename", str(shape.file))
+        solid.set("scale", _words(shape.scale))
+    else:
+        for key in ("radius", "length"):
+            if getattr(shape, key) is not None:
+                solid.set(key, _text(getattr(shape, key)))
 
 
 def _unique(name: str, taken: set[str]) -> str:

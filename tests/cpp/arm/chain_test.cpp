@@ -65,12 +65,12 @@ Link random_link(RandomStream& random, const std::string& name) {
   Link link;
   link.name = name;
   if (random.next() % 4 == 0) return link;
-  link.mass = random.uniform(0.1, 5.0);
-  link.center_of_mass = random_vector(random, 0.2);
+  link.body.mass = random.uniform(0.1, 5.0);
+  link.body.center_of_mass = random_vector(random, 0.2);
   const Eigen::Matrix3d turn = random_rotation(random);
-  link.inertia = turn * Vec3(0.1, 0.2, 0.25).asDiagonal() * turn.transpose();
-  link.volume = random.uniform(0.0, 0.01);
-  link.center_of_buoyancy = random_vector(random, 0.2);
+  link.body.inertia = turn * Vec3(0.1, 0.2, 0.25).asDiagonal() * turn.transpose();
+  link.body.volume = random.uniform(0.0, 0.01);
+  link.body.center_of_buoyancy = random_vector(random, 0.2);
   return link;
 }
 
@@ -245,13 +245,13 @@ TEST(ArmFromChain, AddsUpWhatIsFixedTogether) {
     Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero(), arm_inertia = inertia;
     const auto add = [](const Pose& from_link, const Link& link, double& m, double& v, Vec3& s,
                         Vec3& b, Eigen::Matrix3d& i) {
-      const Vec3 c = from_link * link.center_of_mass;
-      m += link.mass;
-      v += link.volume;
-      s += link.mass * c;
-      b += link.volume * (from_link * link.center_of_buoyancy);
-      i += from_link.linear() * link.inertia * from_link.linear().transpose() +
-           link.mass * (c.squaredNorm() * Eigen::Matrix3d::Identity() - c * c.transpose());
+      const Vec3 c = from_link * link.body.center_of_mass;
+      m += link.body.mass;
+      v += link.body.volume;
+      s += link.body.mass * c;
+      b += link.body.volume * (from_link * link.body.center_of_buoyancy);
+      i += from_link.linear() * link.body.inertia * from_link.linear().transpose() +
+           link.body.mass * (c.squaredNorm() * Eigen::Matrix3d::Identity() - c * c.transpose());
     };
     for (std::size_t k = 0; k < chain.links.size(); ++k) {
       add(at[k], chain.links[k].link, mass, volume, moment, lift, inertia);
@@ -269,6 +269,61 @@ TEST(ArmFromChain, AddsUpWhatIsFixedTogether) {
     EXPECT_LE((arm_moment - moment).norm(), 1e-10);
     EXPECT_LE((arm_lift - lift).norm(), 1e-10);
     EXPECT_LE((arm_inertia - inertia).norm(), 1e-9);
+  }
+}
+
+/// Where the spheres of a link are, from its own frame.
+std::vector<Vec3> places(const std::vector<Shape>& shapes, const Pose& from_link) {
+  std::vector<Vec3> points;
+  for (const Shape& shape : shapes)
+    points.push_back(from_link * shape.body_from_shape.translation());
+  return points;
+}
+
+TEST(ArmFromChain, KeepsShapesWhereTheyAre) {
+  for (std::uint64_t seed = 0; seed < 100; ++seed) {
+    JointChain chain = random_chain(seed);
+    RandomStream random(seed);
+    const auto add_shape = [&](Link& link) {
+      Shape& shape = link.collision.emplace_back();
+      shape.kind = ShapeKind::kSphere;
+      shape.body_from_shape.translation() = random_vector(random, 0.3);
+      link.visual = link.collision;
+    };
+    for (ChainLink& link : chain.links) {
+      add_shape(link.link);
+      for (Attached& attached : link.attached) add_shape(attached.body);
+    }
+    const Arm arm = arm_from_chain(chain);
+    const std::vector<double> q = random_q(arm, seed);
+    const std::vector<Pose> at = chain_frames(chain, q);
+    std::vector<Vec3> expected, collision, visual, again;
+    const auto append = [](std::vector<Vec3>& points, const std::vector<Vec3>& more) {
+      points.insert(points.end(), more.begin(), more.end());
+    };
+    for (std::size_t k = 0; k < chain.links.size(); ++k) {
+      append(expected, places(chain.links[k].link.collision, at[k]));
+      for (const Attached& attached : chain.links[k].attached) {
+        append(expected, places(attached.body.collision, at[k] * attached.link_from_body));
+      }
+    }
+    const RowFrames frames = row_frames(arm, q);
+    const JointChain told = chain_from_arm(arm);
+    const std::vector<Pose> told_at = chain_frames(told, q);
+    for (std::size_t k = 0; k < arm.links().size(); ++k) {
+      const Pose from_link = frames.world_from_row[k] * arm.links()[k].row_from_link;
+      append(collision, places(arm.links()[k].collision, from_link));
+      append(visual, places(arm.links()[k].visual, from_link));
+      append(again, places(told.links[k].link.collision, told_at[k]));
+    }
+    ASSERT_EQ(collision.size(), expected.size());
+    ASSERT_EQ(visual.size(), expected.size());
+    ASSERT_EQ(again.size(), expected.size());
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+      EXPECT_LE((collision[i] - expected[i]).norm(), 1e-12);
+      EXPECT_LE((visual[i] - expected[i]).norm(), 1e-12);
+      EXPECT_LE((again[i] - expected[i]).norm(), 1e-12);
+    }
   }
 }
 
@@ -299,14 +354,14 @@ TEST(ChainFromArm, TellsRowsWhoseFramesStandBeyondTheAxis) {
   second.coordinate = 1;
   second.row = {0.5, 0.01, 0.0, -0.4, 0.02};
   Link foot, upper, lower;
-  upper.mass = 2.0;
-  upper.center_of_mass = Vec3(-0.1, 0.0, 0.0);
+  upper.body.mass = 2.0;
+  upper.body.center_of_mass = Vec3(-0.1, 0.0, 0.0);
   const Arm arm("table", {first, second}, {foot, upper, lower});
   const JointChain chain = chain_from_arm(arm);
   const std::vector<double> q{0.7, -1.1};
   EXPECT_LE(difference(chain_frames(chain, q).back(), row_frames(arm, q).world_from_tool), 1e-15);
-  const Vec3 center = row_frames(arm, q).world_from_row[1] * upper.center_of_mass;
-  const Vec3 told = chain_frames(chain, q)[1] * chain.links[1].link.center_of_mass;
+  const Vec3 center = row_frames(arm, q).world_from_row[1] * upper.body.center_of_mass;
+  const Vec3 told = chain_frames(chain, q)[1] * chain.links[1].link.body.center_of_mass;
   EXPECT_LE((center - told).norm(), 1e-15);
 }
 

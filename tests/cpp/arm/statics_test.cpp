@@ -29,18 +29,14 @@ TEST(Statics, AWeightHangsOnALever) {
 double energy(const Arm& arm, const JointMatrix& q, const StaticsOptions& options) {
   const RowFrames frames = row_frames(arm, {q.data(), static_cast<std::size_t>(q.size())});
   const Vec3 gravity = arm.base().linear() * options.gravity;
-  const auto body = [&](const Pose& frame, double mass, const Vec3& center, double volume,
-                        const Vec3& buoyancy) {
-    return -mass * gravity.dot(frame * center) +
-           options.water_density * volume * gravity.dot(frame * buoyancy);
+  const auto stored = [&](const Pose& frame, const RigidBody& body) {
+    return -body.mass * gravity.dot(frame * body.center_of_mass) +
+           options.water_density * body.volume * gravity.dot(frame * body.center_of_buoyancy);
   };
-  const Payload& p = options.payload;
-  double sum =
-      body(frames.world_from_tool, p.mass, p.center_of_mass, p.volume, p.center_of_buoyancy);
+  double sum = stored(frames.world_from_tool, options.payload);
   for (std::size_t k = 0; k < arm.links().size(); ++k) {
     const Link& link = arm.links()[k];
-    sum += body(frames.world_from_row[k] * link.row_from_link, link.mass, link.center_of_mass,
-                link.volume, link.center_of_buoyancy);
+    sum += stored(frames.world_from_row[k] * link.row_from_link, link.body);
   }
   return sum;
 }
@@ -48,7 +44,10 @@ double energy(const Arm& arm, const JointMatrix& q, const StaticsOptions& option
 TEST(Statics, AreTheDerivativeOfTheEnergyAndJTransposed) {
   StaticsOptions options;
   options.gravity = Vec3(1.0, -2.0, -9.0);
-  options.payload = {3.0, 1e-3, Vec3(0.1, 0.2, -0.1), Vec3(-0.1, 0.0, 0.2)};
+  options.payload.mass = 3.0;
+  options.payload.center_of_mass = Vec3(0.1, 0.2, -0.1);
+  options.payload.volume = 1e-3;
+  options.payload.center_of_buoyancy = Vec3(-0.1, 0.0, 0.2);
   for (const std::uint64_t seed : {1, 2, 3}) {
     const Arm arm = odd_arm(seed);
     const JointMatrix q = random_poses(arm, 1, seed);

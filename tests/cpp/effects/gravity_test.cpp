@@ -19,7 +19,7 @@ std::vector<Body> bodies_of(const Arm& arm, const Eigen::VectorXd& q, double pay
   std::vector<Body> out;
   for (std::size_t k = 0; k < arm.links().size(); ++k) {
     const Link& link = arm.links()[k];
-    out.push_back({link.mass, frames[k] * link.row_from_link * link.center_of_mass});
+    out.push_back({link.body.mass, frames[k] * link.row_from_link * link.body.center_of_mass});
   }
   out.push_back({payload, (frames.back() * arm.flange() * arm.tool()).translation()});
   return out;

@@ -84,10 +84,10 @@ inline Arm odd_arm(std::uint64_t seed) {
   joints[6].coordinate = 3;
   for (Link& link : links) {
     link.row_from_link = pose_of(any(), any(), any(), any(), any());
-    link.mass = 1.0 + any();
-    link.volume = 1e-3 * (1.0 + any());
-    link.center_of_mass = Vec3(any(), any(), any());
-    link.center_of_buoyancy = Vec3(any(), any(), any());
+    link.body.mass = 1.0 + any();
+    link.body.volume = 1e-3 * (1.0 + any());
+    link.body.center_of_mass = Vec3(any(), any(), any());
+    link.body.center_of_buoyancy = Vec3(any(), any(), any());
   }
   Arm arm("odd", joints, links, pose_of(any(), any(), any(), any(), any()),
           pose_of(any(), any(), any(), any(), any()));

@@ -183,7 +183,6 @@ COLUMNS = {"a": [0.1, 0.2], "alpha": [0, 0], "d": [0, 0], "theta": [0, 0]}
         ({"lower": [0]}, "lower"),
         ({"names": ["one"]}, "names"),
         ({"links": [bathyal.Link()]}, "links"),
-        ({"links": [bathyal.Link(mass=-1), bathyal.Link(), bathyal.Link()]}, "mass"),
         ({"root": np.diag([1, 1, -1, 1])}, "root"),
         ({"flange": np.eye(3)}, "flange"),
         ({"base": np.full((4, 4), np.nan)}, "base"),

@@ -1,20 +1,22 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A URDF's links and joints, from files nobody vouches for.
 
-Every number is checked as it is read. Shapes, materials, transmissions, sensors and whatever else
-a URDF holds are not looked at.
+Every number is checked as it is read. Materials, transmissions, sensors and whatever else a URDF
+holds are not looked at; meshes are kept by name and never opened.
 """
 
 from __future__ import annotations
 
+import os
 from dataclasses import dataclass
 from xml.etree.ElementTree import Element
 
 import numpy as np
 from numpy.typing import NDArray
 
-from bathyal._core import Error
+from bathyal._core import Error, Shape
 from bathyal.io.files import PathLike, opened, reading
+from bathyal.io.formats.xml.robot_shapes import shapes_of
 from bathyal.io.formats.xml.robot_values import (
     name_of,
     needed_number,
@@ -47,6 +49,8 @@ class Link:
 
     name: str
     inertial: Inertial | None
+    collision: list[Shape]
+    visual: list[Shape]
 
 
 @dataclass(frozen=True)
@@ -108,19 +112,25 @@ def read_robot(path: PathLike) -> Robot:
         root = parse_xml(stream.read())
         if tag_of(root) != "robot":
             raise Error(f"its root element is {tag_of(root)}, not robot")
+        folder = os.path.dirname(os.path.abspath(path))
         if any("xacro" in element.tag for element in root.iter()):
             raise Error("it is a xacro file: expand it first (xacro FILE > arm.urdf)")
         return Robot(
             root.get("name", ""),
-            [_link(element) for element in root if tag_of(element) == "link"],
+            [_link(element, folder) for element in root if tag_of(element) == "link"],
             [_joint(element) for element in root if tag_of(element) == "joint"],
         )
 
 
-def _link(element: Element) -> Link:
+def _link(element: Element, folder: str) -> Link:
     name = name_of(element)
     inertial = only_part(element, "inertial", f"link {name}")
-    return Link(name, None if inertial is None else _inertial(inertial, f"link {name}, inertial"))
+    return Link(
+        name,
+        None if inertial is None else _inertial(inertial, f"link {name}, inertial"),
+        shapes_of(element, "collision", name, folder),
+        shapes_of(element, "visual", name, folder),
+    )
 
 
 def _inertial(element: Element, where: str) -> Inertial:
