@@ -269,7 +269,7 @@ centering_steps : int, optional
     Steps that a redundant arm, having reached, takes towards the middle of its limits. Unless
     given, 0 from a start, which it would leave, else 10.
 steps : int
-    Of "pseudo_inverse".
+    Of "pseudo_inverse". As all counts here 10⁶ at most.
 seed : int
     Of the drawn starts.
 num_threads : int

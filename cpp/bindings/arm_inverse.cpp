@@ -49,8 +49,7 @@ Targets targets_argument(const py::object& object, InverseTask task) {
   const std::string shapes = task == InverseTask::kPosition
                                  ? "real numbers of shape (N, 4, 4), (4, 4), (N, 3) or (3,)"
                                  : "real numbers of shape (N, 4, 4) or (4, 4)";
-  const py::module_ numpy = py::module_::import("numpy");
-  const py::array array = numpy.attr("asarray")(object);
+  const py::array array = array_argument("poses", object, shapes);
   const py::ssize_t dims = array.ndim();
   const bool square = dims >= 2 && array.shape(dims - 1) == 4 && array.shape(dims - 2) == 4;
   Targets targets;

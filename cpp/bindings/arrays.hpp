@@ -12,22 +12,42 @@
 
 // The border between numpy and the engine. Arguments: shape and type are checked here, with the
 // argument's name, before anything else is done; float64 in C order is shared, anything else that
-// holds real numbers is converted once. Results: read-only arrays that share their memory.
+// holds real numbers is converted once. Masked values are refused: every array comes in through
+// array_argument. Results: read-only arrays that share their memory.
+//
+// A caller may write to an array while the engine works on it in another thread. What an object
+// keeps (PointCloud, TriangleMesh) is shared all the same and says so (SharedArray::writable); what
+// a function works on is a snapshot. Only rays are read in place: each row is read on its own, and
+// no index comes from it.
 
 namespace bathyal::python {
 
 namespace py = pybind11;
 
-/// (N, 3) real numbers.
+/// Any array, or what numpy makes one of; `expected` says what should have been given. None and an
+/// array with a masked value in it are refused.
+py::array array_argument(std::string_view name, const py::object& object,
+                         std::string_view expected);
+
+/// (N, 3) real numbers to work on, which nobody writes to.
 Points points_argument(std::string_view name, const py::object& object);
 
-/// A PointCloud as it is, or an (N, 3) array taken as one.
+/// (N, 3) real numbers, shared with the caller, to be kept or to be read row by row.
+Points shared_points_argument(std::string_view name, const py::object& object);
+
+/// A PointCloud, or an (N, 3) array taken as one, to work on.
 PointCloud cloud_argument(const py::object& object);
 
-/// (N,) real numbers.
+/// The same, shared with the caller.
+PointCloud shared_cloud_argument(const py::object& object);
+
+/// (N,) real numbers to work on, which nobody writes to.
 Values values_argument(std::string_view name, const py::object& object);
 
-/// (T, 3) whole numbers that fit in 32 bits.
+/// (N,) real numbers, shared with the caller, to be kept.
+Values shared_values_argument(std::string_view name, const py::object& object);
+
+/// (T, 3) whole numbers that fit in 32 bits, which nobody writes to.
 Triangles triangles_argument(std::string_view name, const py::object& object);
 
 /// Three real numbers, finite.
@@ -51,12 +71,19 @@ struct Rows {
 };
 Rows rows_argument(std::string_view name, const py::object& object, Index columns);
 
-/// A read-only numpy array over memory that `owner` keeps alive.
+/// Name of the capsule under an array of ours whose numbers nobody can write to.
+inline constexpr const char* kFinalNumbers = "bathyal.final_numbers";
+
+/// A read-only numpy array over memory that `owner` keeps alive; `writable`: a caller's own, who
+/// may write to it otherwise.
 template <class Scalar>
 py::array read_only_array(const Scalar* data, std::vector<py::ssize_t> shape,
-                          std::shared_ptr<const void> owner) {
+                          std::shared_ptr<const void> owner, bool writable = false) {
   auto* holder = new std::shared_ptr<const void>(std::move(owner));
-  py::capsule base(holder, [](void* p) { delete static_cast<std::shared_ptr<const void>*>(p); });
+  const py::capsule base(holder, writable ? nullptr : kFinalNumbers, [](PyObject* capsule) {
+    const char* name = PyCapsule_GetName(capsule);
+    delete static_cast<std::shared_ptr<const void>*>(PyCapsule_GetPointer(capsule, name));
+  });
   py::array_t<Scalar> array(std::move(shape), data, base);
   array.attr("setflags")(py::arg("write") = false);
   return array;
@@ -67,7 +94,7 @@ template <class Scalar, int Cols>
 py::array to_numpy(const SharedArray<Scalar, Cols>& array) {
   std::vector<py::ssize_t> shape{array.rows()};
   if constexpr (Cols != 1) shape.push_back(Cols);
-  return read_only_array(array.data(), std::move(shape), array.owner());
+  return read_only_array(array.data(), std::move(shape), array.owner(), array.writable());
 }
 
 /// Takes a vector over; `tail` are the dimensions after the first: {} for (N,), {3, 3} for (N, 3,

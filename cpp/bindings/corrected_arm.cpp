@@ -28,12 +28,8 @@ const Words<TipFrame>& frame_words() {
 /// as (k,).
 RowMatrix covariate_argument(const std::string& name, const py::object& object, Index columns) {
   const std::string argument = "covariates " + name;
-  const py::array array = py::array::ensure(object);
-  if (!array) {
-    PyErr_Clear();
-    throw_argument(argument, "real numbers of shape (), (N,) or (N, k)",
-                   py::str(py::type::of(object).attr("__name__")).cast<std::string>());
-  }
+  const py::array array =
+      array_argument(argument, object, "real numbers of shape (), (N,) or (N, k)");
   if (array.ndim() == 0) return covariate_argument(name, array.attr("reshape")(1), 1);
   if (array.ndim() == 1) {
     const Values values = values_argument(argument, array);
@@ -66,9 +62,8 @@ JointView view_of(const Rows& rows) {
 }
 
 Support::Range range_argument(const std::string& name, const py::object& object, Index columns) {
-  const py::array array = py::array::ensure(object);
-  if (!array || array.ndim() != 2 || array.shape(0) != 2) {
-    PyErr_Clear();
+  const py::array array = array_argument(name, object, "least and greatest, of shape (2, k)");
+  if (array.ndim() != 2 || array.shape(0) != 2) {
     throw_argument(name, "least and greatest, of shape (2, k)",
                    py::repr(object).cast<std::string>());
   }
@@ -80,10 +75,11 @@ std::vector<std::vector<Support::Gap>> gaps_argument(const py::sequence& gaps) {
   std::vector<std::vector<Support::Gap>> told;
   for (const py::handle& of_joint : gaps) {
     told.emplace_back();
-    const py::array array = py::array::ensure(of_joint);
-    if (array && array.size() == 0) continue;
-    const RowMatrix table = table_argument("gaps of joint " + std::to_string(told.size()),
-                                           py::reinterpret_borrow<py::object>(of_joint), 2);
+    const std::string name = "gaps of joint " + std::to_string(told.size());
+    const py::array array = array_argument(name, py::reinterpret_borrow<py::object>(of_joint),
+                                           "real numbers of shape (N, 2)");
+    if (array.size() == 0) continue;
+    const RowMatrix table = table_argument(name, array, 2);
     for (const auto& row : table.rowwise()) told.back().push_back({row[0], row[1]});
   }
   return told;

@@ -18,7 +18,7 @@ using PythonAttributes = std::map<std::string, py::object>;
 Attributes attributes_argument(const PythonAttributes& attributes) {
   Attributes result;
   for (const auto& [name, values] : attributes) {
-    result.emplace(name, values_argument("attributes[\"" + name + "\"]", values));
+    result.emplace(name, shared_values_argument("attributes[\"" + name + "\"]", values));
   }
   return result;
 }
@@ -90,7 +90,8 @@ Survey coordinates (10⁵ to 10⁷ m) are kept as they are. Read-only once made.
 Parameters
 ----------
 points : (N, 3) array
-    [m]. Shared, not copied, where it is float64 in C order: do not write to it afterwards.
+    [m]. Shared, not copied, where it is float64 in C order: do not write to it afterwards. A
+    function that is given the cloud works on a copy of what the array holds when it is called.
 attributes : dict of (N,) arrays, optional
     For instance ``uncertainty`` [m], ``intensity``, ``red``, ``green``, ``blue``.
 crs, vertical_datum : str, optional
@@ -105,7 +106,8 @@ Examples
 )")
       .def(py::init([](const py::object& points, const PythonAttributes& attributes,
                        std::string crs, std::string vertical_datum) {
-             return PointCloud(points_argument("points", points), attributes_argument(attributes),
+             return PointCloud(shared_points_argument("points", points),
+                               attributes_argument(attributes),
                                {std::move(crs), std::move(vertical_datum)});
            }),
            py::arg("points"), py::kw_only(), py::arg("attributes") = PythonAttributes{},
@@ -145,9 +147,10 @@ triangle uses are allowed: a mesh made from a cloud keeps its points row for row
 Parameters
 ----------
 vertices : (N, 3) array
-    [m], finite. Shared, not copied, where it is float64 in C order.
+    [m], finite. Shared, not copied, where it is float64 in C order: do not write to it
+    afterwards. A Scene keeps a copy.
 triangles : (T, 3) array of int
-    Rows of `vertices`.
+    Rows of `vertices`. Copied.
 attributes, crs, vertical_datum
     As in PointCloud, one value a vertex.
 
@@ -160,9 +163,10 @@ TriangleMesh(3 vertices, 1 triangle)
       .def(py::init([](const py::object& vertices, const py::object& triangles,
                        const PythonAttributes& attributes, std::string crs,
                        std::string vertical_datum) {
-             return TriangleMesh(
-                 points_argument("vertices", vertices), triangles_argument("triangles", triangles),
-                 attributes_argument(attributes), {std::move(crs), std::move(vertical_datum)});
+             return TriangleMesh(shared_points_argument("vertices", vertices),
+                                 triangles_argument("triangles", triangles),
+                                 attributes_argument(attributes),
+                                 {std::move(crs), std::move(vertical_datum)});
            }),
            py::arg("vertices"), py::arg("triangles"), py::kw_only(),
            py::arg("attributes") = PythonAttributes{}, py::arg("crs") = "",

@@ -16,13 +16,7 @@ namespace {
 // Arguments -------------------------------------------------------------------------------------
 
 py::array any_rows(std::string_view name, const py::object& object) {
-  py::array array = py::array::ensure(object);
-  if (!array) {
-    PyErr_Clear();
-    throw_argument(name, "an array of numbers",
-                   std::string(py::str(py::type::of(object).attr("__name__"))));
-  }
-  return array;
+  return array_argument(name, object, "an array of numbers");
 }
 
 RowMatrix joints_argument(const py::object& q, const py::object& q_deg) {
@@ -120,6 +114,10 @@ std::vector<KnownPoint> points_known(const py::object& object) {
                    std::string(py::str(py::type::of(object).attr("__name__"))));
   }
   for (const auto& [label, position] : object.cast<py::dict>()) {
+    if (!py::isinstance<py::int_>(label)) {
+      throw_argument("known_points", "a dict of label to (x, y, z)",
+                     "the label " + std::string(py::repr(label)));
+    }
     out.push_back({label.cast<int>(),
                    vector_argument("known_points", py::reinterpret_borrow<py::object>(position))});
   }

@@ -72,7 +72,7 @@ Made by `mesh_report`. Lengths in metres, angles in radians; ``print`` it to rea
       "mesh_report",
       [](const TriangleMesh& mesh, int num_threads) {
         const py::gil_scoped_release release;
-        return mesh_report(mesh, num_threads);
+        return mesh_report(mesh.snapshot(), num_threads);
       },
       py::arg("mesh"), py::kw_only(), py::arg("num_threads") = 0,
       R"(Measure a mesh: area, rims, pieces, defects, slopes, rugosity.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bindings.hpp"
+#include "call_errors.hpp"
 
 PYBIND11_MODULE(_core, module) {
   using namespace bathyal::python;
@@ -18,4 +19,5 @@ PYBIND11_MODULE(_core, module) {
   bind_plan_touches(module);
   bind_verify(module);
   bind_diagnosis(module);
+  guard_calls(module);
 }

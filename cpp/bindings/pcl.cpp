@@ -4,6 +4,7 @@
 #include "arrays.hpp"
 #include "bathyal/identify/registration.hpp"
 #include "bathyal/terrain/greedy.hpp"
+#include "call_errors.hpp"
 
 PYBIND11_MODULE(_pcl, module) {
   using namespace bathyal;
@@ -93,4 +94,5 @@ Returns
 (N,) int array
     Rows of `positions`, each once.
 )");
+  guard_calls(module);
 }

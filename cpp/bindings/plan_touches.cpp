@@ -79,13 +79,9 @@ Feasible feasible_argument(const py::object& function) {
   return [&function](const RowMatrix& q) {
     const py::gil_scoped_acquire acquire;
     const py::array rows = to_numpy(std::vector<double>(q.data(), q.data() + q.size()), {q.cols()});
-    const py::array answers = py::array::ensure(function(rows));
     const std::string expected =
         "it to return bool of shape (" + std::to_string(q.rows()) + ",), as many as rows";
-    if (!answers) {
-      PyErr_Clear();
-      throw_argument("feasible", expected, "what is no array");
-    }
+    const py::array answers = array_argument("feasible", function(rows), expected);
     if (answers.dtype().kind() != 'b' || answers.ndim() != 1 || answers.shape(0) != q.rows()) {
       throw_argument("feasible", expected,
                      std::string(py::str(answers.dtype())) + " of shape " +

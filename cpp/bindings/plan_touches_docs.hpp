@@ -104,7 +104,7 @@ criterion : {"worst_tip", "d_optimal", "o1"}
     calibration; 1991, Determination of optimal measurement configurations for robot calibration
     based on observability measure).
 candidates : int
-    Poses to choose from, for each point.
+    Poses to choose from, for each point; 10⁵ at most.
 passes : int
     At most so many rounds of exchange.
 parametrization, nearly_parallel, noise, length_prior, angle_prior, tool_prior

@@ -170,14 +170,9 @@ class PythonEffect final : public Effect {
     const std::string tail = width == 1 ? "" : ", " + std::to_string(width);
     const std::string expected = "real numbers of shape (" + std::to_string(rows) + ", " +
                                  std::to_string(parameters) + tail + ")";
-    const py::array array = py::array::ensure(result);
-    const bool real =
-        array && std::string_view("fiu").find(array.dtype().kind()) != std::string_view::npos;
-    if (!real) {
-      PyErr_Clear();
-      throw_argument(name(), expected,
-                     array ? "dtype " + py::str(array.dtype()).cast<std::string>()
-                           : py::str(py::type::of(result).attr("__name__")).cast<std::string>());
+    const py::array array = array_argument(name(), result, expected);
+    if (std::string_view("fiu").find(array.dtype().kind()) == std::string_view::npos) {
+      throw_argument(name(), expected, "dtype " + py::str(array.dtype()).cast<std::string>());
     }
     std::vector<Index> wanted{rows};
     // Of one parameter its own dimension may be left out.

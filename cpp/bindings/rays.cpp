@@ -82,17 +82,11 @@ class Hits {
   mutable py::object point_, normal_, barycentric_;
 };
 
-/// (N, 3), or (3,) as the one row that serves all.
+/// (N, 3), or (3,) as the one row that serves all; read in place.
 Points rows_argument(std::string_view name, const py::object& object) {
-  if (py::isinstance<py::array>(object) ? py::cast<py::array>(object).ndim() == 1
-                                        : py::isinstance<py::sequence>(object)) {
-    const py::array array = py::array::ensure(object);
-    if (array && array.ndim() == 1) {
-      return points_argument(name, array.attr("reshape")(1, -1));
-    }
-    PyErr_Clear();
-  }
-  return points_argument(name, object);
+  const py::array array = array_argument(name, object, "real numbers of shape (N, 3)");
+  if (array.ndim() == 1) return shared_points_argument(name, array.attr("reshape")(1, -1));
+  return shared_points_argument(name, array);
 }
 
 Hits cast_rays(const Scene& scene, const py::object& origins, const py::object& directions,
@@ -107,8 +101,9 @@ Hits cast_rays(const Scene& scene, const py::object& origins, const py::object& 
   return {std::move(hits), scene.meshes()};
 }
 
-Hits cast_brute_force(const TriangleMesh& mesh, const py::object& origins,
+Hits cast_brute_force(const TriangleMesh& given, const py::object& origins,
                       const py::object& directions, int num_threads) {
+  const TriangleMesh mesh = given.snapshot();
   const Points from = rows_argument("origins", origins);
   const Points along = rows_argument("directions", directions);
   auto hits = std::make_shared<HitArray>(static_cast<std::size_t>(along.rows()));

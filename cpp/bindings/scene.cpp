@@ -305,11 +305,12 @@ Scene(1 mesh, 1 triangle)
   scene
       .def(py::init([](const TriangleMesh& mesh, int num_threads) {
              const py::gil_scoped_release release;
-             return Scene({mesh}, num_threads);
+             return Scene({mesh.snapshot()}, num_threads);
            }),
            py::arg("mesh"), py::kw_only(), py::arg("num_threads") = 0)
       .def(py::init([](std::vector<TriangleMesh> meshes, int num_threads) {
              const py::gil_scoped_release release;
+             for (TriangleMesh& mesh : meshes) mesh = mesh.snapshot();
              return Scene(std::move(meshes), num_threads);
            }),
            py::arg("mesh"), py::kw_only(), py::arg("num_threads") = 0)

@@ -144,7 +144,7 @@ Fields beside x, y, z become attributes; `rgb` and `rgba` are taken apart into r
         options.attributes = std::move(attributes);
         options.num_threads = num_threads;
         const py::gil_scoped_release release;
-        write_xyz(path, cloud, options);
+        write_xyz(path, cloud.snapshot(), options);
       },
       py::arg("path"), py::arg("cloud"), py::kw_only(), py::arg("decimals") = defaults.decimals,
       py::arg("separator") = std::string(1, defaults.separator),

@@ -100,7 +100,7 @@ trench_depth, trench_width : float
 lines, beams : int
     Survey lines over the width, and beams a ping.
 altitude : float
-    Of the sounder above the mean height [m].
+    Of the sounder above the mean height [m]. Heights and depths of 20 km at most.
 opening : float
     Of the fan of beams [rad].
 ping_spacing : float

@@ -86,7 +86,7 @@ patch_points : int
 flat_share : float
     Share of the patches that must lie within `tolerance`.
 trials, seed : int
-    Random triples tried, and the seed of their choice.
+    Random triples tried (10⁶ at most), and the seed of their choice.
 num_threads : int
     0 = all. The same result for any.
 
@@ -210,7 +210,7 @@ void bind_triangulate(py::module_& module) {
   module.def(
       "triangulate",
       [](const py::object& cloud, std::optional<double> max_edge, int num_threads) {
-        const PointCloud input = cloud_argument(cloud);
+        const PointCloud input = shared_cloud_argument(cloud);  // the mesh keeps the points
         Triangulation result;
         {
           const py::gil_scoped_release release;

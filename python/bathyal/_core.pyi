@@ -58,7 +58,8 @@ class PointCloud:
     Parameters
     ----------
     points : (N, 3) array
-        [m]. Shared, not copied, where it is float64 in C order: do not write to it afterwards.
+        [m]. Shared, not copied, where it is float64 in C order: do not write to it afterwards. A
+        function that is given the cloud works on a copy of what the array holds when it is called.
     attributes : dict of (N,) arrays, optional
         For instance ``uncertainty`` [m], ``intensity``, ``red``, ``green``, ``blue``.
     crs, vertical_datum : str, optional
@@ -111,9 +112,10 @@ class TriangleMesh:
     Parameters
     ----------
     vertices : (N, 3) array
-        [m], finite. Shared, not copied, where it is float64 in C order.
+        [m], finite. Shared, not copied, where it is float64 in C order: do not write to it
+        afterwards. A Scene keeps a copy.
     triangles : (T, 3) array of int
-        Rows of `vertices`.
+        Rows of `vertices`. Copied.
     attributes, crs, vertical_datum
         As in PointCloud, one value a vertex.
     
@@ -1526,7 +1528,7 @@ class Arm:
             Steps that a redundant arm, having reached, takes towards the middle of its limits. Unless
             given, 0 from a start, which it would leave, else 10.
         steps : int
-            Of "pseudo_inverse".
+            Of "pseudo_inverse". As all counts here 10⁶ at most.
         seed : int
             Of the drawn starts.
         num_threads : int
@@ -3522,7 +3524,7 @@ def fit_plane(cloud: typing.Any, *, tolerance: typing.SupportsFloat | typing.Sup
     flat_share : float
         Share of the patches that must lie within `tolerance`.
     trials, seed : int
-        Random triples tried, and the seed of their choice.
+        Random triples tried (10⁶ at most), and the seed of their choice.
     num_threads : int
         0 = all. The same result for any.
     
@@ -3627,7 +3629,7 @@ def generate_survey(*, seed: typing.SupportsInt | typing.SupportsIndex = 0, orig
     lines, beams : int
         Survey lines over the width, and beams a ping.
     altitude : float
-        Of the sounder above the mean height [m].
+        Of the sounder above the mean height [m]. Heights and depths of 20 km at most.
     opening : float
         Of the fan of beams [rad].
     ping_spacing : float
@@ -3909,7 +3911,7 @@ def plan_touches(arm: Arm, count: typing.SupportsInt | typing.SupportsIndex, *, 
         calibration; 1991, Determination of optimal measurement configurations for robot calibration
         based on observability measure).
     candidates : int
-        Poses to choose from, for each point.
+        Poses to choose from, for each point; 10⁵ at most.
     passes : int
         At most so many rounds of exchange.
     parametrization, nearly_parallel, noise, length_prior, angle_prior, tool_prior

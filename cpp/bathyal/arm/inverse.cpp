@@ -20,9 +20,8 @@ using arm::PlainPose;
 constexpr std::size_t kGrain = 16;  ///< targets of one task
 
 void check_count(std::string_view name, int value, int least) {
-  if (value < least) {
-    throw_argument(name, std::to_string(least) + " or more", std::to_string(value));
-  }
+  constexpr int kMost = 1'000'000;  // of one target: seconds
+  check_range(name, value, least, kMost);
 }
 
 std::string in_row(std::size_t row) { return " in row " + std::to_string(row); }

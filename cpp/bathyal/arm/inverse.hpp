@@ -45,13 +45,13 @@ struct InverseOptions {
   std::optional<double> position_tolerance = std::nullopt;
   std::optional<double> angle_tolerance =
       std::nullopt;         ///< [rad] above 0; when nothing is said as many as above
-  int max_iterations = 60;  ///< of one start, 1 or more
-  int max_starts = 64;      ///< 1 or more; the given one is the first
-  int candidates = 1;       ///< the search goes on until so many starts have reached, 1 or more
-  /// Steps that a redundant arm takes towards the middle of its limits once it has reached, 0 or
-  /// more; when nothing is said 0 from a given start, which it would leave, else 10.
+  int max_iterations = 60;  ///< of one start, 1 to 10⁶
+  int max_starts = 64;      ///< 1 to 10⁶; the given one is the first
+  int candidates = 1;       ///< the search goes on until so many starts have reached, 1 to 10⁶
+  /// Steps that a redundant arm takes towards the middle of its limits once it has reached, 0 to
+  /// 10⁶; when nothing is said 0 from a given start, which it would leave, else 10.
   std::optional<int> centering_steps = std::nullopt;
-  int steps = 100;         ///< of kPseudoInverse along the line, 1 or more
+  int steps = 100;         ///< of kPseudoInverse along the line, 1 to 10⁶
   std::uint64_t seed = 0;  ///< of the starts
   int num_threads = 0;
 

@@ -95,7 +95,8 @@ void DiagnoseOptions::check() const {
   check_range("blocks", blocks, 3, 50);
   check_range("rival_odds", rival_odds, 0.0, 1.0);
   check_not_negative("leftover", leftover);
-  check_not_negative("num_next_poses", num_next_poses);
+  constexpr int kMostNextPoses = 1000;
+  check_range("num_next_poses", num_next_poses, 0, kMostNextPoses);
 }
 
 Diagnosis diagnose(const Arm& arm, const Touches& touches, const DiagnoseOptions& options,

@@ -23,7 +23,7 @@ struct DiagnoseOptions {
   /// Structure left over, as a share of the variance that the names removed, from which they are
   /// not the cause; 0 or more.
   double leftover = 0.25;
-  int num_next_poses = 8;  ///< of `next_poses`, 0 or more
+  int num_next_poses = 8;  ///< of `next_poses`, 0 to 1 000
   int num_threads = 0;     ///< 0 = all; the same bytes for any number
 
   void check() const;

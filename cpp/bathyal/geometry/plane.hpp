@@ -12,7 +12,8 @@ class Plane {
   Plane() = default;
 
   /// Scales both so that the normal is of unit length.
-  /// \throw std::invalid_argument for a normal of zero length or a value that is not finite.
+  /// \throw std::invalid_argument for a normal of zero length, a value that is not finite, or an
+  /// offset that is not when it is scaled.
   Plane(const Vec3& normal, double offset);
 
   static Plane through(const Vec3& point, const Vec3& normal);

@@ -14,6 +14,10 @@ PointCloud::PointCloud(Points points, Attributes attributes, Datum datum)
   check_attributes(attributes_, points_.rows());
 }
 
+PointCloud PointCloud::snapshot() const {
+  return PointCloud(points_.snapshot(), bathyal::snapshot(attributes_), datum_);
+}
+
 Vec3 local_origin(PointView points) {
   Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity());
   Vec3 high = -low;
@@ -44,6 +48,12 @@ void check_attributes(const Attributes& attributes, Index count) {
                      std::to_string(values.rows()));
     }
   }
+}
+
+Attributes snapshot(const Attributes& attributes) {
+  Attributes result;
+  for (const auto& [name, values] : attributes) result.emplace(name, values.snapshot());
+  return result;
 }
 
 }  // namespace bathyal

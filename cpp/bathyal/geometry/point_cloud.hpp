@@ -34,6 +34,9 @@ class PointCloud {
   const Datum& datum() const { return datum_; }
   Index size() const { return points_.rows(); }
 
+  /// The same cloud over points and attributes that nobody can write to: see SharedArray.
+  PointCloud snapshot() const;
+
  private:
   Points points_;
   Attributes attributes_;
@@ -49,5 +52,8 @@ void check_points_finite(std::string_view name, PointView points);
 
 /// \throw std::invalid_argument when an attribute's length is not `count`.
 void check_attributes(const Attributes& attributes, Index count);
+
+/// A snapshot of each.
+Attributes snapshot(const Attributes& attributes);
 
 }  // namespace bathyal

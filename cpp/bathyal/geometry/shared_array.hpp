@@ -11,9 +11,13 @@ namespace bathyal {
 using Eigen::Index;
 using Vec3 = Eigen::Vector3d;
 
-/// An immutable (rows, Cols) row-major array whose memory is shared, not copied: a cloud, the mesh
-/// made from it and the numpy arrays that show them all point at the same numbers. The owner may be
-/// a matrix of ours or anything else that keeps the memory alive (a numpy array).
+/// A (rows, Cols) row-major array whose memory is shared, not copied: a cloud, the mesh made from
+/// it and the numpy arrays that show them all point at the same numbers. The owner may be a matrix
+/// of ours or anything else that keeps the memory alive (a numpy array). Nothing here writes to it;
+/// a caller may still write to an array that it gave (`writable`). So an algorithm that counts,
+/// sorts or indexes by the values, or relies on a check of them, works on a `snapshot()`: checked
+/// and read are then the same numbers. What is kept and only shown to the caller again stays
+/// shared.
 template <class Scalar, int Cols>
 class SharedArray {
  public:
@@ -31,20 +35,28 @@ class SharedArray {
     owner_ = std::move(owned);
   }
 
-  /// Shares `rows` rows at `data`, which `owner` keeps alive.
-  SharedArray(const Scalar* data, Index rows, std::shared_ptr<const void> owner)
-      : data_(data), rows_(rows), owner_(std::move(owner)) {}
+  /// Shares `rows` rows at `data`, which `owner` keeps alive. `writable`: somebody else may still
+  /// write to them.
+  SharedArray(const Scalar* data, Index rows, std::shared_ptr<const void> owner,
+              bool writable = false)
+      : data_(data), rows_(rows), owner_(std::move(owner)), writable_(writable) {}
+
+  /// The numbers as they are now, which nobody can write to: this array itself, or where somebody
+  /// may write to it a copy.
+  SharedArray snapshot() const { return writable_ ? SharedArray(Matrix(view())) : *this; }
 
   View view() const { return View(data_, rows_, Cols); }
   const Scalar* data() const { return data_; }
   Index rows() const { return rows_; }
   bool empty() const { return rows_ == 0; }
+  bool writable() const { return writable_; }
   const std::shared_ptr<const void>& owner() const { return owner_; }
 
  private:
   const Scalar* data_ = nullptr;
   Index rows_ = 0;
   std::shared_ptr<const void> owner_;
+  bool writable_ = false;
 };
 
 using Points = SharedArray<double, 3>;           ///< (N, 3) positions or vectors

@@ -24,12 +24,17 @@ void check_indices(TriangleView triangles, Index vertex_count) {
 
 TriangleMesh::TriangleMesh(Points vertices, Triangles triangles, Attributes attributes, Datum datum)
     : vertices_(std::move(vertices)),
-      triangles_(std::move(triangles)),
+      triangles_(std::move(triangles).snapshot()),
       attributes_(std::move(attributes)),
       datum_(std::move(datum)) {
   check_points_finite("vertices", vertices_.view());
   check_indices(triangles_.view(), vertices_.rows());
   check_attributes(attributes_, vertices_.rows());
+}
+
+TriangleMesh TriangleMesh::snapshot() const {
+  if (!vertices_.writable()) return *this;
+  return {vertices_.snapshot(), triangles_, bathyal::snapshot(attributes_), datum_};
 }
 
 }  // namespace bathyal

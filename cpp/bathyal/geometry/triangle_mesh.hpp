@@ -8,7 +8,9 @@ namespace bathyal {
 /// Vertices and the triangles over them, counter-clockwise seen from outside (from above, for a
 /// bottom). Invariants: every vertex is finite, every index names a vertex. Vertices that no
 /// triangle uses are allowed: a mesh made from a cloud keeps its points row for row, so that vertex
-/// i is sounding i. Immutable, cheap to copy.
+/// i is sounding i. Immutable, cheap to copy; of vertices that a caller can write to, and so make
+/// the first invariant false, what computes takes a snapshot(). Triangles are always the mesh's
+/// own: indices that change after they were checked reach outside of the vertices.
 class TriangleMesh {
  public:
   TriangleMesh() = default;
@@ -25,6 +27,10 @@ class TriangleMesh {
   const Datum& datum() const { return datum_; }
   Index vertex_count() const { return vertices_.rows(); }
   Index triangle_count() const { return triangles_.rows(); }
+
+  /// The same mesh over arrays that nobody can write to: see SharedArray.
+  /// \throw std::invalid_argument as the constructor, of what is written in them by now.
+  TriangleMesh snapshot() const;
 
   /// Corner `corner` (0, 1, 2) of triangle `triangle`.
   Vec3 corner(Index triangle, int corner) const {

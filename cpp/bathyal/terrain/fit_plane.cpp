@@ -21,6 +21,7 @@ constexpr std::size_t kDistanceGrain = 1 << 15;
 constexpr Index kMaxRanked = 2000;  // points that rank a trial; the median needs no more
 constexpr double kFarthest = 1e75;  // so that fourth powers of coordinates stay finite
 constexpr int kLineTrials = 50;
+constexpr int kMostTrials = 1'000'000;         // half a minute; a thousand are plenty
 constexpr double kMadToSigma = 1.482602218;    // of normal residuals
 constexpr double kCut = 3.0;                   // sigmas within which a point is an inlier
 constexpr double kCutToSigma = 1.0 / 0.98658;  // rms of normal residuals cut at 3 sigma
@@ -291,7 +292,7 @@ void FitPlaneOptions::check() const {
   if (patch_points < 5) throw_argument("patch_points", "5 or more", std::to_string(patch_points));
   check_positive("flat_share", flat_share);
   check_range("flat_share", flat_share, 0.0, 1.0);
-  if (trials < 1) throw_argument("trials", "1 or more", std::to_string(trials));
+  check_range("trials", trials, 1, kMostTrials);
   resolve_threads(num_threads);
 }
 

@@ -16,7 +16,7 @@ struct FitPlaneOptions {
   int patch_points = 50;
   /// Share of the patches that must lie within `tolerance`, above 0 to 1.
   double flat_share = 0.99;
-  int trials = 500;        ///< planes through three random points that are tried, 1 or more
+  int trials = 500;        ///< planes through three random points that are tried, 1 to 10⁶
   std::uint64_t seed = 1;  ///< of their choice
   int num_threads = 0;     ///< 0 = all; the result is the same for any number
 

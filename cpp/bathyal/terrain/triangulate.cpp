@@ -8,12 +8,13 @@
 namespace bathyal {
 
 Triangulation triangulate(const PointCloud& cloud, const DelaunayOptions& options) {
-  check_clean("cloud", cloud.points());
-  const Delaunay result = delaunay(cloud.points(), options);
+  const Points points = cloud.shared_points().snapshot();
+  check_clean("cloud", points.view());
+  const Delaunay result = delaunay(points.view(), options);
   FindSheetsOptions sheet_options;
   sheet_options.num_threads = options.num_threads;
   return {TriangleMesh(cloud.shared_points(), result.triangles, cloud.attributes(), cloud.datum()),
-          find_sheets(cloud.points(), sheet_options), result.max_edge, result.cut_triangles,
+          find_sheets(points.view(), sheet_options), result.max_edge, result.cut_triangles,
           result.merged_points};
 }
 

@@ -89,9 +89,8 @@ void ForecastOptions::check() const {
   check_positive("angle_prior", angle_prior);
   check_positive("tool_prior", tool_prior);
   if (!workspace.allFinite()) throw_argument("workspace", "finite numbers", "nan or inf");
-  if (workspace_poses < 1) {
-    throw_argument("workspace_poses", "1 or more", std::to_string(workspace_poses));
-  }
+  constexpr int kMostPoses = 1'000'000;
+  check_range("workspace_poses", workspace_poses, 1, kMostPoses);
 }
 
 TouchForecast forecast_touches(const Arm& arm, const Touches& touches,

@@ -21,7 +21,7 @@ struct ForecastOptions {
   double tool_prior = 1e-2;                  ///< of each coordinate of the tool's tip [m], above 0
   /// (S, n) poses in which the tip's deviation counts; empty: `workspace_poses` drawn at random.
   RowMatrix workspace;
-  int workspace_poses = 400;  ///< 1 or more
+  int workspace_poses = 400;  ///< 1 to 10⁶
   std::uint64_t seed = 0;
   int num_threads = 0;  ///< 0 = all; the same bytes for any number
 

@@ -16,6 +16,12 @@
 namespace bathyal {
 namespace {
 
+// Limits of what fits into memory and ends within hours.
+constexpr int kMostTouches = 100'000;
+constexpr int kMostPoints = 1000;
+constexpr int kMostCandidates = 100'000;  ///< for each point
+constexpr int kMostPasses = 10'000;
+
 constexpr double kLengthUnit = 1e-3;  ///< of lengths among scaled columns [m]
 /// How far a point may lie from where it is said to: so far that it tells nothing beside touches
 /// [m].
@@ -220,17 +226,18 @@ std::string_view to_text(TouchCriterion criterion) {
 void PlanTouchesOptions::check() const {
   forecast.check();
   if (!points.allFinite()) throw_argument("points", "finite numbers", "nan or inf");
-  if (num_points < 1) throw_argument("num_points", "1 or more", std::to_string(num_points));
+  check_range("num_points", num_points, 1, kMostPoints);
   check_positive("distance_std", distance_std);
   check_positive("point_std", point_std);
   if (floor) check_finite("floor", *floor);
-  if (candidates < 2) throw_argument("candidates", "2 or more", std::to_string(candidates));
-  if (passes < 0) throw_argument("passes", "0 or more", std::to_string(passes));
+  check_range("candidates", candidates, 2, kMostCandidates);
+  check_range("passes", passes, 0, kMostPasses);
 }
 
 TouchPlan plan_touches(const Arm& arm, int count, const PlanTouchesOptions& options) {
   options.check();
   if (count < 2) throw_argument("count", "2 or more touches", std::to_string(count));
+  check_range("count", count, 2, kMostTouches);
   check_workspace(arm, options.forecast);
   const TouchModel model = make_touch_model(arm, kind_of(options), options.forecast);
   const bool given = options.forecast.workspace.rows() > 0;

@@ -28,7 +28,7 @@ struct PlanTouchesOptions {
   /// (3, k) where the points stand, world [m]; no column: `num_points` are chosen where the arm
   /// can reach from many sides, apart from each other.
   Eigen::Matrix3Xd points = Eigen::Matrix3Xd(3, 0);
-  int num_points = 3;  ///< 1 or more
+  int num_points = 3;  ///< 1 to 1 000
   /// Points, by their number 0 … k - 1, whose distance from each other will be told.
   std::vector<std::pair<int, int>> known_distances;
   double distance_std = 1e-4;     ///< of such a distance [m], above 0
@@ -37,8 +37,8 @@ struct PlanTouchesOptions {
   Feasible feasible;              ///< empty: all poses within the limits
   /// Height in the world that no joint and no tip may go below [m].
   std::optional<double> floor;
-  int candidates = 600;  ///< poses to choose from, for each point; 2 or more
-  int passes = 10;       ///< at most so many rounds of exchange, 0 or more
+  int candidates = 600;  ///< poses to choose from, for each point; 2 to 10⁵
+  int passes = 10;       ///< at most so many rounds of exchange, 0 to 10⁴
   ForecastOptions forecast;
 
   /// \throw std::invalid_argument

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from bathyal import _core
 from bathyal._core import PointCloud
+from bathyal.arrays import unmasked
 from bathyal.errors import argument_error
 from bathyal.io.files import PathLike, known_suffix, opened, reading
 from bathyal.io.formats.attributes import canonical_attributes, columns_of
@@ -178,7 +179,7 @@ _TEXT_KEYWORDS = {
 
 def _factors(scale: float | Sequence[float] | None) -> NDArray[np.float64]:
     try:
-        factors = np.asarray(1.0 if scale is None else scale, np.float64)
+        factors = unmasked("scale", 1.0 if scale is None else scale).astype(np.float64)
     except (TypeError, ValueError):
         factors = np.empty(0)
     if factors.shape not in ((), (3,)) or not np.all((factors > 0) & np.isfinite(factors)):

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from bathyal._core import PointCloud
+from bathyal.arrays import unmasked
 from bathyal.io.files import replacing
 
 # Where an operator might point, as shares of the survey's length and width: along the sand waves,
@@ -41,5 +42,5 @@ def write_aims(aims: ArrayLike, path: str | os.PathLike[str]) -> None:
     with replacing(path) as aside, open(aside, "w", encoding="utf-8") as stream:
         stream.write("# camera axes in the survey's frame: a point and a direction each\n")
         stream.write("px_m,py_m,pz_m,dx,dy,dz\n")
-        for row in np.asarray(aims, float).tolist():
+        for row in unmasked("aims", aims).astype(float).tolist():
             stream.write(",".join(map(repr, row)) + "\n")

@@ -18,6 +18,7 @@ from mpl_toolkits.mplot3d.art3d import (  # type: ignore[import-untyped]
 from numpy.typing import ArrayLike, NDArray
 
 from bathyal._core import Arm
+from bathyal.arrays import unmasked
 from bathyal.errors import argument_error
 from bathyal.io.files import PathLike, replacing
 from bathyal.view.arm_solid import Part, Posture, posture, resting_pose, size_of, solid
@@ -153,8 +154,9 @@ def plot_arm(arm: Arm, q: ArrayLike | None = None, path: PathLike | None = None)
 
 def _postures(arm: Arm, q: ArrayLike | None) -> list[Posture]:
     expected = f"real numbers of shape ({arm.size},) or (N, {arm.size}), N at least 1"
+    given = None if q is None else unmasked("q", q)
     try:
-        poses = np.atleast_2d(resting_pose(arm) if q is None else np.asarray(q, float))
+        poses = np.atleast_2d(resting_pose(arm) if q is None else np.asarray(given, float))
     except (TypeError, ValueError):
         raise argument_error("q", expected, repr(q)) from None
     if poses.ndim != 2 or poses.shape[1] != arm.size or len(poses) == 0:

@@ -8,10 +8,10 @@ import textwrap
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
+from bathyal.arrays import unmasked
 from bathyal.io.files import replacing
 from bathyal.view import map as map_figure
 from bathyal.view import profile as profile_figure
@@ -67,7 +67,7 @@ def plan_figure(
     matplotlib.figure.Figure
         With an Agg canvas of its own: no window, and nothing of pyplot's state is touched.
     """
-    aims = np.asarray(aims, float).reshape(-1, 6)
+    aims = unmasked("aims", aims).astype(float).reshape(-1, 6)
     figure = Figure(figsize=_SIZE_IN, dpi=_DPI, facecolor="white")
     FigureCanvasAgg(figure)
     aspect = _MAP[2] * _SIZE_IN[0] / (_MAP[3] * _SIZE_IN[1])

@@ -16,6 +16,7 @@ import plotly.graph_objects as go  # type: ignore[import-untyped]
 from numpy.typing import NDArray
 
 from bathyal._core import Plane, PointCloud, Scene, ToolPath, TriangleMesh
+from bathyal.arrays import unmasked
 from bathyal.view.decimate import Indices, crop, decimate
 from bathyal.view.palette import INK
 from bathyal.view.relief import bounds
@@ -87,7 +88,7 @@ def show_plan(surface: Scene | Plane, aims: NDArray[Any], path: ToolPath) -> go.
         In the frame of the surface [m].
     path : ToolPath
     """
-    aims = np.asarray(aims, float).reshape(-1, 6)
+    aims = unmasked("aims", aims).astype(float).reshape(-1, 6)
     parts, note = _bottom_parts(surface, aims, path)
     vertices = [part[0] for part in parts]
     low, high = _box(np.vstack([path.surface, path.position, path.targets.point, *vertices]))

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <memory>
 #include <stdexcept>
 
 #include "bathyal/geometry/plane.hpp"
@@ -29,6 +30,43 @@ TEST(Plane, RefusesAZeroOrInfiniteNormal) {
   EXPECT_THROW(Plane(Vec3::Zero(), 1.0), std::invalid_argument);
   EXPECT_THROW(Plane(Vec3(0, 0, INFINITY), 1.0), std::invalid_argument);
   EXPECT_THROW(Plane(Vec3::UnitZ(), NAN), std::invalid_argument);
+}
+
+TEST(Plane, OfADenormalNormalIsAsAnyOtherOrRefused) {
+  constexpr double kLeast = 5e-324;
+  EXPECT_EQ(Plane(Vec3(0, 0, kLeast), 0.0).normal(), Vec3::UnitZ());
+  EXPECT_DOUBLE_EQ(Plane(Vec3(0, 0, kLeast), kLeast).offset(), 1.0);
+  EXPECT_NEAR(Plane(Vec3(3 * kLeast, 0, 4 * kLeast), 0.0).normal().x(), 0.6, 1e-15);
+  EXPECT_NEAR(Plane::through(Vec3(0, 0, 5), Vec3(3, 0, 4) * kLeast).offset(), 4.0, 1e-14);
+  EXPECT_DOUBLE_EQ(Plane(Vec3(0, 0, 1e-200), 1e-190).offset(), 1e10);
+  EXPECT_THROW(Plane(Vec3(0, 0, kLeast), 1.0), std::invalid_argument);
+  EXPECT_THROW(Plane(Vec3(0, 0, 1e-200), 1e200), std::invalid_argument);
+}
+
+TEST(SharedArray, SnapshotsWhatSomebodyMayWriteTo) {
+  auto buffer = std::make_shared<PointMatrix>(three_points());
+  const Points given(buffer->data(), 3, buffer, true);
+  const Points taken = given.snapshot();
+  EXPECT_TRUE(given.writable());
+  EXPECT_FALSE(taken.writable());
+  buffer->setConstant(7.0);
+  EXPECT_EQ(given.view()(0, 0), 7.0);
+  EXPECT_EQ(taken.view(), three_points());
+  EXPECT_EQ(taken.snapshot().data(), taken.data());
+}
+
+TEST(TriangleMesh, CopiesTrianglesThatSomebodyMayWriteTo) {
+  auto buffer = std::make_shared<TriangleMatrix>(1, 3);
+  *buffer << 0, 1, 2;
+  auto vertices = std::make_shared<PointMatrix>(three_points());
+  const TriangleMesh mesh(Points(vertices->data(), 3, vertices, true),
+                          Triangles(buffer->data(), 1, buffer, true));
+  const TriangleMesh taken = mesh.snapshot();
+  *buffer << 9, 9, 9;
+  EXPECT_EQ(mesh.triangles(), (TriangleMatrix(1, 3) << 0, 1, 2).finished());
+  (*vertices)(0, 0) = NAN;
+  EXPECT_TRUE(taken.vertices().allFinite());
+  EXPECT_THROW(mesh.snapshot(), std::invalid_argument);
 }
 
 TEST(TriangleMesh, SharesWhatItIsGiven) {

@@ -141,6 +141,23 @@ TEST(Nearest, TiesGiveTheLowestTriangle) {
   }
 }
 
+TEST(Nearest, ATriangleOfDenormalSizeIsAPoint) {
+  for (const double size : {5e-324, 1e-310, 1e-200, 1e-162}) {
+    PointMatrix corners(3, 3);
+    corners << 0, 0, 0, size, 0, 0, 0, size, 0;
+    TriangleMatrix triangle(1, 3);
+    triangle << 0, 1, 2;
+    const Scene scene({TriangleMesh(corners, triangle)});
+    for (const Vec3& query : {Vec3(1, 2, 2), Vec3(-1, -2, -2), Vec3(3, 0, 0), Vec3(0, 3, 0)}) {
+      const NearestPoint found = scene.nearest(query);
+      EXPECT_DOUBLE_EQ(found.distance, 3.0) << size;
+      EXPECT_LE(found.point.norm(), 2 * size);
+      EXPECT_TRUE(found.u >= 0.0 && found.v >= 0.0 && found.u + found.v <= 1.0) << size;
+      EXPECT_EQ(found.triangle, 0);
+    }
+  }
+}
+
 TEST(Nearest, EmptySceneAnswersInfinity) {
   const NearestPoint found = Scene({TriangleMesh()}).nearest(Vec3::Zero());
   EXPECT_EQ(found.distance, std::numeric_limits<double>::infinity());

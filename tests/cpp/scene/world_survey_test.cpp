@@ -128,6 +128,24 @@ TEST(Survey, RefusesOptionsOutOfRange) {
   EXPECT_THROW(generate_survey(options), std::invalid_argument);
   EXPECT_THROW(survey_height(Values(Values::Matrix::Zero(2)), Values(Values::Matrix::Zero(3))),
                std::invalid_argument);
+  for (const double bad : {static_cast<double>(NAN), static_cast<double>(INFINITY)}) {
+    const Values zero(Values::Matrix::Zero(1)), place(Values::Matrix::Constant(1, bad));
+    EXPECT_THROW(survey_height(place, zero), std::invalid_argument);
+    EXPECT_THROW(survey_height(zero, place), std::invalid_argument);
+  }
+}
+
+TEST(Survey, RefusesHeightsThatNoBeamCouldBeFollowedTo) {
+  for (double SurveyOptions::*field :
+       {&SurveyOptions::altitude, &SurveyOptions::wave_height, &SurveyOptions::ripple_height,
+        &SurveyOptions::roughness, &SurveyOptions::boulder_radius, &SurveyOptions::trench_depth}) {
+    SurveyOptions options = small();
+    options.*field = 1e12;
+    EXPECT_THROW(generate_survey(options), std::invalid_argument);
+  }
+  SurveyOptions options = small();
+  options.altitude = 20000.0;
+  EXPECT_GT(generate_survey(options).size(), 0);
 }
 
 }  // namespace

@@ -35,7 +35,7 @@ OnEdge closest_on_edge(const Vec3& from, const Vec3& to, const Vec3& query) {
   const double length = edge.squaredNorm();
   double t = 0.0;
   Vec3 point = from;
-  if (along >= length && length > 0.0) {
+  if (along >= length && along > 0.0) {  // also where the square of a tiny edge is zero
     t = 1.0;
     point = to;
   } else if (along > 0.0) {

@@ -15,6 +15,9 @@ namespace {
 
 constexpr double kFullTurn = 2.0 * std::numbers::pi;
 constexpr double kMostSoundings = 1e8;
+// Of all that is upright [m]: deeper than any sea, and ranges of it are known to far below 0.1 mm,
+// to which a beam is followed (first_range).
+constexpr double kHighest = 20000.0;
 constexpr std::uint64_t kMotionStream = 0x100;
 constexpr std::uint64_t kBeamStream = std::uint64_t{1} << 32U;
 
@@ -155,6 +158,14 @@ Sounding sound(const SurveyOptions& options, const GeneratedSeabed& seabed, cons
           std::hypot(range_std * cosine, options.angle_noise * range * sine), intensity};
 }
 
+void check_finite_rows(std::string_view name, const Values& values) {
+  for (Index i = 0; i < values.rows(); ++i) {
+    if (std::isfinite(values.data()[i])) continue;
+    throw_argument(name, "finite numbers",
+                   to_text(values.data()[i]) + " in row " + std::to_string(i));
+  }
+}
+
 }  // namespace
 
 void SurveyOptions::check() const {
@@ -177,6 +188,14 @@ void SurveyOptions::check() const {
                                     {"range_noise_rate", range_noise_rate},
                                     {"angle_noise", angle_noise}}) {
     check_not_negative(name, value);
+  }
+  for (const auto& [name, value] : {std::pair{"altitude", altitude},
+                                    {"wave_height", wave_height},
+                                    {"ripple_height", ripple_height},
+                                    {"roughness", roughness},
+                                    {"boulder_radius", boulder_radius},
+                                    {"trench_depth", trench_depth}}) {
+    check_range(name, value, 0.0, kHighest);
   }
   check_range("opening", opening, 1e-3, 2.8);
   check_range("spike_fraction", spike_fraction, 0.0, 1.0);
@@ -224,6 +243,8 @@ Values survey_height(const Values& x, const Values& y, const SurveyOptions& opti
   if (x.rows() != y.rows()) {
     throw_argument("y", std::to_string(x.rows()) + " values, as x has", std::to_string(y.rows()));
   }
+  check_finite_rows("x", x);
+  check_finite_rows("y", y);
   const GeneratedSeabed seabed(options);
   Values::Matrix height(x.rows());
   parallel_for(static_cast<std::size_t>(x.rows()), 4096, options.num_threads,

@@ -41,7 +41,8 @@ struct SurveyOptions {
 
   int num_threads = 0;  ///< 0: all
 
-  /// \throw std::invalid_argument, also for more than 10⁸ soundings.
+  /// \throw std::invalid_argument, also for more than 10⁸ soundings, and for heights, depths and a
+  /// boulder's radius above 20 km.
   void check() const;
 };
 
@@ -89,6 +90,7 @@ class GeneratedSeabed {
 PointCloud generate_survey(const SurveyOptions& options = {});
 
 /// The true height [m] at survey coordinates x, y [m] of the survey that these options give.
+/// \throw std::invalid_argument for a place that is not finite.
 Values survey_height(const Values& x, const Values& y, const SurveyOptions& options = {});
 
 }  // namespace bathyal

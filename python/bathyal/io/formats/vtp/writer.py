@@ -12,6 +12,7 @@ from xml.sax.saxutils import quoteattr
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from bathyal.arrays import unmasked
 from bathyal.errors import argument_error
 from bathyal.io.files import PathLike, replacing
 from bathyal.io.formats.meshes.cells import Cells, cells_of
@@ -79,7 +80,7 @@ def write_vtp(
     """
     if encoding not in ("raw", "base64"):
         raise argument_error("encoding", '"raw" or "base64"', repr(encoding))
-    table = np.asarray(points, np.float64)
+    table = unmasked("points", points).astype(np.float64, copy=False)
     if table.ndim != 2 or table.shape[1] != 3:
         raise argument_error("points", "shape (N, 3)", f"shape {table.shape}")
     cells = {
@@ -134,7 +135,7 @@ def _rows(
     """The arrays of one section, each of a kind that the format knows and of `count` rows."""
     arrays = {}
     for name, values in (data or {}).items():
-        array = np.atleast_1d(np.asarray(values))
+        array = np.atleast_1d(unmasked(f"{key}[{name!r}]", values))
         if array.dtype == bool:
             array = array.astype(np.uint8)
         if array.dtype.kind != "U" and array.dtype.newbyteorder("<") not in _NAMES:
