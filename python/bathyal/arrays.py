@@ -14,7 +14,7 @@ from bathyal.errors import argument_error
 def unmasked(name: str, values: ArrayLike) -> NDArray[Any]:
     """`values` as an array; ValueError where one of them is masked, as the engine's own check."""
     if np.ma.is_masked(values):
-        mask = np.ma.getmaskarray(values)
+        mask = np.ma.getmaskarray(np.ma.asarray(values))
         got = f"{np.count_nonzero(mask)} masked of {mask.size}"
         raise argument_error(name, "an array without masked values", got)
     return np.asarray(values)
