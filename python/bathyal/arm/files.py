@@ -41,8 +41,9 @@ def read_arm(path: PathLike, **options: Any) -> Arm | CorrectedArm:
     OSError
         Where there is no such file, or it may not be read.
     Error
-        For a file that is broken, of another format or of a version that is not known, and for an
-        effect of your own that was not registered (`bathyal.effects.register`).
+        For a file that is broken, of another format or of a version that is not known, for one
+        that is not as the manifest of its folder says, and for an effect of your own that was not
+        registered (`bathyal.effects.register`).
 
     Examples
     --------

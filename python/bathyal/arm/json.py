@@ -15,6 +15,7 @@ from bathyal.io.files import PathLike, replacing
 FORMAT = "bathyal arm"
 VERSION = 1
 MOST_BYTES = 64 << 20
+_FRAMING = ("format", "version", "run")
 
 # The file's keys are the engine's with their unit; `{}` is rad or m, as the joint turns or slides.
 _ARM_KEYS = {
@@ -125,13 +126,13 @@ def _joint_keys(kind: str) -> dict[str, str]:
 
 
 def read_json(text: bytes) -> dict[str, Any]:
-    """What an arm's file tells, without its format and version."""
+    """What an arm's file tells, without its format and version, and the run that wrote it."""
     told = json.loads(text, parse_constant=_refuse_constant)
     if not isinstance(told, dict) or told.get("format") != FORMAT:
         raise Error(f'it does not say "format": "{FORMAT}"')
     if told.get("version") != VERSION:
         raise Error(f"expected version {VERSION}, got {told.get('version')!r}")
-    return {key: value for key, value in told.items() if key not in ("format", "version")}
+    return {key: value for key, value in told.items() if key not in _FRAMING}
 
 
 def rigid_arm(told: dict[str, Any]) -> Arm:

@@ -33,8 +33,9 @@ def diagnose(
     """Say what the simulation of an arm gets wrong: show it, name the cause, extend the model and
     measure the gain on data that were not used.
 
-    Writes model.json report.html report.json report.png residuals.csv, all or none. Whatever the
-    verdict, clean, named, ambiguous, unknown or none, the exit code is 0.
+    Writes model.json report.html report.json report.png residuals.csv, all or none, and
+    bathyal-manifest.json with their hashes. Whatever the verdict, clean, named, ambiguous,
+    unknown or none, the exit code is 0.
 
     [bold]Examples:[/]
 

@@ -42,7 +42,8 @@ def identify(
     """Find an arm's true geometry from joint angles alone, by touching fixed points.
 
     Writes arm.json arm.urdf fit.json parameters.csv residuals.csv report.html report.png, all or
-    none. What the touches cannot tell is named; it does not fail the job.
+    none, and bathyal-manifest.json with their hashes. What the touches cannot tell is named; it
+    does not fail the job.
 
     [bold]Examples:[/]
 

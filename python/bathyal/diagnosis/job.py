@@ -19,8 +19,9 @@ from bathyal.diagnosis.files import told, write_diagnosis, write_residuals
 from bathyal.diagnosis.report.advice import next_steps
 from bathyal.diagnosis.report.text import facts_of, summary
 from bathyal.identify.job import plain_settings, read_data
-from bathyal.io.files import PathLike, filling
+from bathyal.io.files import PathLike
 from bathyal.io.provenance import Step, file_facts
+from bathyal.io.result_sets import filling
 
 _LONG = ("residuals_before_m", "residuals_after_m")  # a number a row: of files, not of a screen
 
@@ -68,10 +69,13 @@ class Diagnosed:
         """Write report.html, report.json, report.png, model.json and residuals.csv. All are made
         aside first: the folder gets either all of them or none.
 
+        A manifest with their hashes is written last.
+
         Parameters
         ----------
         folder : path
-            Made where it is missing; other files in it are left alone.
+            Made where it is missing; other files in it are left alone, but for those that an
+            earlier run of the same job wrote and this one does not.
         title : str
         step : callable, optional
             ``with step("Writing …") as tell:`` is put around each stage, for progress; `tell`
@@ -87,7 +91,7 @@ class Diagnosed:
             Where a file cannot be written.
         """
         step = step or nullcontext
-        with filling(Path(folder)) as aside:
+        with filling(folder, "diagnose") as aside:
             with step("Writing the arm"):
                 self.report.model.write(aside / "model.json")
             with step("Writing the tables"):

@@ -27,8 +27,9 @@ from bathyal.errors import argument_error
 from bathyal.identify.report.tables import distances, groups, write_parameters, write_residuals
 from bathyal.identify.report.text import next_touches, surely_text
 from bathyal.identify.touch_files import read_touches, read_tracked
-from bathyal.io.files import PathLike, filling
+from bathyal.io.files import PathLike, shown
 from bathyal.io.provenance import Step, file_facts
+from bathyal.io.result_sets import filling
 from bathyal.io.tables import read_table
 
 _MOST_NAMES = 6
@@ -148,10 +149,13 @@ class Identification:
         """Write arm.json, arm.urdf, fit.json, parameters.csv, residuals.csv, report.html and
         report.png. All are made aside first: the folder gets either all of them or none.
 
+        A manifest with their hashes is written last.
+
         Parameters
         ----------
         folder : path
-            Made where it is missing; other files in it are left alone.
+            Made where it is missing; other files in it are left alone, but for those that an
+            earlier run of the same job wrote and this one does not.
         title : str
         ros : bool
             Also kinematics.yaml for ROS' ur_description.
@@ -178,7 +182,7 @@ class Identification:
 
         step = step or nullcontext
         fit, data, arm = self.fit, self.data, self.arm
-        with filling(Path(folder)) as aside:
+        with filling(folder, "identify") as aside:
             with step("Writing the arm"):
                 arm.save(aside / "arm.json")
                 arm.write(aside / "arm.urdf")
@@ -349,7 +353,7 @@ def _labelled(files: Sequence[PathLike]) -> dict[str, PathLike]:
         labels = [path.stem for path in paths]
     if len(set(labels)) < len(labels):
         raise argument_error("source", "each file once", ", ".join(map(str, files)))
-    return dict(zip(labels, files, strict=True))
+    return dict(zip(map(shown, labels), files, strict=True))
 
 
 def plain_settings(read: Mapping[str, Any]) -> dict[str, Any]:

@@ -5,18 +5,18 @@ from __future__ import annotations
 
 import importlib
 import os
-import secrets
-import shutil
 import stat
-import tempfile
 from collections.abc import Iterable, Iterator
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
+from functools import lru_cache
 from pathlib import Path
 from types import ModuleType
 from typing import Any, BinaryIO
 
 from bathyal._core import Error
 from bathyal.errors import argument_error
+from bathyal.io.asides import aside_in, sweep
+from bathyal.io.manifest import check_file, release
 
 PathLike = str | os.PathLike[str]
 
@@ -34,9 +34,9 @@ def replacing(path: PathLike) -> Iterator[Path]:
     Yields
     ------
     pathlib.Path
-        An empty file in the same folder, with the same suffix, to write to. When the block ends it
-        is renamed to `path` in one step; when the block raises, or is interrupted, it is removed
-        and `path` is as it was.
+        An empty file of the same name in a hidden folder next to it, to write to. When the block
+        ends it is moved to `path` in one step; when the block raises, or is interrupted, it is
+        removed and `path` is as it was.
 
     Raises
     ------
@@ -59,61 +59,35 @@ def replacing(path: PathLike) -> Iterator[Path]:
     if target.exists() and not target.is_file():
         yield target
         return
-    aside = _make_aside(target, os.fspath(path))
-    try:
+    if target.exists() and not os.access(target, os.W_OK):
+        reason = "cannot write, the file is write-protected"
+        raise PermissionError(13, reason, os.fspath(path))
+    with _aside(target, os.fspath(path)) as aside:
         yield aside
         os.replace(aside, target)
-    except BaseException:
-        aside.unlink(missing_ok=True)
-        raise
-
-
-def _make_aside(target: Path, name: str) -> Path:
-    """An empty file beside `target`, with the rights that `target` has or would get."""
-    exists = target.exists()
-    if exists and not os.access(target, os.W_OK):
-        raise PermissionError(13, "cannot write, the file is write-protected", name)
-    aside = target.with_name(f".{target.stem[:80]}-{secrets.token_hex(8)}{target.suffix}")
-    try:
-        descriptor = os.open(aside, os.O_CREAT | os.O_EXCL | os.O_WRONLY, 0o666)
-    except OSError as error:
-        reason = f"cannot write, {error.strerror} (folder {target.parent})"
-        raise OSError(error.errno, reason, name) from None
-    os.close(descriptor)
-    if exists:
-        os.chmod(aside, stat.S_IMODE(target.stat().st_mode))
-    return aside
+    release(target)
 
 
 @contextmanager
-def filling(folder: PathLike) -> Iterator[Path]:
-    """Write several files aside and move them into `folder` only when all went well.
-
-    Parameters
-    ----------
-    folder : path
-        Made where it is missing; other files in it are left alone.
-
-    Yields
-    ------
-    pathlib.Path
-        A hidden folder inside `folder` to write to. When the block ends its files move up; when the
-        block raises, or is interrupted, it is removed, and `folder` too if it was not there.
-    """
-    folder = Path(folder)
-    made = not folder.exists()
-    folder.mkdir(parents=True, exist_ok=True)
-    aside = Path(tempfile.mkdtemp(prefix=".plan-", dir=folder))
-    try:
+def _aside(target: Path, name: str) -> Iterator[Path]:
+    """An empty file near `target`, with the rights that `target` has or would get."""
+    with ExitStack() as folder:
+        try:
+            _sweep_once(target.parent)
+            aside = folder.enter_context(aside_in(target.parent)) / target.name
+            aside.touch()
+        except OSError as error:
+            reason = f"cannot write, {error.strerror} (folder {target.parent})"
+            raise OSError(error.errno, reason, name) from None
+        if target.exists():
+            aside.chmod(stat.S_IMODE(target.stat().st_mode))
         yield aside
-        for file in sorted(aside.iterdir()):
-            os.replace(file, folder / file.name)
-    except BaseException:
-        shutil.rmtree(aside, ignore_errors=True)
-        if made and not any(folder.iterdir()):
-            folder.rmdir()
-        raise
-    shutil.rmtree(aside)
+
+
+@lru_cache(maxsize=64)
+def _sweep_once(folder: Path) -> None:
+    """A job may write many files into a folder of many: it looks for leftovers only once."""
+    sweep(folder)
 
 
 @contextmanager
@@ -148,7 +122,8 @@ def opened(path: PathLike) -> Iterator[tuple[BinaryIO, int]]:
     OSError
         Where there is no such file, or it may not be read: the operating system's own words.
     Error
-        Where the file is empty, or is a pipe or a device.
+        Where the file is empty, or is a pipe or a device, or lies in a folder of results and is not
+        the file that its manifest lists.
     """
     with open(path, "rb") as stream:
         status = os.fstat(stream.fileno())
@@ -157,7 +132,19 @@ def opened(path: PathLike) -> Iterator[tuple[BinaryIO, int]]:
             raise Error(f"{os.fspath(path)}: expected a file, got a pipe or a device")
         if size == 0:
             raise Error(f"{os.fspath(path)}: the file is empty")
+        check_file(path, stream)
         yield stream, size
+
+
+def shown(path: PathLike) -> str:
+    r"""A path as text that every format can hold: bytes of it that are no UTF-8 as ``\xff``.
+
+    Examples
+    --------
+    >>> print(shown(os.fsdecode(b"survey_\xff.xyz")))
+    survey_\xff.xyz
+    """
+    return os.fsencode(path).decode("utf-8", "backslashreplace")
 
 
 def need(module: str, package: str, purpose: str, *, extra: str = "") -> Any:

@@ -16,8 +16,9 @@ from numpy.typing import NDArray
 
 from bathyal._core import ToolPath, plan_toolpath
 from bathyal.errors import argument_error
-from bathyal.io.files import PathLike, filling
+from bathyal.io.files import PathLike
 from bathyal.io.provenance import Step, file_facts
+from bathyal.io.result_sets import filling
 from bathyal.seabed.bottom import Bottom, make_bottom
 from bathyal.toolpath.aims import read_axes
 
@@ -83,10 +84,13 @@ class Plan:
         """Write path.csv, path.json, path.vtp, plan.png, plan.html and, where the bottom is a mesh,
         seabed.vtp. All are made aside first: the folder gets either all of them or none.
 
+        A manifest with their hashes is written last.
+
         Parameters
         ----------
         folder : path
-            Made where it is missing; other files in it are left alone.
+            Made where it is missing; other files in it are left alone, but for those that an
+            earlier run of the same job wrote and this one does not.
         title : str
         step : callable, optional
             ``with step("Writing …"):`` is put around each stage, for progress.
@@ -100,7 +104,7 @@ class Plan:
         step = step or nullcontext
         datum = {"crs": self.bottom.crs, "vertical_datum": self.bottom.vertical_datum}
         told: dict[str, Any] = {"facts": self.facts, "warnings": self.warnings, "title": title}
-        with filling(Path(folder)) as aside:
+        with filling(folder, "plan") as aside:
             with step("Writing the path"):
                 for suffix in ("csv", "vtp"):
                     write_path(self.path, aside / f"path.{suffix}", **datum)

@@ -15,6 +15,7 @@ import bathyal
 from bathyal import cli
 from bathyal.cli.talk import Talk
 from bathyal.cli.touch_options import Beside
+from bathyal.io.manifest import NAME
 from tests.support import diagnosis_cases as cases
 from tests.support.command import run
 
@@ -73,7 +74,7 @@ def test_everything_is_written_and_told(table, tmp_path, capsys, asked):
     assert code == 0, err
     assert err == ""
     told = json.loads(text)
-    assert sorted(os.listdir(tmp_path / "out")) == FILES
+    assert sorted(os.listdir(tmp_path / "out")) == sorted([*FILES, NAME])
     assert [os.path.basename(file) for file in told["files"]] == FILES
     assert told["verdict"] == "named"
     assert told["effects"][0]["name"] == "joint_harmonic"
@@ -108,7 +109,7 @@ def test_the_engine_finds_what_was_hidden_and_says_so(table, tmp_path, capsys):
     found = told["effects"][0]["parameters"]
     assert found["order"]["value"] == pytest.approx(cases.ORDER, rel=0.05)
     assert told["gain"] > 0.9
-    assert sorted(os.listdir(tmp_path / "out")) == FILES
+    assert sorted(os.listdir(tmp_path / "out")) == sorted([*FILES, NAME])
     model = bathyal.read_arm(tmp_path / "out" / "model.json")
     data = cases.measured()
     off = model.forward(data.q)[:, :3, 3] - data.position

@@ -12,6 +12,7 @@ import pytest
 import bathyal
 from bathyal.cli import values
 from bathyal.cli.touch_options import Known, Searching
+from bathyal.io.manifest import NAME
 from tests.support.command import bathyal_run, run
 from tests.support.touch_jobs import FILES, simulated, table
 
@@ -39,7 +40,7 @@ def found(job, tmp_path_factory):
 
 def test_identify_writes_everything(found):
     out, told = found
-    assert sorted(os.listdir(out)) == FILES
+    assert sorted(os.listdir(out)) == sorted([*FILES, NAME])
     assert [os.path.basename(file) for file in told["files"]] == FILES
     assert (told["rank"], told["parameters"], told["poses"]) == (21, 27, 63)
     assert told["scale_source"] == "known distance"

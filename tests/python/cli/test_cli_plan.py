@@ -13,6 +13,7 @@ import pytest
 import bathyal
 from bathyal.cli import values
 from bathyal.io.formats.vtp.reader import read_vtp
+from bathyal.io.manifest import NAME
 from bathyal.toolpath.example_aims import write_aims
 from tests.support import scenes
 from tests.support.command import FILES, bathyal_run, run
@@ -30,7 +31,7 @@ def test_plan_writes_everything(job, tmp_path):
     assert done.returncode == 0, done.stderr
     assert done.stderr == ""
     told = json.loads(done.stdout)
-    assert sorted(os.listdir(tmp_path / "plan")) == FILES
+    assert sorted(os.listdir(tmp_path / "plan")) == sorted([*FILES, NAME])
     assert [pathlib.Path(file).name for file in told["files"]] == FILES
     assert (told["aims"], told["targets"]) == (4, 3)
     assert told["gaps"] == 1
@@ -96,7 +97,7 @@ def test_plane_way(job, tmp_path, capsys):
     )  # fmt: skip
     assert code == 0, err
     assert json.loads(text)["warnings"] == []
-    assert sorted(os.listdir(out)) == [name for name in FILES if name != "seabed.vtp"]
+    assert sorted(os.listdir(out)) == sorted({*FILES, NAME} - {"seabed.vtp"})
     plane = json.loads((out / "path.json").read_text())["provenance"]["plane"]
     assert plane["flat"]
     normal = np.array([-0.05, 0, 1]) / np.hypot(1, 0.05)

@@ -17,7 +17,7 @@ from bathyal.io.formats.xml.safe import parse_xml
 def test_a_file_appears_whole(tmp_path):
     target = tmp_path / "out.csv"
     with replacing(target) as aside:
-        assert aside.parent == tmp_path
+        assert aside.parent.parent == tmp_path
         assert aside.suffix == ".csv"
         aside.write_text("1 2 3\n")
         assert not target.exists()
