@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import os
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -12,7 +11,7 @@ from numpy.typing import NDArray
 
 from bathyal._core import Arm, Error, arm_from_chain
 from bathyal.errors import argument_error
-from bathyal.io.files import PathLike, reading
+from bathyal.io.files import PathLike, reading, shown
 from bathyal.io.formats.xml.robot import Joint, Link, Robot, read_robot
 
 Pose = NDArray[np.float64]
@@ -95,7 +94,7 @@ def arm_from_urdf(
     with reading(path, "URDF"):
         told = _chain(tree, first, path_joints)
         told["name"] = robot.name if name is None else name
-        told["source"] = f"URDF {Path(os.fspath(path)).name}, from {first} to {last}"
+        told["source"] = f"URDF {shown(Path(path).name)}, from {first} to {last}"
         arm = arm_from_chain(told)
         arm.base = base
         if tool:

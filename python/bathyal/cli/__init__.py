@@ -21,7 +21,7 @@ from bathyal.cli.triangulate import triangulate
 
 _EXIT_CODES = (
     "Exit codes: 0 done (warnings are told, they do not fail a job), 1 the job failed or a file is "
-    "broken, 2 wrong usage, 130 interrupted."
+    "broken, 2 wrong usage, 130 interrupted (Ctrl-C), 143 terminated (SIGTERM)."
 )
 
 app = typer.Typer(

@@ -11,6 +11,7 @@ import typer
 from bathyal.cli import options as opt
 from bathyal.cli.talk import Talk
 from bathyal.cli.values import pose_matrix
+from bathyal.io.files import shown
 
 
 def plan(
@@ -51,7 +52,8 @@ def plan(
 ) -> None:
     """Plan a tool path along the bottom through what the camera was pointed at.
 
-    Writes path.csv path.json path.vtp seabed.vtp plan.png plan.html, all or none.
+    Writes path.csv path.json path.vtp seabed.vtp plan.png plan.html, all or none, and
+    bathyal-manifest.json with their hashes.
     Gaps in the path and aims that met nothing are warnings.
 
     [bold]Examples:[/]
@@ -82,7 +84,7 @@ def plan(
             path={**aiming.keywords(), **following.keywords()},
             step=progress,
         )
-        files = planned.write(out, title=f"Tool path over {cloud.name}", step=progress)
+        files = planned.write(out, title=f"Tool path over {shown(cloud.name)}", step=progress)
     data = {
         **planned.summary,
         "warnings": planned.warnings,

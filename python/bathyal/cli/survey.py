@@ -11,7 +11,7 @@ import typer
 from bathyal._core import generate_survey
 from bathyal.cli import options as opt
 from bathyal.cli.talk import Talk
-from bathyal.cli.values import default_note, given
+from bathyal.cli.values import default_note, given, seed_number
 from bathyal.seabed.clouds import write_cloud
 
 
@@ -25,7 +25,11 @@ def survey(
     ] = None,
     seed: Annotated[
         int | None,
-        typer.Option(help="Of the random numbers. " + default_note(generate_survey, "seed")),
+        typer.Option(
+            help="Of the random numbers. " + default_note(generate_survey, "seed"),
+            parser=seed_number,
+            metavar="NUMBER",
+        ),
     ] = None,
     length: Annotated[
         float | None,

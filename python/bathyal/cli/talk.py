@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+import io
+import signal
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -24,6 +26,7 @@ from rich.text import Text
 from typer.core import TyperGroup
 
 from bathyal._core import Error
+from bathyal.cli.signals import Terminated, signals_raise
 
 Tell = Callable[[float, str], None]
 
@@ -34,13 +37,17 @@ class Commands(TyperGroup):
     def invoke(self, ctx: Any) -> Any:
         err = Console(stderr=True, highlight=False)
         try:
-            return super().invoke(ctx)
+            with signals_raise():
+                return super().invoke(ctx)
+        except Terminated:
+            err.print("[red]terminated[/]")
+            raise typer.Exit(128 + signal.SIGTERM) from None
         except KeyboardInterrupt:
-            err.print("[red]interrupted[/], nothing was written")
-            raise typer.Exit(130) from None
-        except BrokenPipeError:
-            raise
-        except (Error, OSError, ValueError) as error:
+            err.print("[red]interrupted[/]")
+            raise typer.Exit(128 + signal.SIGINT) from None
+        except Exception as error:
+            if hasattr(error, "exit_code") or isinstance(error, typer.Abort | BrokenPipeError):
+                raise  # typer's own
             if ctx.params.get("debug"):
                 err.print_exception()
             err.print(f"[red]error:[/] {escape(_one_line(error))}", soft_wrap=True)
@@ -51,13 +58,19 @@ def _one_line(error: Exception) -> str:
     if isinstance(error, OSError) and error.strerror:
         name = f"{error.filename}: " if error.filename else ""
         return f"{name}{error.strerror}"
-    return " ".join(str(error).split())
+    text = " ".join(str(error).split())
+    if isinstance(error, MemoryError):
+        return f"not enough memory: {text}" if text else "not enough memory"
+    if isinstance(error, Error | OSError | ValueError):
+        return text
+    return f"{type(error).__name__}: {text} (a fault of bathyal itself; --debug shows where)"
 
 
 class Talk:
     """What is said where: results on stdout, progress and warnings on stderr."""
 
     def __init__(self, *, json: bool, quiet: bool) -> None:
+        _replace_what_cannot_be_printed()
         self.json = json
         self.quiet = quiet
         self.out = Console(highlight=False)
@@ -93,7 +106,7 @@ class Talk:
         from bathyal.io.json import json_text
 
         if self.json:
-            sys.stdout.write(json_text(data))
+            sys.stdout.write(json_text(data, encoding=sys.stdout.encoding or "utf-8"))
         elif not self.quiet:
             table = Table(show_header=False, box=None, title=title or None, title_justify="left")
             table.add_column(style="dim")
@@ -107,6 +120,14 @@ class Talk:
         if not self.json:
             for warning in warnings:
                 self.err.print(f"[yellow]warning:[/] {escape(warning)}", soft_wrap=True)
+
+
+def _replace_what_cannot_be_printed() -> None:
+    """Names of files may hold bytes, and a terminal may know few signs: neither is a reason to end
+    a job that is done."""
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper):
+            stream.reconfigure(errors="backslashreplace")
 
 
 class _Share(BarColumn):

@@ -26,6 +26,7 @@ from bathyal.cli.values import (
     named,
     quantity,
 )
+from bathyal.io.files import shown
 
 _READING = "Reading"
 _BESIDE = "What was recorded beside"
@@ -118,9 +119,9 @@ class Job:
 
     def title(self, nominal: bathyal.Arm, tables: list[Path]) -> str:
         """ "UR10e from touches.csv"."""
-        names = [table.name for table in tables]
+        names = [shown(table.name) for table in tables]
         told = ", ".join(names) if len(names) <= _MOST_NAMES else f"{len(names)} tables"
-        return f"{nominal.name or Path(self.arm).stem} from {told}"
+        return f"{nominal.name or shown(Path(self.arm).stem)} from {told}"
 
 
 @dataclass(frozen=True)

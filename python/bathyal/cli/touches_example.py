@@ -10,7 +10,8 @@ import typer
 
 from bathyal.cli import options as opt
 from bathyal.cli.talk import Talk
-from bathyal.cli.values import given, length
+from bathyal.cli.values import count_number, given, length, seed_number
+from bathyal.io.files import shown
 
 
 def example(
@@ -20,7 +21,12 @@ def example(
         str, typer.Option(help="The drawing: a name such as ur10e, or a .urdf or .json file.")
     ] = "ur10e",
     count: Annotated[
-        int | None, typer.Option(help="Touches of each point. [dim]\\[default: 21][/]")
+        int | None,
+        typer.Option(
+            help="Touches of each point. [dim]\\[default: 21][/]",
+            parser=count_number,
+            metavar="NUMBER",
+        ),
     ] = None,
     noise: Annotated[
         float | None,
@@ -31,7 +37,12 @@ def example(
         ),
     ] = None,
     seed: Annotated[
-        int | None, typer.Option(help="Of the random numbers. [dim]\\[default: 0][/]")
+        int | None,
+        typer.Option(
+            help="Of the random numbers. [dim]\\[default: 0][/]",
+            parser=seed_number,
+            metavar="NUMBER",
+        ),
     ] = None,
     json: opt.Json = False,
     quiet: opt.Quiet = False,
@@ -53,7 +64,7 @@ def example(
         made = simulate_touches(nominal, **given(count=count, noise=noise, seed=seed))
         apart = f"left to right: {1e3 * made.apart:.0f} mm"
         write_touches(
-            made.touches, out, comment=f"simulated touches of {nominal.name or arm}; {apart}"
+            made.touches, out, comment=f"simulated touches of {nominal.name or shown(arm)}; {apart}"
         )
     data = {"touches": len(made.touches), "left_to_right_m": made.apart, "file": str(out)}
     rows = {"touches": str(len(made.touches)), "known": apart, "written": str(out)}

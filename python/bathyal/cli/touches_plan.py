@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Callable
 from enum import Enum
 from pathlib import Path
@@ -15,7 +16,16 @@ import typer
 import bathyal
 from bathyal.cli import options as opt
 from bathyal.cli.talk import Talk
-from bathyal.cli.values import angle, coordinates, default_note, engine_default, given, length
+from bathyal.cli.values import (
+    angle,
+    coordinates,
+    count_number,
+    default_note,
+    engine_default,
+    given,
+    length,
+    seed_number,
+)
 
 _T = TypeVar("_T")
 
@@ -44,7 +54,12 @@ def plan(
     arm: Annotated[
         str, typer.Option(help="The drawing: a name such as ur10e, or a .urdf or .json file.")
     ],
-    count: Annotated[int, typer.Option(help="Touches, of all points together.")],
+    count: Annotated[
+        int,
+        typer.Option(
+            help="Touches, of all points together.", parser=count_number, metavar="NUMBER"
+        ),
+    ],
     out: Annotated[
         Path, typer.Option("--out", "-o", help="Table to touch by, .csv; readings go into it.")
     ],
@@ -59,7 +74,12 @@ def plan(
         ),
     ] = None,
     points: Annotated[
-        int | None, typer.Option(help="How many points to touch. " + _note("num_points"))
+        int | None,
+        typer.Option(
+            help="How many points to touch. " + _note("num_points"),
+            parser=count_number,
+            metavar="NUMBER",
+        ),
     ] = None,
     at: Annotated[
         list[str] | None,
@@ -112,7 +132,10 @@ def plan(
         ),
     ] = None,
     seed: Annotated[
-        int | None, typer.Option(help="Of the random numbers. " + _note("seed"))
+        int | None,
+        typer.Option(
+            help="Of the random numbers. " + _note("seed"), parser=seed_number, metavar="NUMBER"
+        ),
     ] = None,
     json: opt.Json = False,
     quiet: opt.Quiet = False,
@@ -193,6 +216,6 @@ def _usage(option: str, parse: Callable[[str], _T], text: str) -> _T:
 
 def _pair(text: str) -> tuple[int, int]:
     parts = text.split(",")
-    if len(parts) != 2 or not all(part.strip().isdigit() for part in parts):
+    if len(parts) != 2 or not all(re.fullmatch(r"\s*[0-9]{1,9}\s*", part) for part in parts):
         raise ValueError(f"expected the numbers of two points, such as 0,1, got {text!r}")
     return int(parts[0]), int(parts[1])

@@ -18,6 +18,9 @@ from numpy.typing import NDArray
 
 from bathyal.io.tables import ANGLES, LENGTHS
 
+_LARGEST_SEED = 2**64 - 1
+_LARGEST_COUNT = 2**31 - 1
+
 
 def engine_default(function: Callable[..., Any], name: str, *, degrees: bool = False) -> str:
     """The default of a keyword as the engine's signature says it, for a line of help."""
@@ -84,6 +87,22 @@ def length_or_none(text: str) -> float:
         return float(text)
     except ValueError:
         raise ValueError(f'expected a length in metres or "none", got {text!r}') from None
+
+
+def seed_number(text: str) -> int:
+    """A seed, as the engine's 64 bits hold it."""
+    return _whole(text, 0, _LARGEST_SEED)
+
+
+def count_number(text: str) -> int:
+    """How many of something, one or more."""
+    return _whole(text, 1, _LARGEST_COUNT)
+
+
+def _whole(text: str, low: int, high: int) -> int:
+    if re.fullmatch(r"\s*[+-]?[0-9]{1,20}\s*", text) and low <= int(text) <= high:
+        return int(text)
+    raise ValueError(f"expected a whole number from {low} to {high}, got {text!r}")
 
 
 def quantity(text: str) -> tuple[float, str]:

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import codecs
 import json
 import math
 import os
@@ -12,10 +13,23 @@ from typing import Any
 import numpy as np
 
 
-def json_text(value: Any) -> str:
+def json_text(value: Any, encoding: str = "utf-8") -> str:
     """JSON in which an object stands on lines of its own and a list on one; NaN and infinities are
-    null."""
-    return _lines(_plain(value), "") + "\n"
+    null. What `encoding` cannot hold is escaped, as are the bytes of a file's name that are not
+    UTF-8: Python reads them back as they were."""
+    text = _lines(_plain(value), "") + "\n"
+    return text.encode(encoding, "bathyal_json").decode(encoding)
+
+
+def _escaped(error: UnicodeError) -> tuple[str, int]:
+    """Signs as JSON escapes them, those beyond 16 bits in two halves."""
+    if not isinstance(error, UnicodeEncodeError):
+        raise error
+    signs = error.object[error.start : error.end]
+    return "".join(json.dumps(sign)[1:-1] for sign in signs), error.end
+
+
+codecs.register_error("bathyal_json", _escaped)
 
 
 def _plain(value: Any) -> Any:

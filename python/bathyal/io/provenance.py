@@ -9,7 +9,7 @@ from contextlib import AbstractContextManager
 from pathlib import Path
 from typing import Any
 
-from bathyal.io.files import PathLike
+from bathyal.io.files import PathLike, shown
 
 Step = Callable[[str], AbstractContextManager[Any]]
 
@@ -20,4 +20,4 @@ def file_facts(path: PathLike) -> dict[str, Any]:
         while block := stream.read(1 << 20):
             digest.update(block)
         size = stream.tell()
-    return {"file": Path(path).name, "bytes": size, "sha256": digest.hexdigest()}
+    return {"file": shown(Path(path).name), "bytes": size, "sha256": digest.hexdigest()}

@@ -20,7 +20,7 @@ from bathyal._core import (
     fit_plane,
 )
 from bathyal.errors import argument_error
-from bathyal.io.files import PathLike
+from bathyal.io.files import PathLike, shown
 from bathyal.io.provenance import Step, file_facts
 from bathyal.seabed.clouds import read_cloud
 from bathyal.seabed.meshes import read_mesh
@@ -85,7 +85,7 @@ def make_bottom(
     provenance: dict[str, Any] = {"input": file_facts(source)}
     with step("Reading the bottom"), noting(told):
         what = read_either(source, as_mesh, read)
-    told[:] = [line.replace(str(source), Path(source).name) for line in told]
+    told[:] = [line.replace(str(source), shown(Path(source).name)) for line in told]
     soundings = 0
     surface: Scene | Plane
     seabed: TriangleMesh | None = None

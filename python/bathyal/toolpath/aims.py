@@ -190,12 +190,12 @@ def _from_text(file: Path, text: str) -> NDArray[np.float64]:
 def _from_json(file: Path, text: str, pose: NDArray[np.float64] | None) -> Axes:
     try:
         content: Any = json.loads(text)
-    except (json.JSONDecodeError, RecursionError) as error:
+    except (ValueError, RecursionError) as error:
         line = f", line {error.lineno}" if isinstance(error, json.JSONDecodeError) else ""
         raise Error(f"{file}{line}: not JSON: {error}") from error
     settings: dict[str, Any] = content if isinstance(content, dict) else {"aims": content}
     unit = settings.get("unit", "m")
-    if unit not in _LENGTHS:
+    if not isinstance(unit, str) or unit not in _LENGTHS:
         raise Error(f"{file}: `unit`: expected one of {', '.join(_LENGTHS)}, got {unit!r}")
     if pose is None and "world_from_vehicle" in settings:
         try:
@@ -253,7 +253,7 @@ def _checked(aims: NDArray[np.float64], where: Callable[[int], str]) -> NDArray[
 def _pose(name: str, value: Any) -> NDArray[np.float64]:
     try:
         pose = np.asarray(value, dtype=float)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         raise argument_error(name, "a (4, 4) array", repr(value)) from None
     if pose.shape != (4, 4):
         raise argument_error(name, "shape (4, 4)", f"shape {pose.shape}")

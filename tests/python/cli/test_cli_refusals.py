@@ -88,8 +88,9 @@ def test_interrupted_plan_leaves_the_folder_as_it_was(job, tmp_path, monkeypatch
     assert not (tmp_path / "new").exists()
 
 
-def test_signal_ends_the_program_cleanly(job, tmp_path):
-    """Ctrl-C while it works, in a process of its own: no half-written file, no traceback."""
+@pytest.mark.parametrize(("number", "status"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
+def test_signal_ends_the_program_cleanly(job, tmp_path, number, status):
+    """Ctrl-C or SIGTERM while it works, in its own process: no half-written file, no traceback."""
     program = (
         "import signal, time, bathyal.view.figure, bathyal.cli\n"
         "signal.signal(signal.SIGINT, signal.default_int_handler)\n"  # a background job ignores it
@@ -103,8 +104,8 @@ def test_signal_ends_the_program_cleanly(job, tmp_path):
     )  # fmt: skip
     assert child.stdout.readline() == "drawing\n"
     time.sleep(0.05)
-    child.send_signal(signal.SIGINT)
+    child.send_signal(number)
     _, err = child.communicate(timeout=30)
-    assert child.returncode == 130
+    assert child.returncode == status
     assert "Traceback" not in err
     assert not (tmp_path / "plan").exists()
