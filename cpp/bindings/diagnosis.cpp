@@ -83,12 +83,15 @@ void bind_parts(py::module_& module) {
       .def_readonly("rivals", &NamedEffect::rivals, "Cause: the best other explanations of it.")
       .def("__repr__",
            [](const NamedEffect& e) { return "NamedEffect(" + e.name + on_joint(e.joint) + ")"; });
-  py::class_<Structure>(module, "Structure", "A dependence of residuals that chance does not make.")
+  module.attr("BEYOND_NOISE") = kBeyondNoise;
+  py::class_<Structure>(module, "Structure", "A dependence of residuals, made by chance or not.")
       .def_readonly("against", &Structure::against)
       .def_readonly("words", &Structure::words)
       .def_readonly("size", &Structure::size, "rms per axis, noise taken out [m].")
       .def_readonly("share", &Structure::share, "Of the residuals' variance, noise taken out.")
       .def_readonly("p_value", &Structure::p_value, "Corrected for all that was asked.")
+      .def_property_readonly("is_beyond_noise", &Structure::is_beyond_noise,
+                             "Whether `p_value` is at most 0.002.")
       .def("__repr__", [](const Structure& s) {
         return "Structure(" + (s.against.empty() ? "nothing" : s.against) + ", " + to_text(s.size) +
                " m)";
@@ -144,7 +147,8 @@ void bind_result(py::module_& module) {
           },
           "(m, n) poses that would tell them apart [rad or m].")
       .def_readonly("shown", &Diagnosis::shown,
-                    "Structure in the residuals of geometry alone, likeliest first.")
+                    "Structure in the residuals of geometry alone, likeliest first: what is beyond "
+                    "noise; where nothing is, the least unlikely.")
       .def_readonly("leftover", &Diagnosis::leftover,
                     "Structure beside all that was named; its size is 0 when there is none.")
       .def_readonly("held_out", &Diagnosis::held_out)

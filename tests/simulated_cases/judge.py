@@ -13,6 +13,7 @@ import numpy as np
 from tests.simulated_cases.arms import Array
 from tests.simulated_cases.cases import Answer, Case, draw_case
 from tests.simulated_cases.effect_shapes import cause_of
+from tests.support.model_agreement import difference
 
 Cause = tuple[Any, ...]
 Diagnose = Callable[[Case], Any]
@@ -61,6 +62,7 @@ def judge(seed: int, diagnose: Diagnose = engine) -> Judged:
         out.failure = f"{type(error).__name__}: {error}"
         return out
     seconds = perf_counter() - start
+    failure = _other_model(report, case)
     truth = {_true_cause(e): e for e in answer.effects}
     named = {_as_told(_named_cause(e), e, truth): e for e in report.effects}
     out = Judged(
@@ -72,6 +74,7 @@ def judge(seed: int, diagnose: Diagnose = engine) -> Judged:
         str(report.verdict),
         [_words(c) for c in named],
         seconds=seconds,
+        failure=failure,
     )
     _verdict(out, answer, truth, named, report)
     out.pairs = _pairs(answer, truth, named, out.verdict)
@@ -82,6 +85,15 @@ def judge(seed: int, diagnose: Diagnose = engine) -> Judged:
         out.error, out.told = _errors(case, np.asarray(report.residuals_after))
         out.held_out = float(report.held_out.rms_after / np.sqrt(3) / answer.noise)
     return out
+
+
+def _other_model(report: Any, case: Case) -> str:
+    """What is wrong where the model that is handed out is not that of the report's residuals."""
+    if getattr(report, "model", None) is None:  # an oracle's
+        return ""
+    most = 1e-9
+    found = difference(report, case.data())
+    return f"the model is {found:.1e} m off the report's residuals" if found > most else ""
 
 
 def _verdict(

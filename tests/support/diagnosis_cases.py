@@ -13,6 +13,7 @@ from types import SimpleNamespace
 import numpy as np
 
 import bathyal
+from bathyal._core import BEYOND_NOISE
 
 NOISE = 0.03e-3  # [m per axis]
 HARMONIC = {"cos": 3e-4, "sin": -4e-4}  # [rad], of order 2 along joint 3
@@ -36,6 +37,14 @@ class Arm:
             stream.write('{"format": "bathyal arm"}\n')
 
 
+class Structure(SimpleNamespace):
+    """A dependence of the residuals."""
+
+    @property
+    def is_beyond_noise(self) -> bool:
+        return bool(self.p_value <= BEYOND_NOISE)
+
+
 class Report(SimpleNamespace):
     """A diagnosis with the attributes of `bathyal.Diagnosis`."""
 
@@ -53,7 +62,7 @@ def cause(name: str, joint: int | None, words: str, odds: float = 1.0) -> Simple
 def structure(
     against: str, words: str, size: float, share: float, p_value: float
 ) -> SimpleNamespace:
-    return SimpleNamespace(against=against, words=words, size=size, share=share, p_value=p_value)
+    return Structure(against=against, words=words, size=size, share=share, p_value=p_value)
 
 
 def effect(name: str, joint: int | None, words: str, **told: object) -> SimpleNamespace:

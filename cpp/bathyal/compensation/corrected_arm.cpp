@@ -162,10 +162,18 @@ void CorrectedArm::try_effects() const {
 
 CorrectedPoses CorrectedArm::forward(JointView q, const Covariates& covariates,
                                      int num_threads) const {
-  const Rows rows = prepare(q, covariates);
+  return poses_of(prepare(q, covariates), num_threads);
+}
+
+CorrectedPoses CorrectedArm::forward_of_record(JointView q, const Covariates& covariates,
+                                               int num_threads) const {
+  return poses_of(prepare(q, covariates, true), num_threads);
+}
+
+CorrectedPoses CorrectedArm::poses_of(const Rows& rows, int num_threads) const {
   const JointMatrix moved = rows.moved();
   CorrectedPoses result{bathyal::forward(arm_, view_of(moved), num_threads), rows.mask};
-  const auto count = static_cast<std::size_t>(q.rows());
+  const auto count = static_cast<std::size_t>(moved.rows());
   parallel_for(count, kGrain, num_threads, [&](std::size_t begin, std::size_t end) {
     CorrectedFrames frames;
     for (std::size_t i = begin; i < end; ++i) {
@@ -302,9 +310,11 @@ CorrectedArm::Part CorrectedArm::part(std::size_t effect, const AskedRows& rows,
   return part;
 }
 
-CorrectedArm::Rows CorrectedArm::prepare(JointView q, const Covariates& covariates) const {
+CorrectedArm::Rows CorrectedArm::prepare(JointView q, const Covariates& covariates,
+                                         bool recording) const {
   check_joint_values(arm_, q);
   AskedRows rows = ask(arm_, support_, q, covariates);
+  rows.asked.recording = rows.low.recording = rows.high.recording = recording;
   const std::vector<char> told = this->told(covariates);
   SupportMask mask(q.rows(), static_cast<Index>(effects_.size()));
   Correction sum(arm_, q.rows());

@@ -69,6 +69,11 @@ class CorrectedArm {
   ///        effect needs and that is missing among others.
   CorrectedPoses forward(JointView q, const Covariates& covariates = {}, int num_threads = 0) const;
 
+  /// The same of the recording that taught the model, all of its rows in the order in which they
+  /// were taken: a tool that slipped at a row, of which no time is known, has not slipped before.
+  CorrectedPoses forward_of_record(JointView q, const Covariates& covariates = {},
+                                   int num_threads = 0) const;
+
   /// world_from_link of every link, in the order of arm().links().
   CorrectedPoses forward_links(JointView q, const Covariates& covariates = {},
                                int num_threads = 0) const;
@@ -110,7 +115,8 @@ class CorrectedArm {
   void try_effects() const;
   Actions average(std::size_t effect) const;
   Part part(std::size_t effect, const AskedRows& rows, bool told) const;
-  Rows prepare(JointView q, const Covariates& covariates) const;
+  Rows prepare(JointView q, const Covariates& covariates, bool recording = false) const;
+  CorrectedPoses poses_of(const Rows& rows, int num_threads) const;
   std::vector<char> told(const Covariates& covariates) const;
   std::vector<Correction> correction_by_joint(const JointMatrix& q,
                                               const Covariates& covariates) const;

@@ -2,6 +2,7 @@
 #include "bathyal/compensation/support.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <set>
@@ -118,6 +119,12 @@ class Bounds {
 };
 
 }  // namespace
+
+bool is_library_covariate(std::string_view name) {
+  constexpr std::array<std::string_view, 6> kNames{"temperature", "time",    "payload",
+                                                   "direction",   "gravity", "session"};
+  return std::find(kNames.begin(), kNames.end(), name) != kNames.end();
+}
 
 void Support::check(Index coordinates) const {
   check_range_of("joints", joints, coordinates);

@@ -3,11 +3,16 @@
 
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "bathyal/effects/effect.hpp"
 
 namespace bathyal {
+
+/// Whether the library's effects know a covariate of that name: temperature, time, payload,
+/// direction, gravity, session.
+bool is_library_covariate(std::string_view name);
 
 /// What the data that taught a model covered: beyond it the model is a guess.
 struct Support {

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "bathyal/selection/lack_of_fit.hpp"
+
 namespace bathyal {
 
 /// What a diagnosis comes to.
@@ -51,13 +53,14 @@ struct NamedEffect {
   std::vector<Cause> rivals;     ///< the best other explanations of what it explains
 };
 
-/// A dependence of the residuals that chance does not make.
+/// A dependence of the residuals, which chance may make or not.
 struct Structure {
   std::string against;   ///< "joint 3", "position", "time, period 12.1 s", "joints 2 and 3"
   std::string words;     ///< a sentence
   double size = 0.0;     ///< rms of it, per axis, noise taken out [m]
   double share = 0.0;    ///< of the residuals' variance, noise taken out
   double p_value = 1.0;  ///< corrected for all that were asked
+  bool is_beyond_noise() const { return p_value <= kBeyondNoise; }
 };
 
 /// What was held out, and how well it was foretold.

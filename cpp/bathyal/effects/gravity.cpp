@@ -40,24 +40,44 @@ class LumpedMoments {
     return out;
   }
 
-  /// Those that no offset of the joint and none before them can do. A torque that the others make
-  /// up to a hundredth is no number of its own.
+  /// Those that no offset of the joint and none before them can do. A torque of which they leave
+  /// less than a hundredth of what such a weight can exert on this arm is no number of its own: its
+  /// own length would be no measure, since an arm that is a little off its drawing makes something
+  /// out of each torque that the drawing has at nothing, which the next fit makes otherwise.
   std::vector<int> independent() const {
     constexpr double kTold = 1e-2;
     const int count = kKinds * static_cast<int>(data_.arm->joints().size());
+    const double pull = data_.gravity.rowwise().norm().maxCoeff(), lever = reach();
     Eigen::MatrixXd torques(data_.rows(), count + 1);
     std::vector<int> order{count};
     torques.col(count).setOnes();
     for (int moment = 0; moment < count; ++moment) {
+      const bool mass = moment % kKinds == 0;
+      const double largest = pull * (mass && !slides(*data_.arm, coordinate_) ? lever : 1.0);
       torques.col(moment) = torque(moment);
-      if (varies(torques.col(moment))) order.push_back(moment);
+      if (!varies(torques.col(moment)) || !(largest > 0.0)) continue;
+      torques.col(moment) /= largest;
+      order.push_back(moment);
     }
-    std::vector<int> kept = select_independent(torques, order, {kTold}).kept;
+    const double rows = std::sqrt(static_cast<double>(data_.rows()));
+    std::vector<int> kept = select_longer(torques, order, kTold * rows).kept;
     std::erase(kept, count);
     return kept;
   }
 
  private:
+  /// How far the arm's frames lie from the first one, at most [m].
+  double reach() const {
+    double out = 0.0;
+    for (Index i = 0; i < data_.rows(); ++i) {
+      const std::vector<Pose>& frames = loads_.frames(i).world_from_row;
+      for (const Pose& frame : frames) {
+        out = std::max(out, (frame.translation() - frames[0].translation()).norm());
+      }
+    }
+    return out;
+  }
+
   const EffectData& data_;
   int coordinate_;
   GravityLoads loads_;

@@ -133,12 +133,15 @@ std::string in_words(const Eigen::VectorXd& direction, const std::vector<Column>
   return text;
 }
 
-Selection select_independent(const Eigen::MatrixXd& jacobian, const std::vector<int>& order,
-                             const std::vector<double>& tolerances) {
+namespace {
+
+/// Of the columns `order`, those that bring something new: `least` (passes, columns) is the length
+/// from which what is left of a column does, in each pass over all of them.
+Selection select_above(const Eigen::MatrixXd& jacobian, const std::vector<int>& order,
+                       const Eigen::MatrixXd& least) {
   // Householder's QR: of the columns that are still left, `rest` has below row `known` what those
   // that were kept cannot do.
   Eigen::MatrixXd rest = jacobian(Eigen::all, order);
-  const Eigen::RowVectorXd length = rest.colwise().norm();
   std::vector<char> is_kept(order.size(), 0);
   Selection selection;
   Index known = 0;
@@ -159,17 +162,32 @@ Selection select_independent(const Eigen::MatrixXd& jacobian, const std::vector<
     }
     ++known;
   };
-  for (const double tolerance : tolerances) {
+  for (Index pass = 0; pass < least.rows(); ++pass) {
     for (std::size_t i = 0; i < order.size(); ++i) {
       const auto column = static_cast<Index>(i);
       const double left = rest.col(column).tail(rest.rows() - known).norm();
-      if (!is_kept[i] && left > tolerance * length[column]) keep(i);
+      if (!is_kept[i] && left > least(pass, column)) keep(i);
     }
   }
   for (std::size_t i = 0; i < order.size(); ++i) {
     if (!is_kept[i]) selection.dependent.push_back(order[i]);
   }
   return selection;
+}
+
+}  // namespace
+
+Selection select_independent(const Eigen::MatrixXd& jacobian, const std::vector<int>& order,
+                             const std::vector<double>& tolerances) {
+  const Eigen::Map<const Eigen::VectorXd> shares(tolerances.data(),
+                                                 static_cast<Index>(tolerances.size()));
+  return select_above(jacobian, order, shares * jacobian(Eigen::all, order).colwise().norm());
+}
+
+Selection select_longer(const Eigen::MatrixXd& jacobian, const std::vector<int>& order,
+                        double least) {
+  return select_above(jacobian, order,
+                      Eigen::RowVectorXd::Constant(static_cast<Index>(order.size()), least));
 }
 
 }  // namespace bathyal

@@ -77,4 +77,9 @@ struct Selection {
 Selection select_independent(const Eigen::MatrixXd& jacobian, const std::vector<int>& order,
                              const std::vector<double>& tolerances = {kRankTolerance});
 
+/// The same by an absolute measure: a column brings something new where those kept before it leave
+/// more than `least` of its length.
+Selection select_longer(const Eigen::MatrixXd& jacobian, const std::vector<int>& order,
+                        double least);
+
 }  // namespace bathyal

@@ -18,8 +18,8 @@ namespace bathyal {
 inline constexpr double kNameCost = 4.5;
 
 /// What the freedom of `width` columns takes from the log evidence when their values were found
-/// with Wald's statistic `f` per column: that of a normal prior as wide as the values, (k/2) (ln F
-/// + 1) where F is large and 0 where it is 0.
+/// with Wald's statistic `f` per column: (k/2) (ln(1 + F) + F / (1 + F)), that of a normal prior as
+/// wide as the values where F is large, (k/2) (ln F + 1), and 0 where it is 0.
 double cost_of_freedom(double width, double f);
 
 /// What a set of candidates explains. Candidates' values are along their orthonormal columns.
@@ -60,10 +60,10 @@ class Pool {
   /// Values are held to what is plausible (Beside::length), or weak directions of several members
   /// would send each other to values at which columns mean nothing.
   ///
-  /// The score is -(ν/2) ln(left) - Σ [ (k/2) ln(1 + F) + ln(trials) + kNameCost ]: the likelihood
-  /// with the noise integrated out, less what a candidate's freedom costs. The cost of k columns is
-  /// that of a normal prior whose width is that of the values found (George and Foster 2000,
-  /// empirical Bayes); of `trials` forms, that one of them was picked (Chen and Chen 2008).
+  /// The score is -(ν/2) ln(left) - Σ [ cost_of_freedom(k, F) + ln(trials) + kNameCost ]: the
+  /// likelihood with the noise integrated out, less what a candidate's freedom costs: of its k
+  /// columns by a normal prior whose width is that of the values found (George and Foster 2000,
+  /// empirical Bayes), of `trials` forms that one of them was picked (Chen and Chen 2008).
   std::optional<SetFit> judge(std::span<const int> members) const;
 
   /// Log evidence for candidate `i` of a set by itself, given the others as they are.

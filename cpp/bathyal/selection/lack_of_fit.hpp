@@ -9,7 +9,7 @@
 
 namespace bathyal {
 
-/// Corrected p-value below which structure is beyond noise.
+/// Corrected p-value up to which structure is beyond noise, wherever that is asked.
 inline constexpr double kBeyondNoise = 0.002;
 
 /// Names, and probes of structure beside them.

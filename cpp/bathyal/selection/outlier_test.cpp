@@ -133,7 +133,11 @@ Spread spread_of(const NoiseForm& form, const Linearization& at, const Eigen::Ma
 
 std::vector<UnitTest> test_units(const Linearization& at, const Eigen::MatrixXd& basis,
                                  const Eigen::VectorXd& trust, double freedom) {
-  const std::vector<std::vector<Index>> rows = rows_of_units(at, trust.size());
+  std::vector<std::vector<Index>> rows = rows_of_units(at, trust.size());
+  for (std::vector<Index>& own : rows) {  // a touch of a plane has two that measure nothing
+    std::erase_if(
+        own, [&](Index r) { return at.misfit[r] == 0.0 && (at.base.row(r).array() == 0.0).all(); });
+  }
   const Eigen::VectorXd left = at.misfit - basis * (basis.transpose() * at.misfit);
   const double squares = left.squaredNorm();
   std::vector<UnitTest> out(rows.size());
@@ -156,7 +160,7 @@ std::vector<UnitTest> test_units(const Linearization& at, const Eigen::MatrixXd&
     const double free = used ? freedom - width : freedom;
     if (width == 0.0 || !(free > 0.0)) continue;
     const double variance = std::max({others, 1e-12 * squares, kRounding * free}) / free;
-    out[i] = {distance / width / variance, f_tail(distance / width / variance, width, free)};
+    out[i] = {distance / width / variance, f_tail(distance / width / variance, width, free), width};
   }
   return out;
 }

@@ -14,6 +14,7 @@ namespace bathyal {
 struct UnitTest {
   double distance = 0.0;  ///< squared, in units of its own variance had it not been used; per row
   double p = 1.0;         ///< by Fisher's F, of this unit alone
+  double rows = 0.0;      ///< of it that the others foretell
 };
 
 /// Each unit's rows against a fit to all others (deleted residuals, leverage counted). `trust`

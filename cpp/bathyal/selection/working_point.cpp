@@ -113,9 +113,9 @@ double Vantage::score_of(const std::vector<int>& forms, const Eigen::VectorXd& t
       test_units(subject_.linearization(), whole.basis, trust, whole.freedom);
   for (Index i = 0; i < trust.size(); ++i) {
     if (trust[i] > 0.0) continue;
-    odd += 3.0;
-    cost += cost_of_freedom(3.0, tests[static_cast<std::size_t>(i)].distance) +
-            std::log(static_cast<double>(trust.size()));
+    const UnitTest& test = tests[static_cast<std::size_t>(i)];
+    odd += test.rows;
+    cost += cost_of_freedom(test.rows, test.distance) + std::log(static_cast<double>(trust.size()));
   }
   // As judge counts, in metres: noise is another unit from explanation to explanation.
   const double rows = base.freedom + odd;

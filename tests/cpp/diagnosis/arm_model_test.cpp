@@ -10,6 +10,7 @@
 #include "bathyal/arm/dh.hpp"
 #include "bathyal/arm/row_frames.hpp"
 #include "bathyal/base/random.hpp"
+#include "bathyal/identify/corrected_arm.hpp"
 
 namespace bathyal {
 namespace {
@@ -93,6 +94,57 @@ TEST(ArmSubject, StandsAgainWhereItStood) {
   EXPECT_LT((subject.found().front().values - values).norm(), 1e-12);
   EXPECT_LT((subject.linearization().misfit - there.misfit).norm(), 1e-8 * there.misfit.norm());
   EXPECT_LT((subject.linearization().base - there.base).norm(), 1e-8 * there.base.norm());
+}
+
+/// The same poses, of an arm whose joints 2 and 3 give way under 20 kg behind each of them.
+Tracked elastic() {
+  const Arm arm = three_joints();
+  const Tracked rigid = little_moved(0.0);
+  Tracked out = rigid;
+  for (Index i = 0; i < out.q.rows(); ++i) {
+    RandomStream random(6, static_cast<std::uint64_t>(i));
+    Eigen::VectorXd q = out.q.row(i);
+    const double behind_2 = 0.5 * std::cos(q[1]), behind_3 = 0.4 * std::cos(q[1] + q[2]);
+    q[1] -= 1e-5 * 20.0 * 9.80665 * (behind_2 + (behind_2 + behind_3));
+    q[2] -= 2e-5 * 20.0 * 9.80665 * behind_3;
+    const RowFrames frames = row_frames(arm, {q.data(), 3});
+    for (Index axis = 0; axis < 3; ++axis) {
+      out.position(i, axis) = frames.world_from_tool.translation()[axis] + 1e-5 * random.normal();
+    }
+  }
+  return out;
+}
+
+/// Torques follow the geometry: those that were fitted must be those that whoever has the fitted
+/// arm computes.
+TEST(ArmSubject, EffectsAreThoseOfTheArmThatWasFittedWithThem) {
+  const Arm arm = three_joints();
+  const IdentifyOptions options;
+  const Measurement measurement = to_measurement(arm, elastic());
+  ArmSubject subject(arm, measurement, {}, options, library_effects());
+  std::vector<int> forms;
+  for (int form = 0; form < static_cast<int>(subject.forms().size()); ++form) {
+    const Form& about = subject.forms()[form];
+    if (about.effect == "joint_compliance" && about.joint > 0) forms.push_back(form);
+  }
+  ASSERT_EQ(forms.size(), 2u);
+  subject.settle(forms);
+  const CorrectedArm model(subject.arm(), subject.found(), support_of(measurement.q, {}));
+  const std::vector<double> poses =
+      model.forward({measurement.q.data(), measurement.q.rows(), measurement.q.cols()}).poses;
+  Eigen::Matrix3Xd left(3, measurement.rows());
+  for (Index i = 0; i < measurement.rows(); ++i) {
+    for (Index axis = 0; axis < 3; ++axis) left(axis, i) = poses[16 * i + 4 * axis + 3];
+  }
+  left -= measurement.position;
+  EXPECT_LT((left - subject.deviations()).cwiseAbs().maxCoeff(), 1e-12);
+  EXPECT_LT(std::sqrt(left.squaredNorm() / static_cast<double>(left.size())), 1.05e-5);
+  // Where it stood before it comes back to, by the arm that it had there.
+  const auto place = subject.place();
+  const Eigen::Matrix3Xd there = subject.deviations();
+  subject.settle({});
+  subject.return_to(*place);
+  EXPECT_EQ(subject.deviations(), there);
 }
 
 /// Rows of a subject, seen alone or among all: an effect that looks at neighbours in time (clocks

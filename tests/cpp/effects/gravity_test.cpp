@@ -135,6 +135,34 @@ TEST(GravityEffects, MomentsMakeUpTheTorqueOfAnyMasses) {
   }
 }
 
+/// What a drawing has at nothing is next to nothing on an arm that is a little off it, and no
+/// number of its own there.
+TEST(GravityEffects, MomentsAreThoseOfTheDrawingOnAnArmALittleOffIt) {
+  const Scene drawn(without_masses(ur10e()));
+  std::vector<Joint> joints = drawn.arm.joints();
+  for (std::size_t k = 0; k < joints.size(); ++k) {
+    const double off = 2e-3 * (k % 2 == 0 ? 1.0 : -1.0);
+    joints[k].row.a += off;
+    joints[k].row.alpha -= off;
+    joints[k].row.d -= off;
+    joints[k].row.theta += off;
+    joints[k].row.beta += off;
+  }
+  Scene off(Arm(drawn.arm.name(), joints, {}, drawn.arm.root(), drawn.arm.flange()));
+  off.q = drawn.q;
+  const auto settings = [](const Scene& scene) {
+    std::map<int, std::map<std::string, double>> out;
+    Scene plain = scene;
+    plain.covariates.clear();
+    for (const EffectVariant& v : variants_of("joint_compliance", plain.data())) {
+      out[v.joint] = v.settings;
+    }
+    return out;
+  };
+  EXPECT_EQ(settings(off), settings(drawn));
+  EXPECT_FALSE(settings(drawn).contains(0));
+}
+
 TEST(GravityEffects, MomentsFoundInSomePosesMeanTheSameInOthers) {
   Scene all(without_masses(odd_arm(3)));
   const EffectData data = all.data();

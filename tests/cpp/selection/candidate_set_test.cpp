@@ -74,6 +74,18 @@ TEST_F(PoolTest, WaldIsWhatGoesWithoutTheMember) {
   EXPECT_NEAR(fit->f[0] * 2.0 * fit->noise(), without->left - fit->left, 1e-9);
 }
 
+TEST_F(PoolTest, TheScoreIsThatOfTheContract) {
+  const Pool p = pool();
+  const std::vector<int> set{1, 4};
+  const auto fit = p.judge(set);
+  ASSERT_TRUE(fit);
+  double score = -0.5 * p.freedom() * std::log(fit->left);
+  for (const double f : fit->f) {
+    score -= std::log1p(f) + f / (1.0 + f) + std::log(4.0) + kNameCost;  // two columns, four trials
+  }
+  EXPECT_NEAR(fit->score, score, 1e-9);
+}
+
 TEST_F(PoolTest, QuickScoresAreTheTrueOnesForTheFirstMember) {
   const Pool p = pool();
   const Eigen::VectorXd quick = p.scores_beside({});

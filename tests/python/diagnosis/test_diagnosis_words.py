@@ -102,7 +102,7 @@ def test_clean_says_what_would_have_been_seen():
     assert "noise is 0.030 mm per axis, by exact repeats of 12 poses" in text
     report = cases.clean()
     report.shown = []
-    assert "no structure that was looked for has a chance below 0.01" in summary(report)
+    assert "no structure that was looked for has a chance below 0.002" in summary(report)
 
 
 def test_ambiguous_lists_all_and_asks_for_poses():

@@ -14,6 +14,7 @@ import matplotlib
 import numpy as np
 from matplotlib.figure import Figure
 
+from bathyal._core import BEYOND_NOISE
 from bathyal.diagnosis.report.advice import next_steps
 from bathyal.diagnosis.report.cards import causes_of, table
 from bathyal.diagnosis.report.figure import (
@@ -36,7 +37,6 @@ from bathyal.diagnosis.report.panels import MOST_MARKS, MOST_PARTS
 from bathyal.diagnosis.report.quantities import against_text, supports
 from bathyal.diagnosis.report.style import PAGE
 from bathyal.diagnosis.report.text import (
-    SIGNIFICANT,
     VERDICTS,
     facts_of,
     headline,
@@ -152,7 +152,7 @@ def _tiles(report: Diagnosis) -> str:
     tiles = []
     if report.verdict == "clean":
         least = min((s.p_value for s in report.shown), default=math.nan)
-        chance = chance_text(least) if math.isfinite(least) else f"p > {SIGNIFICANT}"
+        chance = chance_text(least) if math.isfinite(least) else f"p > {BEYOND_NOISE}"
         tiles += [
             (length_text(report.detectable), "per axis would have been seen"),
             (chance, "for the most suspect structure"),
@@ -199,11 +199,11 @@ def _marks_text(report: Diagnosis) -> str:
 def _structures(report: Diagnosis) -> str:
     shown = sorted(report.shown, key=lambda s: (s.p_value, -s.size))
     if not shown:
-        return f"<p>No structure that was looked for has a chance below {SIGNIFICANT}.</p>"
+        return f"<p>No structure that was looked for has a chance below {BEYOND_NOISE}.</p>"
     rows = [
         (
             against_text(s), length_text(s.size), share_text(s.share), chance_text(s.p_value),
-            s.words, "strong" if s.p_value < SIGNIFICANT else "weak",
+            s.words, "strong" if s.is_beyond_noise else "weak",
         )
         for s in shown[:_MOST_SHOWN]
     ]  # fmt: skip

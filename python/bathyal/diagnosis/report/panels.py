@@ -22,7 +22,6 @@ from bathyal.diagnosis.report.quantities import (
     binned,
     mapped,
 )
-from bathyal.diagnosis.report.text import SIGNIFICANT
 from bathyal.identify.report.curves import thinned
 from bathyal.view.palette import AFTER, BEFORE, COMPONENTS, INK
 
@@ -111,7 +110,7 @@ def _draw_means(axes: Axes, means: Binned, colours: Sequence[str]) -> None:
 
 
 def _title(axes: Axes, found: Any | None, font: float) -> None:
-    if found is not None and found.p_value < SIGNIFICANT:
+    if found is not None and found.is_beyond_noise:
         text = f"● {length_text(found.size)}, {chance_text(found.p_value)}"
         axes.set_title(text, fontsize=font, weight="bold", color=INK, loc="left", pad=4)
         axes.set_facecolor("#fff6e0")

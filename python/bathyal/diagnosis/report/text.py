@@ -7,7 +7,7 @@ import math
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any
 
-from bathyal._core import Touches
+from bathyal._core import BEYOND_NOISE, Touches
 from bathyal.diagnosis.report.advice import next_steps
 from bathyal.diagnosis.report.numbers import (
     chance_text,
@@ -35,8 +35,6 @@ VERDICTS = {
     "unknown": ("Unknown", "Something is there that no cause of the library explains."),
     "none": ("No verdict", "No data could be held out."),
 }
-SIGNIFICANT = 0.01
-"""Corrected chances below it count as beyond noise."""
 _MOST_TOLD = 3  # causes, with their numbers, in the paragraph
 _MOST_PARAMETERS = 4  # of one cause, in the paragraph
 _MOST_ROWS = 10  # by number
@@ -200,7 +198,7 @@ def noise_evidence(effect: Any) -> str:
 def leftover_text(report: Diagnosis) -> str:
     """What the named causes leave."""
     left = report.leftover
-    if left is None or left.size <= 0 or left.p_value >= SIGNIFICANT:
+    if left is None or left.size <= 0 or not left.is_beyond_noise:
         return "Nothing beyond noise is left over."
     text = f"Left over: {bare(left.words)}"
     return f"{text} ({length_text(left.size)} per axis, {chance_text(left.p_value)})."
@@ -216,7 +214,7 @@ def structure_text(shown: Any) -> str:
 
 def significant(shown: Iterable[Any]) -> list[Any]:
     """Structures beyond noise, the largest first."""
-    return sorted((s for s in shown if s.p_value < SIGNIFICANT), key=lambda s: -s.size)
+    return sorted((s for s in shown if s.is_beyond_noise), key=lambda s: -s.size)
 
 
 # What was found -----------------------------------------------------------------------------------
@@ -229,7 +227,7 @@ def _named(report: Diagnosis) -> list[str]:
 def _clean(report: Diagnosis) -> list[str]:
     least = min(report.shown, key=lambda s: s.p_value, default=None)
     suspect = (
-        f"no structure that was looked for has a chance below {SIGNIFICANT}, all tests counted"
+        f"no structure that was looked for has a chance below {BEYOND_NOISE}, all tests counted"
         if least is None
         else f"the most suspect, against {against_text(least)}, has {chance_text(least.p_value)}"
     )

@@ -55,10 +55,12 @@ ArmSubject::ArmSubject(const Arm& arm, const Measurement& measurement,
       m_(measurement),
       problem_(arm, measurement, options),
       seen_(observe(*problem_.system, problem_.start)),
-      fit_(arm) {
+      fit_(arm),
+      effects_arm_(arm) {
   if (problem_.drop_size_prior(seen_.unseen)) seen_ = observe(*problem_.system, problem_.start);
   start_ = search(problem_, seen_);
   fit_ = report(problem_, seen_, start_);
+  effects_arm_ = fit_.arm;
   geometry_ = problem_.columns.columns.size();
   free_what_is_seen();
 }
@@ -71,6 +73,7 @@ ArmSubject::ArmSubject(const Arm& arm, const Measurement& measurement, const Cov
   gather_units();
   gather_forms(effects);
   gather_noise_forms();
+  evaluate_effects_at(x_);
   stand_at(x_);
 }
 
@@ -94,7 +97,7 @@ void ArmSubject::free_what_is_seen() {
 }
 
 void ArmSubject::gather_data(const Covariates& covariates) {
-  data_ = make_effect_data(fit_.arm, m_.q, covariates, m_.has_rotation());
+  data_ = make_effect_data(effects_arm_, m_.q, covariates, m_.has_rotation());
 }
 
 void ArmSubject::gather_units() {

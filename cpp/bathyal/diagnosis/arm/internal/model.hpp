@@ -3,6 +3,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <set>
 #include <utility>
 #include <vector>
@@ -27,6 +28,8 @@ class ArmSubject final : public Subject {
   /// The same beside some rows of `whole`, with the same forms, for a quick look; it has no probes
   /// and no forms of noise. `whole` must outlive it.
   ArmSubject(const ArmSubject& whole, const std::vector<int>& rows);
+  ArmSubject(const ArmSubject&) = delete;
+  ArmSubject& operator=(const ArmSubject&) = delete;
 
   const Units& units() const override { return units_; }
   const std::vector<Form>& forms() const override { return forms_; }
@@ -63,6 +66,9 @@ class ArmSubject final : public Subject {
   double freedom() const;
   /// The rigid part where the model stands, base and tool set.
   Arm arm() const;
+  /// All bases, tools and planes too.
+  ArmState state() const { return state_at(problem_.columns, x_); }
+  /// Of recorded poses: what effects do is evaluated at the joint values that were recorded.
   Eigen::Matrix3Xd deviations() const;
   /// (3, N) position rows, in units of their noise, as distances [m].
   Eigen::Matrix3Xd in_metres(const Eigen::VectorXd& rows) const;
@@ -105,6 +111,12 @@ class ArmSubject final : public Subject {
   bool is_left_out(Index row) const;
   /// Rows of positions and of orientations that are not left out, less what points take.
   Eigen::Array2d free_rows() const;
+  /// Effects follow the geometry (torques, links that bend): what they do is evaluated anew at the
+  /// arm of `x`, as whoever uses the model does.
+  /// \return rms of how far that moves the rows [noise]
+  double evaluate_effects_at(const Eigen::VectorXd& x);
+  bool effects_changed() const;
+  Arm arm_at(const Eigen::VectorXd& x) const;
   void gather_data(const Covariates& covariates);
   void gather_units();
   void gather_forms(const Effects& effects);
@@ -138,9 +150,10 @@ class ArmSubject final : public Subject {
   Observability seen_;
   SearchResult start_;
   ArmFit fit_;
+  Arm effects_arm_;  ///< at which effects are evaluated: that of `data_` and `record_`
   EffectData data_;
   // Of a subject beside some rows of another's:
-  const EffectData* record_ = nullptr;  ///< all of them
+  std::optional<EffectData> record_;  ///< all of them
   std::vector<int> rows_;
   std::set<const Effect*> needs_record_;
   std::vector<Probe> probes_;

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <utility>
 
 #include "bathyal/diagnosis/arm/internal/descriptions.hpp"
 #include "bathyal/diagnosis/arm/internal/model.hpp"
@@ -15,7 +16,9 @@
 namespace bathyal {
 namespace {
 
-constexpr int kMostRounds = 12;  ///< of finding values, their noise and their sizes
+constexpr int kMostEvaluations = 6;      ///< of effects, each at the arm that the last fit found
+constexpr double kSameResiduals = 3e-3;  ///< rms, in units of noise: evaluated anew they are these
+constexpr int kMostRounds = 12;          ///< of finding values, their noise and their sizes
 constexpr int kMostSteps = 20;
 constexpr double kFirstDamping = 1e-2;  ///< 1 / (10 mm or mrad)²
 constexpr double kLeastDamping = 1e-6;
@@ -101,13 +104,16 @@ void ArmSubject::fit(const std::vector<int>& forms) {
     x.tail(wide).setZero();
     if (known.contains(form)) x.tail(wide) = known[form];
   }
-  bool other_noise = true;
-  for (int round = 0; round < kMostRounds; ++round) {
-    if (!learn_sizes(x) && !other_noise) break;
-    x = nearest_minimum(std::move(x));
-    if (!m_.tracked) x = without_size_draw(std::move(x));
-    x_ = x;
-    other_noise = update_noise();
+  for (int evaluation = 0; evaluation < kMostEvaluations; ++evaluation) {
+    bool other_noise = true;
+    for (int round = 0; round < kMostRounds; ++round) {
+      if (!learn_sizes(x) && !other_noise) break;
+      x = nearest_minimum(std::move(x));
+      if (!m_.tracked) x = without_size_draw(std::move(x));
+      x_ = x;
+      other_noise = update_noise();
+    }
+    if (evaluate_effects_at(x) < kSameResiduals) break;
   }
   stand_at(x);
   if (forms.empty()) bare_ = deviations();
@@ -130,19 +136,57 @@ void ArmSubject::stand_with(const std::vector<int>& forms) {
   problem_.system->set_free(std::move(free));
 }
 
+double ArmSubject::evaluate_effects_at(const Eigen::VectorXd& x) {
+  const ArmSystem& system = *problem_.system;
+  effects_arm_ = arm_at(x);
+  exact_ = exact_joints(system, x);
+  // What follows recorded joints would follow their scatter, and explain it by itself.
+  if (!m_.tracked) data_.q = exact_;
+  if (!effects_changed()) return 0.0;
+  const auto residuals = [&] {
+    Eigen::VectorXd out(system.rows());
+    system.evaluate(system.scaled(x).data(), out.data(), nullptr);
+    return Eigen::VectorXd(out.head(system.data_rows()));
+  };
+  const Eigen::VectorXd before = residuals();
+  stand_with(standing_);
+  return (residuals() - before).norm() / std::sqrt(static_cast<double>(before.size()));
+}
+
+/// Whether those that stand do another thing by now than their columns say.
+bool ArmSubject::effects_changed() const {
+  const auto same = [](const Action& a, const Action& b) { return a.values == b.values; };
+  std::size_t column = 0;
+  for (const int form : standing_) {
+    for (const std::vector<Action>& actions : actions_of(form)) {
+      const std::vector<Action>& stands = *problem_.columns.actions[column++];
+      if (!std::equal(actions.begin(), actions.end(), stands.begin(), stands.end(), same)) {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
 /// All that a fit finds.
 struct ArmSubject::ArmPlace final : Place {
+  ArmPlace(Arm arm, RowMatrix q, RowMatrix joints)
+      : effects_arm(std::move(arm)), effects_q(std::move(q)), exact(std::move(joints)) {}
+
   std::vector<int> standing;
   std::vector<EffectVariant> variants;  ///< of those: orders move
   std::map<Family, double> sizes;
   Eigen::VectorXd x;
+  Arm effects_arm;      ///< at which they are evaluated
+  RowMatrix effects_q;  ///< the same
+  RowMatrix exact;
   std::vector<double> trust;
   ArmSystem::Whitening whitening;
   Noise noise;
 };
 
 std::shared_ptr<const Subject::Place> ArmSubject::place() const {
-  auto out = std::make_shared<ArmPlace>();
+  auto out = std::make_shared<ArmPlace>(effects_arm_, data_.q, exact_);
   out->standing = standing_;
   for (const int form : standing_) out->variants.push_back(sources_[form].variant);
   out->sizes = sizes_;
@@ -160,6 +204,9 @@ void ArmSubject::return_to(const Place& place) {
     forms_[to.standing[i]].words = words_of(to.variants[i], nominal_);
   }
   sizes_ = to.sizes;
+  effects_arm_ = to.effects_arm;
+  data_.q = to.effects_q;
+  exact_ = to.exact;
   stand_with(to.standing);
   problem_.system->set_trust(to.trust);
   problem_.system->set_row_whitening(to.whitening);
@@ -257,9 +304,6 @@ void ArmSubject::stand_at(const Eigen::VectorXd& x) {
   Eigen::VectorXd residuals(rows);
   const Eigen::VectorXd y = system.scaled(x);
   system.evaluate(y.data(), residuals.data(), nullptr);
-  exact_ = exact_joints(system, x);
-  // What follows recorded joints would follow their scatter, and explain it by itself.
-  if (!m_.tracked) data_.q = exact_;
   const Eigen::MatrixXd jacobian = derivatives(x);
   by_standing_ = jacobian.rightCols(system.columns() - wide);
   linearization_.misfit = by_standing_ * y.tail(y.size() - wide);

@@ -38,11 +38,13 @@ ArmSubject::ArmSubject(const ArmSubject& whole, const std::vector<int>& rows,
                        std::unique_ptr<const Measurement>&& some)
     : ArmSubject(whole.nominal_, *some, std::move(some), whole.problem_.options) {
   data_ = some_of(whole.data_, rows);
-  record_ = &whole.data_;
+  record_ = whole.data_;
+  data_.arm = record_->arm = &effects_arm_;
   rows_ = rows;
   gather_units();
   take_forms(whole);
   find_those_that_need_the_record();
+  evaluate_effects_at(x_);
   stand_at(x_);
 }
 

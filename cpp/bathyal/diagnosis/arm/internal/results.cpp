@@ -56,15 +56,32 @@ Eigen::MatrixXd ArmSubject::covariance() const {
   return squares / freedom() * (own * own.transpose());
 }
 
-Arm ArmSubject::arm() const {
-  const ArmState state = state_at(problem_.columns, x_);
+Arm ArmSubject::arm() const { return arm_at(x_); }
+
+Arm ArmSubject::arm_at(const Eigen::VectorXd& x) const {
+  const ArmState state = state_at(problem_.columns, x);
   Arm arm = state.arm;
   arm.set_base(state.bases[0]);
   arm.set_tool(state.tools[0]);
   return arm;
 }
 
-Eigen::Matrix3Xd ArmSubject::deviations() const { return problem_.system->deviations(x_); }
+Eigen::Matrix3Xd ArmSubject::deviations() const {
+  if (m_.tracked || standing_.empty()) return problem_.system->deviations(x_);
+  EffectData recorded = data_;
+  recorded.q = m_.q;
+  ArmColumns columns = problem_.columns;
+  truncate_columns(columns, geometry_);
+  for (const int form : standing_) {
+    const Source& source = sources_[form];
+    add_effect(columns, source.variant,
+               bathyal::actions_of(*source.effect, source.variant, recorded));
+  }
+  ArmSystem system(columns, m_, Criterion::kCentroid, false, problem_.system->num_threads());
+  system.set_trust(problem_.system->trust());
+  system.set_row_whitening(problem_.system->row_whitening());
+  return system.deviations(x_);
+}
 
 Eigen::Matrix3Xd ArmSubject::in_metres(const Eigen::VectorXd& rows) const {
   Eigen::Matrix3Xd out(3, m_.rows());

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bathyal/diagnosis/model_check.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "bathyal/base/error.hpp"
+#include "bathyal/identify/corrected_arm.hpp"
+#include "bathyal/identify/wording.hpp"
+
+namespace bathyal {
+namespace {
+
+using RowMajor4 = Eigen::Matrix<double, 4, 4, Eigen::RowMajor>;
+
+/// Of the largest coordinate, and of a metre: what the two ways of computing round off.
+constexpr double kRounding = 1e-9;
+
+/// (3, N) tips of the model, each by the tool and the station of its row.
+Eigen::Matrix3Xd tips_of(const Diagnosis& found, const ArmSubject& subject, const Measurement& m,
+                         const Covariates& covariates, int num_threads) {
+  const CorrectedArm model(found.arm, found.found, found.support);
+  const CorrectedPoses poses =
+      model.forward_of_record({m.q.data(), m.q.rows(), m.q.cols()}, covariates, num_threads);
+  const ArmState state = subject.state();
+  const Pose base = state.bases[0].inverse(), tool = state.tools[0].inverse();
+  Eigen::Matrix3Xd tips(3, m.rows());
+  for (Index i = 0; i < m.rows(); ++i) {
+    Pose pose;
+    pose.matrix() = Eigen::Map<const RowMajor4>(&poses.poses[16 * static_cast<std::size_t>(i)]);
+    if (m.tool[i] > 0) pose = pose * tool * state.tools[m.tool[i]];
+    if (m.station[i] > 0) pose = state.bases[m.station[i]] * base * pose;
+    tips.col(i) = pose.translation();
+  }
+  return tips;
+}
+
+/// (3, N) by how much tips less residuals are not where they should be: on what was measured, in
+/// one place of each touched point, on its plane.
+Eigen::Matrix3Xd misses_of(const Eigen::Matrix3Xd& tips, const Diagnosis& found,
+                           const ArmSubject& subject, const Measurement& m) {
+  Eigen::Matrix3Xd out = tips - found.residuals_after;
+  if (m.tracked) return out - m.position;
+  std::map<int, std::vector<Index>> touches;
+  for (Index i = 0; i < m.rows(); ++i) {
+    if (m.point[i] >= 0) touches[m.point[i]].push_back(i);
+  }
+  for (const auto& [point, rows] : touches) {
+    const Vec3 center = out(Eigen::all, rows).rowwise().mean();
+    for (const Index i : rows) out.col(i) -= center;
+  }
+  const std::vector<PlaneGuess> planes = subject.state().planes;
+  for (Index i = 0; i < m.rows(); ++i) {
+    if (m.point[i] >= 0) continue;
+    const PlaneGuess& plane = planes[m.plane[i]];
+    out.col(i) = (plane.normal.dot(out.col(i) - plane.center) - plane.offset) * plane.normal;
+  }
+  return out;
+}
+
+/// Of covariates that the library does not know.
+bool lacks_own_covariate(const Covariates& covariates, Index row) {
+  return std::any_of(covariates.begin(), covariates.end(), [row](const auto& covariate) {
+    return !is_library_covariate(covariate.first) &&
+           covariate.second.row(row).array().isNaN().any();
+  });
+}
+
+}  // namespace
+
+void check_model(const Diagnosis& found, const ArmSubject& subject, const Measurement& measurement,
+                 const Covariates& covariates, int num_threads) {
+  const Eigen::Matrix3Xd tips = tips_of(found, subject, measurement, covariates, num_threads);
+  const Eigen::Matrix3Xd misses = misses_of(tips, found, subject, measurement);
+  const double least = kRounding * (1.0 + tips.cwiseAbs().maxCoeff());
+  for (Index i = 0; i < misses.cols(); ++i) {
+    if (misses.col(i).norm() <= least || lacks_own_covariate(covariates, i)) continue;
+    throw Error("diagnose: the model that was found gives another tip in row " + std::to_string(i) +
+                " than it was fitted with, by " + millimetres(misses.col(i).norm()) +
+                ": an effect does something else than the same row and form made it do before");
+  }
+}
+
+}  // namespace bathyal

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "bathyal/diagnosis/arm_subject.hpp"
+#include "bathyal/diagnosis/diagnose.hpp"
+
+namespace bathyal {
+
+/// Whether the corrected arm that a diagnosis hands out does what its report says: evaluated at the
+/// joint values that taught it, it must leave the residuals that are reported. Rows that lack a
+/// covariate of the caller's own (NaN) are not compared: there the model leaves out what looks at
+/// it.
+/// \throw Error where it does not
+void check_model(const Diagnosis& found, const ArmSubject& subject, const Measurement& measurement,
+                 const Covariates& covariates, int num_threads);
+
+}  // namespace bathyal
