@@ -12,12 +12,16 @@ import bathyal
 
 def difference(report: Any, data: bathyal.Tracked | bathyal.Touches) -> float:
     """How far the model's tips at the recorded joints lie from those that the residuals tell, at
-    most [m]. Of a tool that slipped at a row and not at a time, the rows before the slip are not
+    most [m]. Rows that lack a covariate are not asked: the model leaves out what looks at it there.
+    Of a tool that slipped at a row and not at a time, the rows before the slip are not
     asked: by itself each of them is a pose after it."""
     model = report.model
     tips = model.forward(data.q, covariates=data.covariates)[:, :3, 3]
     residuals = np.asarray(report.residuals_after).T
-    rows = np.arange(len(data.q))
+    known = np.ones(len(data.q), bool)
+    for values in data.covariates.values():
+        known &= np.isfinite(values).reshape(len(known), -1).all(axis=1)
+    rows = np.flatnonzero(known)
     for effect in model.effects:
         if effect.name == "tool_slip" and "time" not in effect.settings:
             rows = rows[rows >= effect.settings["moment"]]

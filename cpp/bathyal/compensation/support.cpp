@@ -126,6 +126,14 @@ bool is_library_covariate(std::string_view name) {
   return std::find(kNames.begin(), kNames.end(), name) != kNames.end();
 }
 
+Covariates used_covariates(const EffectData& data) {
+  Covariates out = data.covariates;
+  std::erase_if(out, [&data](const auto& covariate) {
+    return is_library_covariate(covariate.first) && !data.has(covariate.first);
+  });
+  return out;
+}
+
 void Support::check(Index coordinates) const {
   check_range_of("joints", joints, coordinates);
   check_range_of("gravity", gravity, 3);

@@ -14,6 +14,10 @@ namespace bathyal {
 /// direction, gravity, session.
 bool is_library_covariate(std::string_view name);
 
+/// What effects used of recorded rows: of the library's covariates those that no row lacks, for the
+/// others count as not recorded; all of the caller's own.
+Covariates used_covariates(const EffectData& data);
+
 /// What the data that taught a model covered: beyond it the model is a guess.
 struct Support {
   /// Least and greatest of each column.

@@ -69,7 +69,7 @@ Diagnosis run(const Arm& arm, const Measurement& measurement, const Covariates& 
   const FirstLook look = look_at_some_rows(subject, options.num_threads, progress);
   const Examination found = examine(subject, asked, progress, look);
   Diagnosis out = report(subject, measurement, arm, found, options);
-  check_model(out, subject, measurement, covariates, options.num_threads);
+  check_model(out, subject, measurement, options.num_threads);
   for (const auto& sentences :
        {subject.geometry_doubts(), subject.untried(), doubt_record(subject.data(), effects)}) {
     out.warnings.insert(out.warnings.end(), sentences.begin(), sentences.end());

@@ -70,7 +70,8 @@ bool lacks_own_covariate(const Covariates& covariates, Index row) {
 }  // namespace
 
 void check_model(const Diagnosis& found, const ArmSubject& subject, const Measurement& measurement,
-                 const Covariates& covariates, int num_threads) {
+                 int num_threads) {
+  const Covariates covariates = used_covariates(subject.data());
   const Eigen::Matrix3Xd tips = tips_of(found, subject, measurement, covariates, num_threads);
   const Eigen::Matrix3Xd misses = misses_of(tips, found, subject, measurement);
   const double least = kRounding * (1.0 + tips.cwiseAbs().maxCoeff());

@@ -12,6 +12,6 @@ namespace bathyal {
 /// it.
 /// \throw Error where it does not
 void check_model(const Diagnosis& found, const ArmSubject& subject, const Measurement& measurement,
-                 const Covariates& covariates, int num_threads);
+                 int num_threads);
 
 }  // namespace bathyal

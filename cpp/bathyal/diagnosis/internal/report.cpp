@@ -36,7 +36,7 @@ class Reporter {
     out_.fit = subject_.geometry();
     out_.arm = subject_.arm();
     out_.found = subject_.found();
-    out_.support = support_of(m_.q, used_covariates());
+    out_.support = support_of(m_.q, used_covariates(subject_.data()));
     out_.residuals_before = subject_.bare_deviations();
     out_.residuals_after = subject_.deviations();
     tell_noise();
@@ -55,16 +55,6 @@ class Reporter {
 
  private:
   const Form& form(int index) const { return subject_.forms()[index]; }
-
-  /// Of the library's own, those that are missing in a row taught nothing: effects counted them as
-  /// not recorded.
-  Covariates used_covariates() const {
-    Covariates out = subject_.data().covariates;
-    std::erase_if(out, [this](const auto& covariate) {
-      return is_library_covariate(covariate.first) && !subject_.data().has(covariate.first);
-    });
-    return out;
-  }
 
   /// By repeats of a pose, which no model explains away; else by what the model leaves.
   void tell_noise() {
