@@ -10,7 +10,7 @@
 #include "bathyal/arm/dh.hpp"
 #include "bathyal/arm/row_frames.hpp"
 #include "bathyal/base/random.hpp"
-#include "bathyal/identify/corrected_arm.hpp"
+#include "bathyal/compensation/corrected_arm.hpp"
 
 namespace bathyal {
 namespace {

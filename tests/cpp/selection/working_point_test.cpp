@@ -1,34 +1,34 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "bathyal/diagnosis/vantage.hpp"
+#include "bathyal/selection/working_point.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "bathyal/base/random.hpp"
-#include "bathyal/diagnosis/odd_units.hpp"
+#include "bathyal/selection/outlier_test.hpp"
 
 namespace bathyal {
 namespace {
 
-constexpr Index kUnits = 40, kOut = 7;
+constexpr Index kManyUnits = 40, kLeftOutUnit = 7;
 
 /// Units of so many rows each, one base column and noise of 1; a unit is left out, or none.
 class ManyRows final : public Subject {
  public:
   ManyRows(Index rows, bool left_out) : rows_(rows) {
-    at_.misfit.resize(kUnits * rows);
+    at_.misfit.resize(kManyUnits * rows);
     RandomStream random(11);
     for (double& value : at_.misfit) value = random.normal();
-    at_.base = Eigen::MatrixXd::Ones(kUnits * rows, 1);
-    for (Index u = 0; u < kUnits; ++u) {
+    at_.base = Eigen::MatrixXd::Ones(kManyUnits * rows, 1);
+    for (Index u = 0; u < kManyUnits; ++u) {
       units_.order.push_back(static_cast<int>(u));
       at_.unit.insert(at_.unit.end(), static_cast<std::size_t>(rows), static_cast<int>(u));
     }
-    at_.misfit.segment(kOut * rows, rows).array() += 20.0;
+    at_.misfit.segment(kLeftOutUnit * rows, rows).array() += 20.0;
     if (!left_out) return;
-    at_.misfit.segment(kOut * rows, rows) *= std::sqrt(kLeftOut);
-    at_.base.middleRows(kOut * rows, rows) *= std::sqrt(kLeftOut);
+    at_.misfit.segment(kLeftOutUnit * rows, rows) *= std::sqrt(kLeftOut);
+    at_.base.middleRows(kLeftOutUnit * rows, rows) *= std::sqrt(kLeftOut);
     at_.lost = static_cast<double>(rows);
   }
 
@@ -49,15 +49,17 @@ class ManyRows final : public Subject {
   /// Log evidence where a column of its own explains each row of the unit, by the books.
   double score_with_columns_of_their_own() const {
     Eigen::VectorXd others(at_.misfit.size() - rows_);
-    others << at_.misfit.head(kOut * rows_),
-        at_.misfit.tail(at_.misfit.size() - (kOut + 1) * rows_);
+    others << at_.misfit.head(kLeftOutUnit * rows_),
+        at_.misfit.tail(at_.misfit.size() - (kLeftOutUnit + 1) * rows_);
     const double left = (others.array() - others.mean()).square().sum();
     const auto wide = static_cast<double>(rows_);
     const double variance = left / static_cast<double>(others.size() - 1);
-    const double off =
-        (at_.misfit.segment(kOut * rows_, rows_) / std::sqrt(kLeftOut)).array().square().sum();
+    const double off = (at_.misfit.segment(kLeftOutUnit * rows_, rows_) / std::sqrt(kLeftOut))
+                           .array()
+                           .square()
+                           .sum();
     return -0.5 * static_cast<double>(at_.misfit.size() - 1) * std::log(left) -
-           cost_of_freedom(wide, off / wide / variance) - std::log(double(kUnits));
+           cost_of_freedom(wide, off / wide / variance) - std::log(double(kManyUnits));
   }
 
  private:
@@ -70,8 +72,8 @@ class ManyRows final : public Subject {
 };
 
 Eigen::VectorXd trust(bool left_out) {
-  Eigen::VectorXd out = Eigen::VectorXd::Ones(kUnits);
-  if (left_out) out[kOut] = 0.0;
+  Eigen::VectorXd out = Eigen::VectorXd::Ones(kManyUnits);
+  if (left_out) out[kLeftOutUnit] = 0.0;
   return out;
 }
 
@@ -88,12 +90,12 @@ TEST(Vantage, AUnitLeftOutCostsAsManyNumbersAsItHasRows) {
 TEST(Vantage, RowsThatMeasureNothingAreNotCounted) {
   ManyRows subject(3, false);
   Linearization at = subject.linearization();
-  at.misfit.segment(3 * kOut + 1, 2).setZero();  // a touch of a plane
-  at.base.middleRows(3 * kOut + 1, 2).setZero();
+  at.misfit.segment(3 * kLeftOutUnit + 1, 2).setZero();  // a touch of a plane
+  at.base.middleRows(3 * kLeftOutUnit + 1, 2).setZero();
   const Eigen::MatrixXd basis = at.base.normalized();
-  const std::vector<UnitTest> tests = test_units(at, basis, trust(false), 3.0 * kUnits - 3.0);
-  EXPECT_EQ(tests[kOut].rows, 1.0);
-  EXPECT_EQ(tests[kOut + 1].rows, 3.0);
+  const std::vector<UnitTest> tests = test_units(at, basis, trust(false), 3.0 * kManyUnits - 3.0);
+  EXPECT_EQ(tests[kLeftOutUnit].rows, 1.0);
+  EXPECT_EQ(tests[kLeftOutUnit + 1].rows, 3.0);
 }
 
 }  // namespace

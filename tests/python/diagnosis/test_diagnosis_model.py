@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 import bathyal
 from bathyal import Arm, CorrectedArm, Link, Touches, Tracked
 from bathyal.effects import Effect, FoundEffect, library_effects
-from model_agreement import difference
+from tests.support.model_agreement import difference
 
 Array = NDArray[np.float64]
 

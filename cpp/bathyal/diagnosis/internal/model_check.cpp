@@ -1,25 +1,26 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "bathyal/diagnosis/model_check.hpp"
+#include "bathyal/diagnosis/internal/model_check.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 
 #include "bathyal/base/error.hpp"
-#include "bathyal/identify/corrected_arm.hpp"
-#include "bathyal/identify/wording.hpp"
+#include "bathyal/base/text.hpp"
+#include "bathyal/compensation/corrected_arm.hpp"
 
 namespace bathyal {
 namespace {
 
-using RowMajor4 = Eigen::Matrix<double, 4, 4, Eigen::RowMajor>;
+using PoseNumbers = Eigen::Matrix<double, 4, 4, Eigen::RowMajor>;
 
-/// Of the largest coordinate, and of a metre: what the two ways of computing round off.
-constexpr double kRounding = 1e-9;
+/// [m], and of the largest coordinate: what the two ways of computing round off.
+constexpr double kTipRounding = 1e-9;
 
 /// (3, N) tips of the model, each by the tool and the station of its row.
-Eigen::Matrix3Xd tips_of(const Diagnosis& found, const ArmSubject& subject, const Measurement& m,
-                         const Covariates& covariates, int num_threads) {
+Eigen::Matrix3Xd tips_of_model(const Diagnosis& found, const ArmSubject& subject,
+                               const Measurement& m, const Covariates& covariates,
+                               int num_threads) {
   const CorrectedArm model(found.arm, found.found, found.support);
   const CorrectedPoses poses =
       model.forward_of_record({m.q.data(), m.q.rows(), m.q.cols()}, covariates, num_threads);
@@ -28,7 +29,7 @@ Eigen::Matrix3Xd tips_of(const Diagnosis& found, const ArmSubject& subject, cons
   Eigen::Matrix3Xd tips(3, m.rows());
   for (Index i = 0; i < m.rows(); ++i) {
     Pose pose;
-    pose.matrix() = Eigen::Map<const RowMajor4>(&poses.poses[16 * static_cast<std::size_t>(i)]);
+    pose.matrix() = Eigen::Map<const PoseNumbers>(&poses.poses[16 * static_cast<std::size_t>(i)]);
     if (m.tool[i] > 0) pose = pose * tool * state.tools[m.tool[i]];
     if (m.station[i] > 0) pose = state.bases[m.station[i]] * base * pose;
     tips.col(i) = pose.translation();
@@ -36,10 +37,10 @@ Eigen::Matrix3Xd tips_of(const Diagnosis& found, const ArmSubject& subject, cons
   return tips;
 }
 
-/// (3, N) by how much tips less residuals are not where they should be: on what was measured, in
-/// one place of each touched point, on its plane.
-Eigen::Matrix3Xd misses_of(const Eigen::Matrix3Xd& tips, const Diagnosis& found,
-                           const ArmSubject& subject, const Measurement& m) {
+/// (3, N) how far tips less residuals are from where they should be: at what was measured, at one
+/// place for each touched point, in its plane.
+Eigen::Matrix3Xd misses_of_model(const Eigen::Matrix3Xd& tips, const Diagnosis& found,
+                                 const ArmSubject& subject, const Measurement& m) {
   Eigen::Matrix3Xd out = tips - found.residuals_after;
   if (m.tracked) return out - m.position;
   std::map<int, std::vector<Index>> touches;
@@ -72,9 +73,9 @@ bool lacks_own_covariate(const Covariates& covariates, Index row) {
 void check_model(const Diagnosis& found, const ArmSubject& subject, const Measurement& measurement,
                  int num_threads) {
   const Covariates covariates = used_covariates(subject.data());
-  const Eigen::Matrix3Xd tips = tips_of(found, subject, measurement, covariates, num_threads);
-  const Eigen::Matrix3Xd misses = misses_of(tips, found, subject, measurement);
-  const double least = kRounding * (1.0 + tips.cwiseAbs().maxCoeff());
+  const Eigen::Matrix3Xd tips = tips_of_model(found, subject, measurement, covariates, num_threads);
+  const Eigen::Matrix3Xd misses = misses_of_model(tips, found, subject, measurement);
+  const double least = kTipRounding * (1.0 + tips.cwiseAbs().maxCoeff());
   for (Index i = 0; i < misses.cols(); ++i) {
     if (misses.col(i).norm() <= least || lacks_own_covariate(covariates, i)) continue;
     throw Error("diagnose: the model that was found gives another tip in row " + std::to_string(i) +

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "bathyal/diagnosis/arm_subject.hpp"
+#include "bathyal/diagnosis/arm/internal/model.hpp"
 #include "bathyal/diagnosis/diagnose.hpp"
 
 namespace bathyal {

@@ -4,6 +4,7 @@
 #include "bathyal/diagnosis/arm/internal/model.hpp"
 #include "bathyal/estimation/gram.hpp"
 #include "bathyal/estimation/orthogonal.hpp"
+#include "bathyal/identify/model/effect_parameters.hpp"
 
 // What is told of the fit where the subject stands.
 
