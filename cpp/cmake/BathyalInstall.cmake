@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Headers, libraries and `find_package(bathyal)` for C++ users.
+# Headers, libraries and `find_package(bathyal)` for C++ users; the Python package installs its own
+# component (pyproject.toml).
 include(CMakePackageConfigHelpers)
 include(GNUInstallDirs)
 

@@ -26,7 +26,9 @@ if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64|amd64)$")
   set(BATHYAL_X86 ON)
   target_compile_definitions(bathyal_flags INTERFACE BATHYAL_X86_KERNELS)
 endif()
-if(BATHYAL_WERROR)
+# New compilers bring new warnings: only those of the compilers it is developed with are errors.
+if(BATHYAL_WERROR AND "${CMAKE_CXX_COMPILER_ID} ${CMAKE_CXX_COMPILER_VERSION}"
+   MATCHES "^(GNU 12|Clang 14)\\.")
   target_compile_options(bathyal_flags INTERFACE -Werror)
 endif()
 if(BATHYAL_SANITIZE)
@@ -61,7 +63,8 @@ function(bathyal_module name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
   add_library(bathyal_${name} STATIC ${ARG_SOURCES})
   add_library(bathyal::${name} ALIAS bathyal_${name})
-  set_target_properties(bathyal_${name} PROPERTIES EXPORT_NAME ${name})
+  set_target_properties(bathyal_${name} PROPERTIES EXPORT_NAME ${name}
+                        UNITY_BUILD ${BATHYAL_UNITY} UNITY_BUILD_BATCH_SIZE 8)
   target_compile_features(bathyal_${name} PUBLIC cxx_std_20)
   target_include_directories(bathyal_${name} PUBLIC
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/cpp> $<INSTALL_INTERFACE:include>)

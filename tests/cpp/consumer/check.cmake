@@ -18,3 +18,6 @@ run(${WORK}/build/consumer)
 if(NOT output STREQUAL "triangle 0 at 5 m\n")
   message(FATAL_ERROR "the consumer says: ${output}")
 endif()
+run(${CMAKE_COMMAND} -G Ninja -S ${SOURCE}/headers -B ${WORK}/headers
+    -DCMAKE_PREFIX_PATH=${WORK}/prefix)
+run(${CMAKE_COMMAND} --build ${WORK}/headers)

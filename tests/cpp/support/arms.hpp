@@ -109,6 +109,4 @@ inline JointMatrix random_poses(const Arm& arm, Index count, std::uint64_t seed)
   return q;
 }
 
-inline JointView view_of(const JointMatrix& q) { return {q.data(), q.rows(), q.cols()}; }
-
 }  // namespace bathyal
