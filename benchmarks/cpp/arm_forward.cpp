@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Poses and Jacobians of many joint values at once, on one thread, beside Pinocchio and Orocos KDL
+// Poses and Jacobians of many joint values at once, on one thread, against Pinocchio and Orocos KDL
 // called pose by pose, the only way they have: same values in, same row-major arrays out.
 #include <kdl/config.h>
 #include <kdl/chainfksolverpos_recursive.hpp>
@@ -102,13 +102,13 @@ void compare(const char* name, const Arm& arm, int rounds) {
 
 int main(int argc, char** argv) {
   const int rounds = argc > 1 ? std::atoi(argv[1]) : 15;
-  std::printf("## Forward kinematics and Jacobians beside Pinocchio %s and KDL %s\n\n",
+  std::printf("## Forward kinematics and Jacobians against Pinocchio %s and KDL %s\n\n",
               PinocchioPeer::version(), KDL_VERSION_STRING);
   std::printf(
       "`build/bench/benchmarks/cpp/bench_arm_forward %d`: %td joint values a call, the tool's pose "
       "and its geometric Jacobian of each, all on one thread, processor time, medians of %d "
       "interleaved rounds; every pose and Jacobian equal to both peers' within %g. All three write "
-      "into arrays that are there already; the column beside tells ours with arrays made anew, "
+      "into arrays that are there already; the next column gives ours with newly made arrays, "
       "which costs the system's pages.\n\n",
       rounds, kCount, rounds, kSame);
   std::printf(

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Joint angles of random reachable poses beside KDL's Levenberg-Marquardt and the published way of
+// Joint angles of random reachable poses against KDL's Levenberg-Marquardt and the published way of
 // TRAC-IK: how many are found, within the limits, and how long it takes. All begin in the middle of
 // the limits and draw their other starts themselves.
 #include <kdl/config.h>
@@ -134,11 +134,12 @@ void compare(const char* name, const Arm& arm) {
 }  // namespace
 
 int main() {
-  std::printf("## Inverse kinematics beside KDL %s and the way of TRAC-IK\n\n", KDL_VERSION_STRING);
+  std::printf("## Inverse kinematics against KDL %s and the way of TRAC-IK\n\n",
+              KDL_VERSION_STRING);
   std::printf(
       "`build/bench/benchmarks/cpp/bench_arm_inverse`: %td random reachable poses, every search "
       "begins in the middle of the limits. Found is what forward kinematics puts within %g m and "
-      "rad of the target, within the limits; ours is asked for 1e-6, the others for %g of each "
+      "rad of the target, within the limits; ours has a tolerance of 1e-6, the others %g of each "
       "component. TRAC-IK's way is that of Beeson and Ames (2015), our own writing of it on KDL "
       "and NLopt's SLSQP (with an analytic gradient): two threads, each with %g ms of its own "
       "processor time, the first to reach stops the other; its parts and the restarted LMA have "

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The 2.5-D Delaunay triangulation beside CGAL's Delaunay_triangulation_2 (EPICK kernel, insertion
+// The 2.5-D Delaunay triangulation against CGAL's Delaunay_triangulation_2 (EPICK kernel, insertion
 // of a range). CGAL is included here, in a benchmark that is not part of bathyal's libraries: its
 // triangulation packages are GPL-3.0.
 //
@@ -205,7 +205,7 @@ void compare(const char* name, const PointMatrix& matrix, int rounds) {
 
 int main(int argc, char** argv) {
   const int rounds = argc > 1 ? std::atoi(argv[1]) : 7;
-  std::printf("## 2.5-D Delaunay triangulation beside CGAL %s\n\n", CGAL_VERSION_STR);
+  std::printf("## 2.5-D Delaunay triangulation against CGAL %s\n\n", CGAL_VERSION_STR);
   std::printf(
       "`build/bench/benchmarks/cpp/bench_delaunay %d`: medians of %d interleaved rounds; the sets "
       "of "

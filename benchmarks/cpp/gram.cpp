@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Products of tall matrices, of which diagnosis is made, beside Eigen's own as the rest of bathyal
-// is built (SSE2): a library that is told no machine has no wider ones. Results agree to rounding,
-// and ours are the same bytes at every level, before any time is printed.
+// Products of tall matrices, of which diagnosis is made, against Eigen's own as the rest of bathyal
+// is built (SSE2): a library built for no particular machine has no wider ones. Results agree to
+// rounding, and ours are the same bytes at every level, before any time is printed.
 #include <cstdio>
 #include <cstdlib>
 #include <string>
@@ -70,7 +70,7 @@ void compare(const std::string& what, double operations, int rounds, const Ours&
 
 int main(int argc, char** argv) {
   const int rounds = argc > 1 ? std::atoi(argv[1]) : 15;
-  std::printf("## Products of tall matrices beside Eigen %d.%d.%d\n\n", EIGEN_WORLD_VERSION,
+  std::printf("## Products of tall matrices against Eigen %d.%d.%d\n\n", EIGEN_WORLD_VERSION,
               EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION);
   std::printf(
       "`build/bench/benchmarks/cpp/bench_products %d`: one thread, processor time, medians of %d "

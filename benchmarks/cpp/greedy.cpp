@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The 2.5-D Delaunay triangulation beside PCL's greedy projection triangulation with PCL's own
+// The 2.5-D Delaunay triangulation against PCL's greedy projection triangulation with PCL's own
 // normals, as Filaretov, Konoplin, Konoplin (2018) use it: same soundings; PCL's runs on one
 // thread.
 #include <pcl/features/normal_3d.h>
@@ -114,7 +114,7 @@ int main() {
                  peer_area);
     return 1;
   }
-  std::printf("## 2.5-D Delaunay triangulation beside PCL %s's greedy projection\n\n",
+  std::printf("## 2.5-D Delaunay triangulation against PCL %s's greedy projection\n\n",
               PCL_VERSION_PRETTY);
   std::printf(
       "`build/bench/benchmarks/cpp/bench_greedy`: %td soundings, one in each square metre, on "

@@ -6,7 +6,7 @@
 
 #include "bathyal/arm/kinematics.hpp"
 
-// An arm told to Orocos KDL: one segment a turning joint. Rows of type fixed, sliding joints,
+// An arm as a chain of Orocos KDL: one segment a turning joint. Rows of type fixed, sliding joints,
 // Hayati's beta and links are not needed here.
 
 namespace bathyal {

@@ -17,8 +17,8 @@
 
 // Inverse kinematics on KDL: its own Levenberg-Marquardt, and the way of Beeson, Ames, "TRAC-IK: an
 // open-source library for improved solving of generic inverse kinematics" (2015), our own
-// writing of it: Newton's steps by the pseudo-inverse with joint limits and random restarts, beside
-// sequential quadratic programming on the sum of squared errors (NLopt's SLSQP) with the same,
+// writing of it: Newton's steps by the pseudo-inverse with joint limits and random restarts, next
+// to sequential quadratic programming on the sum of squared errors (NLopt's SLSQP) with the same,
 // whichever is first.
 
 namespace bathyal {
@@ -28,8 +28,8 @@ inline constexpr double kTwist = 1e-5;   ///< [m], [rad] of each component, as p
 
 /// What every solver of a target works with.
 struct KdlProblem {
-  explicit KdlProblem(const Arm& told)
-      : arm(told), chain(to_kdl(told)), middle(chain.getNrOfJoints()) {
+  explicit KdlProblem(const Arm& solved)
+      : arm(solved), chain(to_kdl(solved)), middle(chain.getNrOfJoints()) {
     middle.data = 0.5 * (arm.lower() + arm.upper());
   }
 
@@ -89,7 +89,7 @@ class KdlLma {
   RandomStream random_;
 };
 
-/// KDL-RR of the paper: joints are held at their limits, and where they stand still the search
+/// KDL-RR of the paper: joints are held at their limits, and where they no longer move the search
 /// begins anew at random.
 class NewtonRestarted {
  public:
@@ -213,13 +213,13 @@ class TracWay {
   bool solve(const KDL::Frame& target, KDL::JntArray& q) {
     std::atomic<bool> done{false};
     bool newton = false, sqp = false;
-    std::thread beside([&] {
+    std::thread newton_thread([&] {
       newton = newton_.solve(target, by_newton_, done);
       if (newton) done = true;
     });
     sqp = sqp_.solve(target, by_sqp_, done);
     if (sqp) done = true;
-    beside.join();
+    newton_thread.join();
     q = newton ? by_newton_ : by_sqp_;
     return newton || sqp;
   }

@@ -7,8 +7,8 @@
 
 namespace bathyal {
 
-/// An arm told to Pinocchio. Its headers stay behind this class: they are compiled once, with the
-/// flags that serve them best.
+/// An arm as a model of Pinocchio. Its headers stay behind this class: they are compiled once, with
+/// the flags that serve them best.
 class PinocchioPeer {
  public:
   explicit PinocchioPeer(const Arm& arm);

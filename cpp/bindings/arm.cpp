@@ -49,7 +49,7 @@ void add_properties(py::class_<Arm>& cls) {
             return of_coordinates<std::string>(
                 arm, [](const Joint& j) { return j.follows.empty() ? j.name : j.follows; });
           },
-          "One name a coordinate: of the joint that leads it, in the arm or beside it.")
+          "One name a coordinate: of the joint that leads it, in the arm or outside it.")
       .def_property_readonly(
           "joint_types",
           [](const Arm& arm) {

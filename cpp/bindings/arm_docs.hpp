@@ -155,7 +155,7 @@ Parameters
 q : (N, n) or (n,) array
     [rad] or [m]
 frame : str
-    Axes along which the velocities are told: "world" or "tool".
+    Axes along which the velocities are given: "world" or "tool".
 num_threads : int
     0 is all.
 
@@ -201,7 +201,7 @@ Examples
 inline constexpr const char* kStaticsDoc = R"(Joint torques that hold the arm still.
 
 The drives carry Jᵀ · wrench, the weight of every link and of the payload, less the buoyancy of the
-volumes told. Masses and volumes are those of `links`; unknown ones are 0.
+volumes given. Masses and volumes are those of `links`; unknown ones are 0.
 
 Parameters
 ----------
@@ -210,7 +210,7 @@ q : (N, n) or (n,) array
 wrench : (6,) or (N, 6) array, optional
     Force and moment that the tool exerts on its surroundings at the tool centre point [N, N m].
 frame : str
-    Axes along which the wrench is told: "world" or "tool".
+    Axes along which the wrench is given: "world" or "tool".
 gravity : (3,) array
     In the arm's base frame [m/s²]: turn it with the vehicle.
 water_density : float

@@ -141,11 +141,11 @@ Link take_link(Fields& fields) {
   return link;
 }
 
-ChainLink take_chain_link(const py::handle& told) {
-  Fields fields("link", told);
+ChainLink take_chain_link(const py::handle& object) {
+  Fields fields("link", object);
   ChainLink link{take_link(fields), {}};
-  for (const py::handle& object : fields.list("attached")) {
-    Fields attached("attached", object);
+  for (const py::handle& body_object : fields.list("attached")) {
+    Fields attached("attached", body_object);
     Attached& added = link.attached.emplace_back();
     attached.take("pose", added.link_from_body);
     Fields body("link", attached.take("body"));
@@ -160,20 +160,21 @@ ChainLink take_chain_link(const py::handle& told) {
 JointChain take_chain(Fields& fields) {
   JointChain chain;
   fields.take("name", chain.name);
-  for (const py::handle& told : fields.list("joints")) {
-    Fields joint("joint", told);
+  for (const py::handle& object : fields.list("joints")) {
+    Fields joint("joint", object);
     ChainJoint& added = chain.joints.emplace_back();
     added.joint = take_joint(joint);
     joint.take("origin", added.parent_from_joint);
     joint.take("axis", added.axis);
     joint.finish();
   }
-  for (const py::handle& told : fields.list("links")) chain.links.push_back(take_chain_link(told));
+  for (const py::handle& object : fields.list("links"))
+    chain.links.push_back(take_chain_link(object));
   return chain;
 }
 
-Arm arm_from_chain_python(const py::dict& told, double nearly_parallel) {
-  Fields fields("", told);
+Arm arm_from_chain_python(const py::dict& object, double nearly_parallel) {
+  Fields fields("", object);
   const JointChain chain = take_chain(fields);
   std::string source;
   fields.take("source", source);
@@ -186,18 +187,18 @@ Arm arm_from_chain_python(const py::dict& told, double nearly_parallel) {
 // To Python -------------------------------------------------------------------------------------
 
 py::dict joint_parts(const Joint& joint) {
-  py::dict told;
-  told["name"] = joint.name;
-  told["type"] = word_of(joint.type, type_words());
-  told["coordinate"] = joint.coordinate;
-  told["follows"] = joint.follows;
-  told["multiplier"] = joint.multiplier;
-  told["offset"] = joint.offset;
-  told["lower"] = joint.lower;
-  told["upper"] = joint.upper;
-  told["velocity"] = joint.velocity;
-  told["effort"] = joint.effort;
-  return told;
+  py::dict parts;
+  parts["name"] = joint.name;
+  parts["type"] = word_of(joint.type, type_words());
+  parts["coordinate"] = joint.coordinate;
+  parts["follows"] = joint.follows;
+  parts["multiplier"] = joint.multiplier;
+  parts["offset"] = joint.offset;
+  parts["lower"] = joint.lower;
+  parts["upper"] = joint.upper;
+  parts["velocity"] = joint.velocity;
+  parts["effort"] = joint.effort;
+  return parts;
 }
 
 py::dict link_parts(const Link& link) {
@@ -216,13 +217,13 @@ py::dict link_parts(const Link& link) {
 py::dict chain_parts(const JointChain& chain) {
   py::list joints, links;
   for (const ChainJoint& joint : chain.joints) {
-    py::dict told = joint_parts(joint.joint);
-    told["origin"] = to_numpy(joint.parent_from_joint);
-    told["axis"] = to_numpy(joint.axis);
-    joints.append(told);
+    py::dict joint_dict = joint_parts(joint.joint);
+    joint_dict["origin"] = to_numpy(joint.parent_from_joint);
+    joint_dict["axis"] = to_numpy(joint.axis);
+    joints.append(joint_dict);
   }
   for (const ChainLink& link : chain.links) {
-    py::dict told = link_parts(link.link);
+    py::dict link_dict = link_parts(link.link);
     py::list bodies;
     for (const Attached& attached : link.attached) {
       py::dict body;
@@ -230,14 +231,14 @@ py::dict chain_parts(const JointChain& chain) {
       body["body"] = link_parts(attached.body);
       bodies.append(body);
     }
-    told["attached"] = bodies;
-    links.append(told);
+    link_dict["attached"] = bodies;
+    links.append(link_dict);
   }
-  py::dict told;
-  told["name"] = chain.name;
-  told["joints"] = joints;
-  told["links"] = links;
-  return told;
+  py::dict parts;
+  parts["name"] = chain.name;
+  parts["joints"] = joints;
+  parts["links"] = links;
+  return parts;
 }
 
 }  // namespace
@@ -252,17 +253,17 @@ const Words<JointType>& type_words() {
 py::dict arm_parts(const Arm& arm) {
   py::list joints, links;
   for (const Joint& joint : arm.joints()) {
-    py::dict told = joint_parts(joint);
-    told["a"] = joint.row.a;
-    told["alpha"] = joint.row.alpha;
-    told["d"] = joint.row.d;
-    told["theta"] = joint.row.theta;
-    told["beta"] = joint.row.beta;
-    joints.append(told);
+    py::dict joint_dict = joint_parts(joint);
+    joint_dict["a"] = joint.row.a;
+    joint_dict["alpha"] = joint.row.alpha;
+    joint_dict["d"] = joint.row.d;
+    joint_dict["theta"] = joint.row.theta;
+    joint_dict["beta"] = joint.row.beta;
+    joints.append(joint_dict);
   }
   for (const Link& link : arm.links()) {
-    py::dict told = link_parts(link);
-    told["frame"] = to_numpy(link.row_from_link);
+    py::dict link_dict = link_parts(link);
+    link_dict["frame"] = to_numpy(link.row_from_link);
     py::list frames;
     for (const Frame& frame : link.frames) {
       py::dict named;
@@ -270,23 +271,23 @@ py::dict arm_parts(const Arm& arm) {
       named["pose"] = to_numpy(frame.link_from_frame);
       frames.append(named);
     }
-    told["frames"] = frames;
-    links.append(told);
+    link_dict["frames"] = frames;
+    links.append(link_dict);
   }
-  py::dict told;
-  told["name"] = arm.name();
-  told["source"] = arm.source();
-  told["root"] = to_numpy(arm.root());
-  told["joints"] = joints;
-  told["links"] = links;
-  told["flange"] = to_numpy(arm.flange());
-  told["base"] = to_numpy(arm.base());
-  told["tool"] = to_numpy(arm.tool());
-  return told;
+  py::dict parts;
+  parts["name"] = arm.name();
+  parts["source"] = arm.source();
+  parts["root"] = to_numpy(arm.root());
+  parts["joints"] = joints;
+  parts["links"] = links;
+  parts["flange"] = to_numpy(arm.flange());
+  parts["base"] = to_numpy(arm.base());
+  parts["tool"] = to_numpy(arm.tool());
+  return parts;
 }
 
-Arm arm_from_parts(const py::dict& told) {
-  Fields fields("", told);
+Arm arm_from_parts(const py::dict& parts) {
+  Fields fields("", parts);
   std::string name, source;
   Pose root, flange, base, tool;
   fields.take("name", name);
@@ -318,7 +319,7 @@ Arm arm_from_parts(const py::dict& told) {
 void bind_arm_parts(py::module_& module) {
   module.def("arm_from_chain", &arm_from_chain_python, py::arg("chain"), py::kw_only(),
              py::arg("nearly_parallel") = ChainOptions().nearly_parallel,
-             "The Arm of joint origins, axes and links: what a URDF tells.");
+             "The Arm of joint origins, axes and links: what a URDF describes.");
   module.def(
       "chain_from_arm", [](const Arm& arm) { return chain_parts(chain_from_arm(arm)); },
       py::arg("arm"), "Joint origins, axes and links of an Arm; the last joint is the flange's.");

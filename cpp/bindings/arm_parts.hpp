@@ -17,7 +17,7 @@ const Words<JointType>& type_words();
 /// {"name", "source", "joints", "links", "root", "flange", "base", "tool"}
 pybind11::dict arm_parts(const Arm& arm);
 
-/// The arm of such a dict. What is left out has the default of the C++ struct; a key that is not
+/// The arm of such a dict. Keys left out have the default of the C++ struct; a key that is not
 /// known is refused.
 Arm arm_from_parts(const pybind11::dict& parts);
 

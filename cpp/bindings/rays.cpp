@@ -19,7 +19,7 @@ namespace {
 using HitArray = PageArray<RayHit>;
 
 /// Answers of Scene.cast. Range, mesh and triangle are columns of one array and cost nothing to
-/// look at; what is computed from the meshes is computed when it is first asked for, and kept.
+/// look at; what is computed from the meshes is computed at the first access, and kept.
 class Hits {
  public:
   Hits(std::shared_ptr<const HitArray> hits, std::vector<TriangleMesh> meshes)
@@ -32,8 +32,8 @@ class Hits {
   template <class Scalar>
   py::array column(Scalar RayHit::*member) const {
     const RayHit* data = hits_->data();
-    static const RayHit nobody;  // numpy wants an address for no rows as well
-    const Scalar* first = &((data == nullptr ? &nobody : data)->*member);
+    static const RayHit no_hit;  // numpy wants an address for no rows as well
+    const Scalar* first = &((data == nullptr ? &no_hit : data)->*member);
     auto* holder = new std::shared_ptr<const HitArray>(hits_);
     const py::capsule base(
         holder, [](void* p) { delete static_cast<std::shared_ptr<const HitArray>*>(p); });
@@ -137,8 +137,8 @@ void bind_hits(py::module_& module) {
   py::class_<Hits>(module, "Hits", R"(What each of N rays met first.
 
 All arrays are read-only. ``range``, ``mesh`` and ``triangle`` are there when the cast returns (as
-columns of one array, so with a stride); ``point``, ``normal`` and ``barycentric`` are computed when
-they are first asked for, and kept.
+columns of one array, so with a stride); ``point``, ``normal`` and ``barycentric`` are computed at
+the first access, and kept.
 )")
       .def_property_readonly(
           "range", [](const Hits& h) { return h.column(&RayHit::range); },

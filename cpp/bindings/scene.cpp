@@ -253,7 +253,7 @@ plane : Plane
 a, b : (3,) array
     Two points [m], not above each other along `up`.
 up : (3,) array, optional
-    Beside two points: any length but zero; (0, 0, 1) unless given.
+    With two points: any length but zero; (0, 0, 1) unless given.
 
 Returns
 -------
@@ -286,7 +286,7 @@ void bind_scene(py::module_& module) {
 
 Answers are decided in double, the same bytes on every instruction set and for any number of
 threads; equal ranges or distances give the lowest (mesh, triangle). The meshes are shared, not
-copied. Any number of threads may ask at once.
+copied. Any number of threads may query it at once.
 
 Parameters
 ----------
@@ -315,7 +315,7 @@ Scene(1 mesh, 1 triangle)
            }),
            py::arg("mesh"), py::kw_only(), py::arg("num_threads") = 0)
       .def_property_readonly("meshes", &Scene::meshes, "The meshes, as a list.")
-      .def_property_readonly("memory", &Scene::memory, "Bytes held beside the meshes' own arrays.")
+      .def_property_readonly("memory", &Scene::memory, "Bytes held besides the meshes' own arrays.")
       .def("__repr__", [](const Scene& s) {
         Index triangles = 0;
         for (const TriangleMesh& mesh : s.meshes()) triangles += mesh.triangle_count();

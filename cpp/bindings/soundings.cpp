@@ -90,9 +90,9 @@ path : path
 separator : " ", ",", ";" or tab, optional
     " " is any run of blanks and tabs. None looks at the file.
 decimal : "." or ",", optional
-    None takes a comma only where ";" or a tab separates columns and the numbers leave no doubt.
+    None takes a comma only where ";" or a tab separates columns and no number could mean thousands.
 comments : sequence of str
-    A line that begins with one of these is skipped, and so is the rest of a line behind a blank
+    A line that begins with one of these is skipped, and so is the rest of a line after a blank
     and one of these.
 header_lines : int
     Lines of column names; -1 takes lines without numbers as such.
@@ -127,7 +127,7 @@ void bind_files(py::module_& module) {
       py::arg("path"), py::kw_only(), py::arg("num_threads") = 0,
       R"(The point cloud of a .pcd file: ascii, binary or binary_compressed.
 
-Fields beside x, y, z become attributes; `rgb` and `rgba` are taken apart into red, green, blue.
+Fields other than x, y, z become attributes; `rgb` and `rgba` are taken apart into red, green, blue.
 )");
 
   const WriteXyzOptions defaults;
@@ -152,8 +152,8 @@ Fields beside x, y, z become attributes; `rgb` and `rgba` are taken apart into r
       py::arg("attributes") = defaults.attributes, py::arg("num_threads") = defaults.num_threads,
       R"(Write x y z and the named attributes as text, one point a line.
 
-`decimals` of -1 writes the shortest text that reads back as the same number; `preamble` stands above
-all else as it is. Writes in place: write aside and rename.
+`decimals` of -1 writes the shortest text that reads back as the same number; `preamble` goes above
+everything else, unchanged. Writes in place: write aside and rename.
 )");
 }
 
@@ -246,9 +246,9 @@ void bind_clean(py::module_& module) {
       py::arg("spike_neighbours") = d.spike_neighbours, py::arg("outlier_sigma") = d.outlier_sigma,
       py::arg("outlier_neighbours") = d.outlier_neighbours, py::arg("voxel") = d.voxel,
       py::arg("num_threads") = d.num_threads,
-      R"(Drop what is no sounding and, where asked, what is too much or out of line; say how many and why.
+      R"(Drop points that are no soundings and, on request, redundant ones and outliers; report how many.
 
-Points that are not finite go first, then exact duplicates. The other steps run only where asked, in
+Points that are not finite go first, then exact duplicates. The other steps run only on request, in
 the order of the parameters. Attributes and datum follow; rows keep their order, and which positions
 stay does not depend on it.
 

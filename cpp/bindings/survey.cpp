@@ -75,7 +75,7 @@ void bind_survey(py::module_& module) {
         const py::gil_scoped_release release;
         return generate_survey(options);
       },
-      R"(A multibeam survey that never was, over a bottom that is known exactly.
+      R"(A simulated multibeam survey over a bottom that is known exactly.
 
 Sand waves with ripples, boulders with scour and shadow, a trench, a stripe of lost pings, noise that
 grows with range, and the uneven spacing of beams at equal angles. The same seed and options give the

@@ -34,7 +34,7 @@ Made by `fit_plane`. Unpacks as ``plane, rms = fit``.
       .def_readonly("inlier_count", &PlaneFit::inlier_count)
       .def_readonly("tilt_std", &PlaneFit::tilt_std,
                     "Standard deviation of the normal's direction, its worst way [rad].")
-      .def_readonly("flat", &PlaneFit::flat, "Whether the plane may stand for the bottom.")
+      .def_readonly("flat", &PlaneFit::flat, "Whether the plane may represent the bottom.")
       .def_readonly("flat_share", &PlaneFit::flat_share,
                     "Share of the patches that lie within the tolerance.")
       .def_readonly("relief", &PlaneFit::relief, "Largest distance of a patch from the plane [m].")
@@ -81,7 +81,7 @@ cloud : PointCloud or (N, 3) array
 tolerance : float
     How far the ground may lie off the plane and still count as flat [m].
 patch_points : int
-    Soundings in a patch; the median of a patch stands for the ground there, so that neither noise
+    Soundings in a patch; the median of a patch is the ground's height there, so that neither noise
     nor single spikes count as relief.
 flat_share : float
     Share of the patches that must lie within `tolerance`.
@@ -148,7 +148,7 @@ Made by `find_sheets`. True where there are any; ``str`` says where and how much
       .def_readonly("noise", &SheetReport::noise,
                     "Median rms of soundings about the planes they lie on [m].")
       .def_readonly("min_separation", &SheetReport::min_separation,
-                    "What was asked of a separation [m].")
+                    "Vertical distance from which two sheets count [m], as given or chosen.")
       .def_property_readonly("single_valued", &SheetReport::single_valued,
                              "Whether the cloud is a height field.")
       .def("__bool__", [](const SheetReport& r) { return !r.single_valued(); })

@@ -51,9 +51,9 @@ TargetOptions target_options(const py::object& world_from_vehicle, const std::st
                              const std::string& vertical, double grazing_angle, double max_range,
                              int num_threads) {
   TargetOptions options;
-  options.vehicle.world_from_vehicle = pose_argument("world_from_vehicle", world_from_vehicle);
-  options.vehicle.frame = word_argument("frame", frame, frame_words());
-  options.vehicle.vertical = word_argument("vertical", vertical, vertical_words());
+  options.reference.world_from_vehicle = pose_argument("world_from_vehicle", world_from_vehicle);
+  options.reference.frame = word_argument("frame", frame, frame_words());
+  options.reference.vertical = word_argument("vertical", vertical, vertical_words());
   options.grazing_angle = grazing_angle;
   options.max_range = max_range;
   options.num_threads = num_threads;
@@ -176,7 +176,7 @@ void bind_path(py::module_& module) {
   add_array(cls, "normal_std", &ToolPath::normal_std,
             "(M,) root mean square of the angle the true normal may lie off; NaN where unknown.");
   add_array(cls, "crossing", &ToolPath::crossing,
-            "(M,) whether the stood-off path turns back or crosses itself here.");
+            "(M,) whether the path at standoff turns back or crosses itself here.");
   add_array(cls, "contact", &ToolPath::contact, "(M,) whether the tool's body meets ground here.");
   cls.def_property_readonly(
          "targets",
@@ -243,8 +243,8 @@ void bind_toolpath(py::module_& module) {
       },
       py::arg("surface"), py::arg("aims"), py::kw_only(),
       py::arg("world_from_vehicle") = py::none(),
-      py::arg("frame") = word_of(target.vehicle.frame, frame_words()),
-      py::arg("vertical") = word_of(target.vehicle.vertical, vertical_words()),
+      py::arg("frame") = word_of(target.reference.frame, frame_words()),
+      py::arg("vertical") = word_of(target.reference.vertical, vertical_words()),
       py::arg("grazing_angle") = target.grazing_angle, py::arg("max_range") = target.max_range,
       py::arg("num_threads") = target.num_threads, kFindTargetsDoc);
   module.def(
@@ -274,8 +274,8 @@ void bind_toolpath(py::module_& module) {
       },
       py::arg("surface"), py::arg("aims"), py::kw_only(),
       py::arg("world_from_vehicle") = py::none(),
-      py::arg("frame") = word_of(target.vehicle.frame, frame_words()),
-      py::arg("vertical") = word_of(target.vehicle.vertical, vertical_words()),
+      py::arg("frame") = word_of(target.reference.frame, frame_words()),
+      py::arg("vertical") = word_of(target.reference.vertical, vertical_words()),
       py::arg("grazing_angle") = target.grazing_angle, py::arg("max_range") = target.max_range,
       py::arg("missed") = word_of(path.missed, missed_words()),
       py::arg("orientation") = word_of(path.orientation, orientation_words()),

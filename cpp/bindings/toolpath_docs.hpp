@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// What help() says of the tool path's functions.
+// Docstrings of the tool path's functions.
 
 namespace bathyal::python {
 
@@ -18,9 +18,9 @@ aims : (K, 6) array
 world_from_vehicle : (4, 4) array, optional
     Pose of the vehicle, identity unless given.
 frame : {"vehicle", "world"}
-    What the aims stand in: the vehicle's frame (`world_from_vehicle` moves them) or the world's.
+    Frame of the aims: the vehicle's (`world_from_vehicle` moves them) or the world's.
 vertical : {"gravity", "vehicle"}
-    The world's z or the vehicle's; for a plane it tells which side is out of the bottom.
+    The world's z or the vehicle's; for a plane it decides which side is out of the bottom.
 grazing_angle : float
     Incidence above which a hit is "grazing" [rad].
 max_range : float
@@ -63,7 +63,7 @@ and the next, oriented and timed.
 Parameters
 ----------
 surface, aims, world_from_vehicle, frame, vertical, grazing_angle, max_range, num_threads
-    As in find_targets; `vertical` also says how the bottom is cut.
+    As in find_targets; `vertical` also decides how the bottom is cut.
 missed : {"leave_out", "refuse"}
     Aims without a target: left out with a warning, the stretch over them a gap; or an error.
 orientation : {"blended", "piecewise_constant"}

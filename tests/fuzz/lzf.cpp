@@ -3,7 +3,7 @@
 
 #include <memory>
 
-// Unpacks into memory of exactly the size asked for, so that the sanitizer sees a byte too many.
+// Unpacks into memory of exactly the size requested, so that the sanitizer sees a byte too many.
 extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, std::size_t size) {
   if (size < 2) return 0;
   const std::size_t wanted = data[0] + 256U * (data[1] % 8);

@@ -13,7 +13,7 @@ namespace bathyal {
 namespace {
 
 constexpr double kRounding = 4.0 * std::numeric_limits<double>::epsilon();
-constexpr double kOnAxis = 1e-13;  // [m] a link's frame this near to its axis stands on it
+constexpr double kOnAxis = 1e-13;  // [m] a link's frame this near to its axis counts as on it
 
 /// A directed line: an axis.
 struct Line {
@@ -47,7 +47,7 @@ double half_turn_angle(double x, double y) {
   return std::atan2(-y, -x);
 }
 
-/// The row from a frame whose z axis is one axis to a frame whose z axis is `next`, told in the
+/// The row from a frame whose z axis is one axis to a frame whose z axis is `next`, given in the
 /// first: the common normal is x.
 DhRow row_of_normal(const Line& next) {
   const Vec3& z = next.direction;
@@ -152,7 +152,7 @@ MovingChain without_fixed(const JointChain& chain) {
   return moving;
 }
 
-/// A frame on the first axis: that of the base, where it stands there already.
+/// A frame on the first axis: that of the base, where it is there already.
 Pose first_frame(const Line& axis) {
   const Vec3 off = axis.point - axis.point.z() * axis.direction;
   if (axis.direction == Vec3::UnitZ() && off.norm() == 0.0) return Pose::Identity();
@@ -199,8 +199,8 @@ ChainLink with_frames_apart(Link link) {
   return apart;
 }
 
-/// Whether a link whose frame is `before_from_link` while its joint stands at 0 may keep it.
-bool stands_on_axis(JointType type, const Pose& before_from_link) {
+/// Whether a link whose frame is `before_from_link` while its joint is at 0 may keep it.
+bool lies_on_axis(JointType type, const Pose& before_from_link) {
   return type != JointType::kRevolute || before_from_link.translation().head<2>().norm() <= kOnAxis;
 }
 
@@ -233,7 +233,7 @@ Arm arm_from_chain(const JointChain& chain, const ChainOptions& options) {
     row = unsigned_zeros(k + 1 < count ? row_to(before_from_joint * axis_before(moving, k + 1),
                                                 options.nearly_parallel)
                                        : last_row(before_from_joint));
-    // What the row, rounded, does not tell stays in the link's frame: nothing adds up.
+    // What rounding takes from the row stays in the link's frame: errors do not add up.
     const Pose row_from_before = row_pose(row, moving.joints[k].type, 0.0).inverse();
     before_from_link = row_from_before * before_from_joint;
     moving.links[k + 1].row_from_link = before_from_link;
@@ -253,14 +253,14 @@ JointChain chain_from_arm(const Arm& arm) {
     const Pose before_from_row = row_pose(joint.row, joint.type, 0.0);
     const Pose before_from_own = before_from_row * links[k + 1].row_from_link;
     Pose before_from_link = Pose::Identity();
-    if (stands_on_axis(joint.type, before_from_own)) before_from_link = before_from_own;
+    if (lies_on_axis(joint.type, before_from_own)) before_from_link = before_from_own;
     const Pose link_from_before = before_from_link.inverse();
 
-    ChainJoint told;
-    told.joint = joint;
-    told.parent_from_joint = parent_from_row * before_from_link;
-    told.axis = link_from_before.linear().col(2);
-    chain.joints.push_back(std::move(told));
+    ChainJoint chain_joint;
+    chain_joint.joint = joint;
+    chain_joint.parent_from_joint = parent_from_row * before_from_link;
+    chain_joint.axis = link_from_before.linear().col(2);
+    chain.joints.push_back(std::move(chain_joint));
     chain.links.push_back(
         with_frames_apart(in_frame(links[k + 1], link_from_before * before_from_own)));
     parent_from_row = link_from_before * before_from_row;

@@ -6,7 +6,7 @@
 
 #include "bathyal/arm/arm.hpp"
 
-// An arm as URDF tells it, joint origins and axes, and the way from it to rows and back.
+// An arm as URDF describes it, by joint origins and axes, and the conversion to rows and back.
 
 namespace bathyal {
 
@@ -52,7 +52,7 @@ struct ChainOptions {
 /// The arm that moves as the chain does, to rounding, links included.
 ///
 /// Rows follow the common normals of neighbouring axes (Denavit, Hartenberg 1955); of the two
-/// tables that tell one normal (theta and alpha turned round, a negated) the one with theta in
+/// tables that describe one normal (theta and alpha turned round, a negated) the one with theta in
 /// (-pi/2, pi/2] (to 1e-6). Neighbours within `nearly_parallel` of parallel or antiparallel take
 /// Hayati's row, in which d is 0 and beta tilts the axis; coincident ones among them have a = theta
 /// = 0. Where the z axis of links[0] is the first axis, `root` is the identity. The last row ends
@@ -65,7 +65,7 @@ struct ChainOptions {
 Arm arm_from_chain(const JointChain& chain, const ChainOptions& options = {});
 
 /// The chain that moves as the arm does, `base` and `tool` left out. Every row is one joint (fixed
-/// ones stay). A link keeps its own frame where that stands on the axis of its joint, as in a
+/// ones stay). A link keeps its own frame where that lies on the axis of its joint, as in a
 /// chain it must; elsewhere the frame is that before the row, turned with the joint, its z along
 /// the axis. The frames of links become attached bodies without mass. The last link is the flange,
 /// behind a fixed joint without a name.

@@ -9,7 +9,7 @@
 namespace bathyal {
 namespace {
 
-/// The part of a row that stands behind its joint in the standard convention and before it in the
+/// The part of a row that comes after its joint in the standard convention and before it in the
 /// modified one.
 struct Twist {
   double a = 0.0;

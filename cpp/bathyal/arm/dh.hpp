@@ -25,7 +25,7 @@ struct DhTable {
   Pose flange = Pose::Identity();
 };
 
-/// What is known of the joints and links beside the table; empty lists are unknown.
+/// What is known of the joints and links besides the table; empty lists are unknown.
 struct DhArmOptions {
   std::string name = {};
   std::string source = {};
@@ -44,7 +44,7 @@ Arm arm_from_dh(const DhTable& table, const DhArmOptions& options = {});
 
 /// The table of an arm (base and tool are not part of it). In the modified convention, a root that
 /// is no more than Tx(a) Rx(alpha) Ry(beta) becomes part of the first row, any other stays `root`.
-/// A mimic joint is a row of its own: what it follows is told by arm.joints().
+/// A mimic joint is a row of its own: arm.joints() names the joint that it follows.
 DhTable dh_table(const Arm& arm, DhConvention convention = DhConvention::kStandard);
 
 }  // namespace bathyal

@@ -47,7 +47,7 @@ struct ForwardBatch {
   double* poses;      ///< (N, 4, 4) world_from_tool
   double* links;      ///< (N, step_count + 1, 4, 4) world_from_link
   double* jacobians;  ///< (N, 6, size)
-  bool tool_frame;    ///< of the Jacobian: told along the tool's axes, not the world's
+  bool tool_frame;    ///< of the Jacobian: along the tool's axes, not the world's
   double* scratch;    ///< scratch_size(program) numbers
 };
 

@@ -10,7 +10,7 @@ namespace bathyal::arm {
 
 PlainPose plain(const Pose& pose);
 
-/// An arm in the kernels' words; `view` points into it.
+/// An arm as the kernels take it; `view` points into it.
 struct Program {
   explicit Program(const Arm& arm);
   Program(const Program&) = delete;

@@ -11,7 +11,7 @@
 
 namespace bathyal::arm {
 
-/// An arm and a task in the words of the solvers: what all targets of a call share.
+/// An arm and a task as the solvers take them: what all targets of a call share.
 struct InverseProblem {
   InverseProblem(const Arm& arm, const InverseOptions& options);
 

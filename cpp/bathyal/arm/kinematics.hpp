@@ -17,7 +17,7 @@ using JointMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen:
 using JointView = Eigen::Map<const JointMatrix>;
 inline JointView view_of(const JointMatrix& q) { return {q.data(), q.rows(), q.cols()}; }
 
-/// Axes along which a Jacobian or a wrench at the tool centre point is told.
+/// Axes along which a Jacobian or a wrench at the tool centre point is given.
 enum class TipFrame { kWorld, kTool };
 
 /// \throw std::invalid_argument when q is not (N, arm.size()), or not finite (the row is named).
@@ -60,7 +60,7 @@ void compute_kinematics(const Arm& arm, JointView q, const KinematicsOutput& out
 /// Whether every coordinate of a pose lies within its limits, widened by `tolerance`.
 std::vector<bool> within_limits(const Arm& arm, JointView q, double tolerance = 1e-9);
 
-/// Refuses angles that were told in degrees: on a turning joint, values that lie beyond its limits
+/// Refuses angles that were given in degrees: on a turning joint, values that lie beyond its limits
 /// (without limits: beyond one and a half turns) and more than two turns [rad] from zero.
 /// \throw std::invalid_argument that names the coordinate, a value, and `name`_deg.
 void check_joint_angles(const Arm& arm, JointView q, std::string_view name = "q");

@@ -11,16 +11,16 @@
 
 namespace bathyal {
 
-/// previous_from_this of a row whose joint stands at `value` ([rad], [m]; a fixed joint ignores
+/// previous_from_this of a row whose joint has `value` ([rad], [m]; a fixed joint ignores
 /// it).
 Pose row_pose(const DhRow& row, JointType type, double value);
 
 /// The value of a joint at the coordinates `q`: multiplier * q[coordinate] + offset; 0 when fixed.
 double joint_value(const Joint& joint, std::span<const double> q);
 
-/// Where the frames of an arm stand, in the world.
+/// Where the frames of an arm are, in the world.
 struct RowFrames {
-  /// joints + 1 of them: [0] is base * root, [k] stands behind row k - 1. Joint k turns about, or
+  /// joints + 1 of them: [0] is base * root, [k] comes after row k - 1. Joint k turns about, or
   /// slides along, the z axis of [k].
   std::vector<Pose> world_from_row;
   Pose world_from_tool = Pose::Identity();

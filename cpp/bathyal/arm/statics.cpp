@@ -27,7 +27,7 @@ struct Load {
 class Balance {
  public:
   Balance(const Arm& arm, const StaticsOptions& options) : arm_(arm), options_(options) {
-    // Told about the base's origin: moments keep their digits in survey coordinates.
+    // About the base's origin: moments keep their digits in survey coordinates.
     arm_.set_base(Pose(arm.base().linear()));
     gravity_ = arm.base().linear() * options.gravity;
   }

@@ -25,8 +25,8 @@ struct StaticsOptions {
 using Wrenches = Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor>>;
 
 /// Joint torques [N m] (sliding joints: forces [N]), (N, n), that the drives hold when the arm
-/// stands still: Jᵀ wrench, against the weight of every link and of the payload, less the buoyancy
-/// of the volumes told. Positive along the coordinate. A mimic joint's torque is added to its
+/// is at rest: Jᵀ wrench, against the weight of every link and of the payload, less the buoyancy
+/// of the volumes given. Positive along the coordinate. A mimic joint's torque is added to its
 /// leader's, times its multiplier.
 /// `wrenches` has no row (nothing is pushed), one for all poses, or one a pose.
 /// \throw std::invalid_argument as check_joint_values does, and for wrenches of another count or

@@ -55,7 +55,8 @@ void rotation_between(const double* from, const double* to, double* vector) {
     for (int i = 0; i < 3; ++i) vector[i] = factor * s[i];
     return;
   }
-  // Near half a turn the sine says little: the axis is the longest column of m + mᵀ + (1 − tr) I.
+  // Near half a turn the sine is ill-conditioned: the axis is the longest column of m + mᵀ + (1 −
+  // tr) I.
   int best = 0;
   for (int i = 1; i < 3; ++i) {
     if (m[4 * i] > m[4 * best]) best = i;

@@ -15,8 +15,8 @@ struct TipTask {
   double length = 1.0;  ///< a residual of 1 rad weighs as much as one of so many metres
 };
 
-/// Where the tool stands at one q, how that differs from a target, and the Jacobian of it. Targets
-/// are told relative to the origin of the arm's first frame, along the axes of the world.
+/// Where the tool is at one q, how that differs from a target, and the Jacobian of it. Targets
+/// are given relative to the origin of the arm's first frame, along the axes of the world.
 class TipState {
  public:
   TipState(const ForwardProgram& program, const TipTask& task);

@@ -16,7 +16,7 @@ class Error : public std::runtime_error {
 };
 
 /// Throws std::invalid_argument (Python: `ValueError`) with the text
-/// "`name`: expected <expected>, got <got>". Every caller's mistake is told through this function.
+/// "`name`: expected <expected>, got <got>". Every caller's mistake is reported by this function.
 [[noreturn]] void throw_argument(std::string_view name, std::string_view expected,
                                  std::string_view got);
 

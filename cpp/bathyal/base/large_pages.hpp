@@ -3,9 +3,9 @@
 
 #include <cstddef>
 
-// Where big arrays get their memory, and the only place that asks the system for large pages: one
+// Where big arrays get their memory, and the only place that requests large pages: one
 // fault for 2 MB instead of 512, and a page table that stays in the cache when memory is touched
-// all over. That is a wish: where it is refused the pages are small and everything still works.
+// all over. It is only a hint: where refused, pages are small and everything still works.
 
 namespace bathyal {
 

@@ -55,7 +55,7 @@ struct Job {
   }
 };
 
-/// Threads that wait for jobs; grown on demand to what was asked for, never shrunk, and never
+/// Threads that wait for jobs; grown on demand to the number requested, never shrunk, and never
 /// destroyed: they wait until the process ends. A job stays alive through its shared_ptr for as
 /// long as a late helper looks at it.
 class Pool {

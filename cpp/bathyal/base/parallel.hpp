@@ -7,8 +7,8 @@
 
 namespace bathyal {
 
-/// How many threads a call asks for: 0 means all of the machine's, and any other number is taken as
-/// it stands (1 runs in the calling thread). Throws std::invalid_argument below 0.
+/// The number of threads that `num_threads` means: 0 is all of the machine's, any other number is
+/// itself (1 runs in the calling thread). Throws std::invalid_argument below 0.
 int resolve_threads(int num_threads);
 
 /// Splits [0, count) into chunks of `grain` (the last may be shorter) and calls

@@ -30,12 +30,13 @@ bool runs_here(SimdLevel level) {
 
 /// An unknown name, or one the machine cannot run, is an error and not a guess.
 SimdLevel starting_level() {
-  const char* wish = std::getenv("BATHYAL_SIMD");
-  if (wish == nullptr || *wish == '\0') return available_simd_levels().back();
+  const char* requested = std::getenv("BATHYAL_SIMD");
+  if (requested == nullptr || *requested == '\0') return available_simd_levels().back();
   for (const SimdLevel level : available_simd_levels()) {
-    if (to_text(level) == wish) return level;
+    if (to_text(level) == requested) return level;
   }
-  throw_argument("BATHYAL_SIMD", "one of baseline, avx2, avx512 that this machine can run", wish);
+  throw_argument("BATHYAL_SIMD", "one of baseline, avx2, avx512 that this machine can run",
+                 requested);
 }
 
 std::atomic<SimdLevel>& current_level() {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-// Numbers and lists as people read them. For use inside the room.
+// Numbers and lists formatted for people: reports and warnings of all rooms.
 
 namespace bathyal {
 
@@ -14,7 +14,7 @@ std::string millimetres(double metres);
 /// "12.3 deg": three digits.
 std::string degrees(double radians);
 
-/// Three digits and the unit in which a person thinks of it: mm for "m", deg for "rad".
+/// Three digits and the unit that reports use: mm for "m", deg for "rad".
 std::string in_its_unit(double value, const std::string& unit);
 
 std::string three_digits(double value);

@@ -8,7 +8,7 @@
 
 namespace bathyal {
 
-/// What a person asks of a mesh before trusting it. Angles in radians, lengths in metres.
+/// Measures by which to judge a mesh before use. Angles in radians, lengths in metres.
 struct MeshReport {
   Index vertex_count = 0;
   Index unused_vertices = 0;  ///< of no triangle
@@ -38,7 +38,7 @@ struct MeshReport {
 };
 
 /// Measures a mesh. The planar area is exact where no two triangles lie over one another, and
-/// otherwise integrated over some 1000 lines (a few parts in 10⁴). Published rugosities divide by
+/// otherwise integrated over about 1000 lines (a few parts in 10⁴). Published rugosities divide by
 /// other planar areas (a concave hull, a coarsened mesh): compare with care. An empty mesh gives
 /// zeros, and NaN where there is nothing to divide. The same bytes for any number of threads.
 MeshReport mesh_report(const TriangleMesh& mesh, int num_threads = 0);

@@ -129,7 +129,7 @@ BigInteger scaled(double value, int unit_exponent) {
   return {mantissa, static_cast<unsigned>(last_bit_exponent(value) - unit_exponent), value < 0};
 }
 
-/// The last bit's exponent of the coordinate that reaches down furthest; zeros have no say.
+/// The last bit's exponent of the coordinate that reaches down furthest; zeros are left out.
 template <std::size_t N>
 int common_unit(const std::array<Point2, N>& points) {
   int exponent = std::numeric_limits<int>::max();

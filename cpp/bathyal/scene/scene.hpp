@@ -49,7 +49,7 @@ struct Polyline {
 
 /// One or more meshes under a bounding volume hierarchy. Answers are decided in double, the same on
 /// every instruction set and for any number of threads; equal ranges or distances give the lowest
-/// (mesh, triangle). Immutable after construction, so any number of threads may ask at once.
+/// (mesh, triangle). Immutable after construction, so any number of threads may query it at once.
 class Scene {
  public:
   /// \throw std::invalid_argument for no mesh at all. A mesh without triangles is allowed and
@@ -121,7 +121,7 @@ class Scene {
   /// at single points gives nothing there. No segment appears twice in a mesh, none has zero
   /// length; one that several triangles share names the lowest. Corners are joined by position, so
   /// triangles need not share vertices. Where more than two segments meet, a line goes on into the
-  /// one that turns least; an odd one ends there.
+  /// one that turns least; of an odd number, one ends there.
   std::vector<Polyline> section(const Plane& plane) const;
 
   /// The cut of the plane through `a`, `b` and the direction `up`, kept between `a` and `b`

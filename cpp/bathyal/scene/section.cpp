@@ -3,34 +3,35 @@
 #include <vector>
 
 #include "bathyal/scene/internal/cut.hpp"
-#include "bathyal/scene/internal/gauge.hpp"
 #include "bathyal/scene/internal/hierarchy.hpp"
 #include "bathyal/scene/internal/prefetch.hpp"
+#include "bathyal/scene/internal/slab_filter.hpp"
 
 namespace bathyal {
 namespace {
 
 using scene::Cutter;
-using scene::Gauge;
+using scene::SlabFilter;
 
 /// Largest coordinate of the scene in the world [m].
 double reach_of(const Scene::Hierarchy& hierarchy) {
   return scene::reach(hierarchy.origin) + hierarchy.reach();
 }
 
-/// The blocks whose boxes the section may cut. Breadth first: by the time a node is looked at it
-/// has long been asked for.
+/// The blocks whose boxes the section may cut. Breadth first: by the time a node is looked at its
+/// prefetch is long complete.
 std::vector<std::int32_t> find_blocks(const Cutter& cutter, const Scene::Hierarchy& hierarchy,
-                                      const Gauge& height) {
-  const Gauge along = cutter.has_strip() ? Gauge(hierarchy, cutter.along(), cutter.anchor(),
-                                                 cutter.along().stableNorm(),
-                                                 cutter.along_slack(reach_of(hierarchy)))
-                                         : height;
+                                      const SlabFilter& height) {
+  const SlabFilter along =
+      cutter.has_strip()
+          ? SlabFilter(hierarchy, cutter.along(), cutter.anchor(), cutter.along().stableNorm(),
+                       cutter.along_slack(reach_of(hierarchy)))
+          : height;
   std::vector<std::int32_t> blocks;
   std::vector<std::int32_t> nodes = {0};
   for (std::size_t next = 0; next < nodes.size(); ++next) {
     const scene::WideNode& node = hierarchy.nodes[static_cast<std::size_t>(nodes[next])];
-    scene::for_each_lane((height.sift(node) & along.sift(node)).bits(), [&](int lane) {
+    scene::for_each_lane((height.filter(node) & along.filter(node)).bits(), [&](int lane) {
       const std::int32_t child = node.child[lane];
       if (child < 0) {
         blocks.push_back(~child);
@@ -43,7 +44,7 @@ std::vector<std::int32_t> find_blocks(const Cutter& cutter, const Scene::Hierarc
   return blocks;
 }
 
-/// Calls `work(i)` for every i, and before it asks the memory for what `fetch(i + kAhead)` names: a
+/// Calls `work(i)` for every i, after a prefetch of what `fetch(i + kAhead)` names: a
 /// section touches a thin trace of a large scene, and would else wait for each of its places.
 template <class Fetch, class Work>
 void fetching_ahead(std::size_t count, const Fetch& fetch, const Work& work) {
@@ -59,8 +60,8 @@ void fetching_ahead(std::size_t count, const Fetch& fetch, const Work& work) {
 std::vector<std::uint32_t> find_candidates(const Cutter& cutter,
                                            const Scene::Hierarchy& hierarchy) {
   if (hierarchy.nodes.empty()) return {};
-  const Gauge height(hierarchy, cutter.normal(), cutter.anchor(), 0.0,
-                     cutter.height_slack(reach_of(hierarchy)));
+  const SlabFilter height(hierarchy, cutter.normal(), cutter.anchor(), 0.0,
+                          cutter.height_slack(reach_of(hierarchy)));
   const std::vector<std::int32_t> blocks = find_blocks(cutter, hierarchy, height);
   const auto block = [&](std::size_t i) -> const scene::TriangleBlock& {
     return hierarchy.blocks[static_cast<std::size_t>(blocks[i])];
@@ -70,7 +71,7 @@ std::vector<std::uint32_t> find_candidates(const Cutter& cutter,
   fetching_ahead(
       blocks.size(), [&](std::size_t i) { scene::prefetch(block(i)); },
       [&](std::size_t i) {
-        scene::for_each_lane(height.sift(block(i)).bits(),
+        scene::for_each_lane(height.filter(block(i)).bits(),
                              [&](int lane) { candidates.push_back(block(i).primitive[lane]); });
       });
   return candidates;

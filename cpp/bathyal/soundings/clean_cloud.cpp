@@ -41,7 +41,7 @@ void put_in_canonical_order(Soundings& soundings, int num_threads) {
       num_threads);
 }
 
-/// Takes away what is marked and says how much that was.
+/// Removes what is marked and returns how much that was.
 Index drop(Soundings& soundings, const Marks& marks) {
   std::size_t kept = 0;
   for (std::size_t i = 0; i < soundings.size(); ++i) {
@@ -54,7 +54,7 @@ Index drop(Soundings& soundings, const Marks& marks) {
 
 bool at_one_place(const Sounding& a, const Sounding& b) { return a.x == b.x && a.y == b.y; }
 
-/// Equal soundings stand side by side, the first row in front.
+/// Equal soundings are consecutive, the first row in front.
 Marks mark_duplicates(const Soundings& soundings) {
   Marks marks(soundings.size(), 0);
   for (std::size_t i = 1; i < soundings.size(); ++i) {
@@ -64,8 +64,8 @@ Marks mark_duplicates(const Soundings& soundings) {
   return marks;
 }
 
-/// Counts soundings that share their place, and marks those that the rule gives up; they stand side
-/// by side, from the lowest to the highest.
+/// Counts soundings that share their place, and marks those that the rule drops; they are
+/// consecutive, from the lowest to the highest.
 Marks mark_same_place(const Soundings& soundings, SamePlace rule, Index& count) {
   Marks marks(soundings.size(), 0);
   for (std::size_t begin = 0, end = 0; begin < soundings.size(); begin = end) {

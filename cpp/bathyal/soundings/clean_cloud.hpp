@@ -14,7 +14,7 @@ enum class SamePlace { kKeep, kShallowest, kDeepest };
 struct CleanOptions {
   /// Soundings of equal x, y and different z: all stay, or only the highest, or only the lowest.
   SamePlace same_place = SamePlace::kKeep;
-  /// Spikes stand further from the median height of their neighbours in plan than this many robust
+  /// Spikes lie further from the median height of their neighbours in plan than this many robust
   /// standard deviations (1.4826 × the median of absolute deviations: of the neighbours or of the
   /// whole cloud, whichever is larger). 0: spikes are not looked for; 0 or more.
   double spike_sigma = 0.0;
@@ -52,11 +52,11 @@ struct CleanResult {
   Indices rows;  ///< (N,) which row of the given cloud each sounding was
 };
 
-/// Drops what is no sounding and, where asked, what is too much or out of line; says how many and
-/// why.
+/// Drops points that are no soundings and, as the options request, redundant ones and outliers;
+/// reports how many and why.
 ///
 /// Points that are not finite go first, then exact duplicates (the first row stays), then, each
-/// only where its option asks for it and in this order: soundings at one x, y but the chosen one;
+/// only where its option is set and in this order: soundings at one x, y but the chosen one;
 /// spikes; statistical outliers (the rule of Rusu et al. 2008, "Towards 3D point cloud based object
 /// maps for household environments"); all soundings of a voxel but the one nearest to their
 /// centroid, so that every sounding that stays was measured. Voxels begin at multiples of their

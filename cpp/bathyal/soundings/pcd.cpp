@@ -198,7 +198,7 @@ TextFormat ascii_format(const PcdHeader& header) {
   return format;
 }
 
-/// The bits of a colour that stands in a text as a float or as a whole number.
+/// The bits of a colour that a text gives as a float or as a whole number.
 std::uint32_t colour_bits(double value, char type) {
   if (!std::isfinite(value)) return 0;
   if (type == 'F') {

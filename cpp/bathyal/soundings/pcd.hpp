@@ -17,8 +17,8 @@ namespace bathyal {
 /// name_1, …; `rgb` and `rgba` are taken apart into red, green, blue (and alpha), 0 to 255; fields
 /// named `_` are padding. Points that are not finite are kept (clean_cloud counts and drops them).
 ///
-/// The header is believed only as far as the file's length bears it out: nothing is allocated for
-/// points that are not there.
+/// The header's sizes are checked against the file's length first: nothing is allocated for points
+/// that are not there.
 /// \throw Error that names the file: not readable, no PCD header or one that contradicts itself, no
 /// x, y, z, no point, data that end early or go on behind the last point of an ascii file.
 PointCloud read_pcd(const std::filesystem::path& path, int num_threads = 0);

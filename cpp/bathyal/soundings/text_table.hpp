@@ -15,10 +15,10 @@ namespace bathyal {
 struct TextOptions {
   /// Between columns: ' ' (any run of blanks and tabs), ',', ';' or '\t'; 0 looks at the file.
   char separator = '\0';
-  /// '.' or ','; 0 takes a comma only where ';' or a tab separates columns and the numbers leave no
-  /// doubt ("1,234" alone may be a thousand: that is an Error which asks).
+  /// '.' or ','; 0 takes a comma only where ';' or a tab separates columns and the numbers can mean
+  /// nothing else ("1,234" alone may be a thousand: that is an Error which names this option).
   char decimal = '\0';
-  /// A line that begins with one of these, and the rest of a line behind a blank and one of these,
+  /// A line that begins with one of these, and the rest of a line after a blank and one of these,
   /// is a comment. ";" counts only where it does not separate columns.
   std::vector<std::string> comments = {"#", "//", "%", "!", ";"};
   int header_lines =
@@ -49,14 +49,14 @@ struct TextTable {
   bool grid = false;  ///< an ESRI ASCII grid: columns x, y, z
 };
 
-/// Reads numbers in columns (.xyz .txt .csv .asc), or an ESRI ASCII grid, which it knows by its
-/// first word and turns into x, y, z of every cell that has a value (ascii_grid.hpp).
+/// Reads numbers in columns (.xyz .txt .csv .asc), or an ESRI ASCII grid, recognised by its
+/// first word and converted to x, y, z of every cell that has a value.
 ///
-/// The file is read in blocks of 2 MiB, which are parsed in parallel; above the result no more than
-/// some 20 MB are held, whatever the file. Lines may end in LF, CRLF or CR; a byte order mark,
-/// blank lines, quotes around a field, a plus sign and one separator at the end of a line are
-/// allowed; nan and inf are numbers. Values are correctly rounded. The result does not depend on
-/// num_threads.
+/// The file is read in blocks of 2 MiB, which are parsed in parallel; besides the result
+/// no more than about 20 MB are held, whatever the file's size. Lines may end in LF, CRLF or CR; a
+/// byte order mark, blank lines, quotes around a field, a plus sign and one separator at the end of
+/// a line are allowed; nan and inf are numbers. Values are correctly rounded. The result does not
+/// depend on num_threads.
 ///
 /// \throw std::invalid_argument for options that make no sense or columns that the file lacks.
 /// \throw Error that names the file, and the line where there is one: a file that cannot be opened,

@@ -89,7 +89,7 @@ class FileSink {
     }
   }
 
-  /// Some file systems tell only now that there was no room.
+  /// Some file systems report a full disk only now.
   void close() {
     const int file = std::exchange(file_, -1);
     if (::close(file) != 0) fail();

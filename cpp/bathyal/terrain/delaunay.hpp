@@ -10,7 +10,7 @@ namespace bathyal {
 struct DelaunayOptions {
   /// Longest edge a triangle may have, measured in the horizontal plane [m], above 0; infinity
   /// keeps the whole convex hull. Unset: 5 times the median over all triangles of their longest
-  /// horizontal edge, and infinity below 50 distinct points, where a median says nothing.
+  /// horizontal edge, and infinity below 50 distinct points, too few for a median.
   std::optional<double> max_edge = std::nullopt;
   int num_threads = 0;  ///< 0 = all; the result is the same for any number
 
@@ -27,10 +27,10 @@ struct Delaunay {
 
 /// The 2.5-D Delaunay triangulation of soundings: that of their (x, y), in the frame of the points
 /// with z up, decided exactly on the doubles as given. Co-circular points are settled by the rule
-/// of in_perturbed_circle, so the triangles are a matter of the points alone, not of their order or
-/// of the number of threads. Of points with the same (x, y) only the lowest, then the first row, is
+/// of in_perturbed_circle, so the triangles depend on the points alone, not on their order or on
+/// the number of threads. Of points with the same (x, y) only the lowest, then the first row, is
 /// used. Triangles with an edge above `max_edge` are dropped after the triangulation is complete:
-/// gaps in the coverage stay gaps. Neighbouring triangles stand close to each other in the list.
+/// gaps in the coverage stay gaps. Neighbouring triangles are close to each other in the list.
 /// \throw std::invalid_argument for points that are not finite or above 1e75, and when there are
 /// not three that differ in (x, y) and are not on one line.
 Delaunay delaunay(PointView points, const DelaunayOptions& options = {});

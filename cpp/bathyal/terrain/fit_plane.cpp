@@ -26,7 +26,7 @@ constexpr double kMadToSigma = 1.482602218;    // of normal residuals
 constexpr double kCut = 3.0;                   // sigmas within which a point is an inlier
 constexpr double kCutToSigma = 1.0 / 0.98658;  // rms of normal residuals cut at 3 sigma
 
-/// The cloud about a local origin, with the smallest residual that means anything there.
+/// The cloud about a local origin, with the smallest residual above rounding there.
 struct LocalCloud {
   PointView points;
   Vec3 origin;
@@ -140,7 +140,7 @@ LocalPlane least_median_plane(const LocalCloud& cloud, const FitPlaneOptions& op
       best = plane;
     }
   }
-  // Every triple on a line or in one place: all the points together say more.
+  // Every triple on a line or in one place: take the plane of all points.
   if (!std::isfinite(smallest)) {
     const Scatter all = scatter(cloud, {}, options.num_threads);
     best = {all.axes.col(0), all.mean};
@@ -222,7 +222,7 @@ void check_not_on_a_line(const LocalCloud& cloud, const Refined& fit, std::uint6
   }
 }
 
-/// From the residuals: the least eigenvalue of the scatter knows only half of their digits.
+/// From the residuals: the least eigenvalue of the scatter keeps only half of their digits.
 double rms_of_inliers(const Refined& fit) {
   double sum = 0.0;
   for (std::size_t i = 0; i < fit.mask.size(); ++i) {
@@ -267,7 +267,7 @@ std::vector<double> patch_distances(const LocalCloud& cloud, const Refined& fit,
         .push_back(fit.residuals[static_cast<std::size_t>(i)]);
   }
   for (auto& [at, residuals] : patches) {
-    // A patch cut by the rim of the cloud has too few points for a median to speak of.
+    // A patch cut by the rim of the cloud has too few points for a useful median.
     if (static_cast<double>(residuals.size()) < 0.5 * patch_points) continue;
     result.push_back(std::abs(median_of(residuals)));
   }

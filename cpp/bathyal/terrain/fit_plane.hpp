@@ -12,7 +12,7 @@ namespace bathyal {
 struct FitPlaneOptions {
   /// How far the ground may lie off the plane and still count as flat [m], above 0.
   double tolerance = 0.05;
-  /// Soundings in a patch, whose median stands for the ground there; 5 or more.
+  /// Soundings in a patch, whose median is the height of the ground there; 5 or more.
   int patch_points = 50;
   /// Share of the patches that must lie within `tolerance`, above 0 to 1.
   double flat_share = 0.99;
@@ -30,7 +30,7 @@ struct PlaneFit {
   std::vector<std::uint8_t> inliers;  ///< (N,) 1 for points the plane rests on
   Index inlier_count = 0;
   double tilt_std = 0.0;    ///< standard deviation of the normal's direction, its worst way [rad]
-  bool flat = false;        ///< whether the plane may stand for the bottom
+  bool flat = false;        ///< whether the plane may represent the bottom
   double flat_share = 0.0;  ///< share of the patches that lie within the tolerance
   double relief = 0.0;      ///< largest distance of a patch from the plane [m]
 };
@@ -44,11 +44,11 @@ struct PlaneFit {
 /// level one. Computed in double about a local origin. The order of the points may change the last
 /// bits and, where two planes explain the cloud equally well, the choice between them.
 ///
-/// Flat enough for the plane way (`flat`): the plane is cut into square patches of about
-/// `patch_points` points, and in `flat_share` of them the median distance from the plane is within
-/// `tolerance`. Medians of patches, so that the noise of single soundings and spikes do not count
-/// as relief, and boulders, trenches and waves wider than half a patch do. With fewer points than
-/// two patches each point is its own patch.
+/// Flat enough for its plane to represent it (`flat`): the plane is cut into square patches of
+/// about `patch_points` points, and in `flat_share` of them the median distance from the plane is
+/// within `tolerance`. Medians of patches, so that the noise of single soundings and spikes do not
+/// count as relief, and boulders, trenches and waves wider than half a patch do. With fewer points
+/// than two patches each point is its own patch.
 ///
 /// A vertical plane has no up: its normal's first component that is not zero is positive.
 /// \throw std::invalid_argument for points that are not finite or above 1e75; fewer than three

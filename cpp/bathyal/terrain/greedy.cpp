@@ -74,7 +74,7 @@ void check_spans_a_surface(const Cloud& cloud) {
     moment += d * d.transpose();
   }
   const Vec3 values = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(moment).eigenvalues();
-  // 1e-6 across for 1 along, squared: what float32 can tell from a line.
+  // 1e-6 across for 1 along, squared: less is a line in float32.
   if (cloud.size() < 3 || !(values[1] > 1e-12 * values[2])) {
     throw_argument("points", "three points or more at different places and not on one line",
                    std::to_string(cloud.size()) + (cloud.size() < 3 ? " places" : " on one line"));
@@ -130,7 +130,7 @@ void estimate_normals(Cloud& cloud, Tree& tree, int neighbours) {
   }
 }
 
-/// PCL tells of enlarged neighbourhoods on the terminal; a library does not.
+/// PCL prints to the terminal when it enlarges neighbourhoods; a library does not.
 class QuietPcl {
  public:
   QuietPcl() { pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS); }

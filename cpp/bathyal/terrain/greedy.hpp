@@ -18,8 +18,8 @@ struct GreedyOptions {
   int max_neighbours = 100;  ///< candidates considered around a point, 3 or more
   /// Points whose normals differ by more are not joined [rad], above 0 to π.
   double max_surface_angle = std::numbers::pi / 4;
-  double min_angle = std::numbers::pi / 18;  ///< wished for in a triangle [rad], 0 to max_angle
-  double max_angle = 2.0 * std::numbers::pi / 3;  ///< wished for in a triangle [rad], up to π
+  double min_angle = std::numbers::pi / 18;       ///< preferred in a triangle [rad], 0 to max_angle
+  double max_angle = 2.0 * std::numbers::pi / 3;  ///< preferred in a triangle [rad], up to π
   /// Whether the normals are all taken as turned to the same side. Ours are estimated without a
   /// viewpoint, so the default compares them up to their sign.
   bool normal_consistency = false;

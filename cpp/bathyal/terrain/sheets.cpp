@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kLargest = 1e75;              // so that squares and their sums stay finite
 constexpr double kNeighbourhoodPoints = 2.25;  // cells of 1.5 spacings
-constexpr int kMinSeeds = 3;                   // one or two alone are chance
+constexpr int kMinSeeds = 3;                   // one or two alone occur by chance
 
 std::size_t root(std::vector<std::size_t>& parent, std::size_t i) {
   while (parent[i] != i) i = parent[i] = parent[parent[i]];

@@ -38,7 +38,7 @@ struct SheetReport {
   double sheet_area = 0.0;          ///< of `cells` [m²]
   double spacing = 0.0;             ///< √(covered area / soundings) [m]
   double noise = 0.0;               ///< median rms of soundings about their local plane [m]
-  double min_separation = 0.0;      ///< what was asked of a separation [m]
+  double min_separation = 0.0;      ///< the one used [m]
 
   bool single_valued() const { return patches.empty(); }
   double share() const { return covered_area > 0.0 ? sheet_area / covered_area : 0.0; }
@@ -49,18 +49,18 @@ struct SheetReport {
 ///
 /// The plan is cut into square cells of about 1.5 spacings. A cell lies under two sheets when the
 /// soundings of its 3 × 3 neighbourhood split into two groups, five or more in each, such that
-///  1. each group lies on a plane of its own, and the planes stand apart, at those soundings, by
+///  1. each group lies on a plane of its own, and the planes are apart, at those soundings, by
 ///     `min_separation` and by four times the rms about them: noise, however strong, fails this;
 ///  2. the groups are interleaved in plan: a fifth of each lies inside the convex hull of the
 ///     other. Where a height field jumps (a wall, a boulder's flank, a ledge seen only from above)
-///     high soundings lie beside the low ones and not among them, however steep.
+///     high soundings lie to one side of the low ones and not among them, however steep.
 /// Touching cells form a patch. It is kept when three of them pass at five times the rms and a
 /// third of each group, and when it has `min_points` on each sheet.
 ///
-/// Relief finer than the spacing cannot be told from several sheets and counts as such where it
+/// Relief finer than the spacing cannot be distinguished from sheets and counts as such where it
 /// meets both conditions. A vertical wall with soundings all the way up is not two sheets. Two
 /// passes over the same ground count when the step between them passes condition 1. Sheets are
-/// missed where soundings stand four times closer along scan lines than across, among spikes in one
+/// missed where soundings lie four times closer along scan lines than across, among spikes in one
 /// sounding of five (clean the cloud first), and within a spacing or two of the rim where they
 /// join.
 ///

@@ -8,14 +8,14 @@
 
 namespace bathyal {
 
-void Vehicle::check() const { check_rigid("world_from_vehicle", world_from_vehicle); }
+void AimsReference::check() const { check_rigid("world_from_vehicle", world_from_vehicle); }
 
-Vec3 Vehicle::up() const {
+Vec3 AimsReference::up() const {
   if (vertical == Vertical::kGravity) return Vec3::UnitZ();
   return world_from_vehicle.linear().col(2).normalized();
 }
 
-Aims Vehicle::to_world(const Aims& aims) const {
+Aims AimsReference::to_world(const Aims& aims) const {
   Aims world(aims.rows(), 6);
   for (Index i = 0; i < aims.rows(); ++i) {
     if (!aims.row(i).allFinite()) {

@@ -11,7 +11,7 @@ namespace bathyal {
 /// length but zero). Filaretov, Konoplin, Konoplin (2018), eq 2: P and d.
 using Aims = Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor>;
 
-/// Which frame the aims stand in.
+/// Which frame the aims are given in.
 enum class AimsFrame {
   kVehicle,  ///< the paper's: moved by world_from_vehicle
   kWorld     ///< the frame of the survey already
@@ -23,8 +23,8 @@ enum class Vertical {
   kVehicle   ///< the paper's: the vehicle's z, which leans with the vehicle
 };
 
-/// Where the vehicle is and what that means for the aims.
-struct Vehicle {
+/// The frame that aims refer to: where the vehicle is, and which way is up.
+struct AimsReference {
   Pose world_from_vehicle = Pose::Identity();
   AimsFrame frame = AimsFrame::kVehicle;
   Vertical vertical = Vertical::kGravity;

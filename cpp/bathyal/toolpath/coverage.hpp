@@ -27,7 +27,7 @@ struct CoverOptions {
 ///
 /// A closing corner equal to the first and repeated corners are dropped. Where the margin leaves
 /// nothing of the polygon there are no aims.
-/// \throw std::invalid_argument for a spacing that is not above 0 or asks for more than a million
+/// \throw std::invalid_argument for a spacing that is not above 0 or gives more than a million
 /// lines, fewer than three corners, corners that are not finite, a polygon without area or one that
 /// crosses itself, an upright plane or a scene without triangles.
 Aims cover_polygon(const Surface& surface, const Polygon& polygon, double spacing,

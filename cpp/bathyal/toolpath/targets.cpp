@@ -40,7 +40,7 @@ void set_found(Targets& targets, std::size_t i, const Vec3& direction, const Vec
 
 Targets find_on(const Plane& plane, const Aims& aims, const TargetOptions& options) {
   Targets targets = no_targets(static_cast<std::size_t>(aims.rows()));
-  const Vec3 normal = outward_normal(plane, options.vehicle.up());
+  const Vec3 normal = outward_normal(plane, options.reference.up());
   for (std::size_t i = 0; i < targets.size(); ++i) {
     const Vec3 origin = aims.row(static_cast<Index>(i)).head<3>();
     const Vec3 direction = aims.row(static_cast<Index>(i)).tail<3>();
@@ -83,7 +83,7 @@ void set_hit(Targets& targets, std::size_t i, const Scene& scene, const RayHit& 
 
 Targets find_on(const Scene& scene, const Aims& aims, const TargetOptions& options) {
   Targets targets = no_targets(static_cast<std::size_t>(aims.rows()));
-  const Vec3 up = options.vehicle.up();
+  const Vec3 up = options.reference.up();
   const Eigen::AlignedBox3d bounds = bounds_of(scene);
   parallel_for(targets.size(), 64, options.num_threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
@@ -130,7 +130,7 @@ void TargetOptions::check() const {
 
 Targets find_targets(const Surface& surface, const Aims& aims, const TargetOptions& options) {
   options.check();
-  const Aims world = options.vehicle.to_world(aims);
+  const Aims world = options.reference.to_world(aims);
   return std::visit([&](const auto& bottom) { return find_on(bottom, world, options); }, surface);
 }
 

@@ -27,7 +27,7 @@ enum class TargetStatus : std::uint8_t {
 std::string_view to_text(TargetStatus status);
 
 struct TargetOptions {
-  Vehicle vehicle;  ///< frame of the aims, pose of the vehicle, meaning of vertical
+  AimsReference reference;  ///< frame of the aims, pose of the vehicle, meaning of vertical
   double grazing_angle = std::numbers::pi * 80.0 / 180.0;      ///< [rad], above 0 to π
   double max_range = std::numeric_limits<double>::infinity();  ///< [m], above 0
   int num_threads = 0;                                         ///< 0 = all
@@ -59,8 +59,8 @@ struct Targets {
 ///
 /// Out of the bottom is, on a mesh, the side its triangles are wound for, so that it is right under
 /// overhangs too; a plane has no winding, and the normal form's m with d ≥ 0 points down for a
-/// vehicle above the bottom, so there the side of `up` counts (a plane that stands upright keeps
-/// the normal it has). An axis that comes from beneath has an incidence above π/2 and is grazing.
+/// vehicle above the bottom, so there the side of `up` counts (an upright plane keeps the normal
+/// it has). An axis that comes from beneath has an incidence above π/2 and is grazing.
 ///
 /// An axis that meets nothing is a hole when, in the upright plane through it or in the plane
 /// through it at right angles to that, it passes between the open ends of the bottom on its two
@@ -73,7 +73,7 @@ struct Targets {
 /// Filaretov, Konoplin, Konoplin (2018), eq 1–9.
 Targets find_targets(const Surface& surface, const Aims& aims, const TargetOptions& options = {});
 
-/// The plane's unit normal on the side of `up`; as it is where the plane stands upright.
+/// The plane's unit normal on the side of `up`; unchanged where the plane is upright.
 Vec3 outward_normal(const Plane& plane, const Vec3& up);
 
 /// The triangle's unit normal on the side it is wound for; zero for a triangle without area.

@@ -35,7 +35,7 @@ void check_found(const Targets& targets, MissedAims missed) {
   }
   if (found == 0) throw_argument("aims", "at least one that meets the bottom", count_text(targets));
   if (missed == MissedAims::kRefuse && found < targets.size()) {
-    throw_argument("aims", "all to meet the bottom, as missed = \"refuse\" asks",
+    throw_argument("aims", "all to meet the bottom, as missed = \"refuse\" requires",
                    count_text(targets) + "; row " + std::to_string(first_missed) +
                        " is the first (" + std::string(to_text(targets.status[first_missed])) +
                        ")");
@@ -69,7 +69,7 @@ void warn_of_flags(ToolPath& path) {
     path.warnings.push_back(what + " at " + std::to_string(count) +
                             (count == 1 ? " sample" : " samples"));
   };
-  warn("the stood-off path turns back or crosses itself", path.crossing);
+  warn("the path at standoff turns back or crosses itself", path.crossing);
   warn("the tool's body meets ground", path.contact);
 }
 
@@ -103,7 +103,7 @@ Pose ToolPath::frame(std::size_t j) const {
 ToolPath plan_toolpath(const Surface& surface, const Aims& aims, const ToolPathOptions& options) {
   options.check();
   if (aims.rows() == 0) throw_argument("aims", "at least one row", "none");
-  const Vec3 up = options.targets.vehicle.up();
+  const Vec3 up = options.targets.reference.up();
   const int threads = options.targets.num_threads;
 
   Targets targets = find_targets(surface, aims, options.targets);

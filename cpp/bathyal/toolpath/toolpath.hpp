@@ -52,7 +52,7 @@ struct ToolPath {
   std::vector<double> arc_length;      ///< along the positions, from 0 [m]
   std::vector<double> time;            ///< from 0, never falling [s]
   std::vector<double> normal_std;      ///< of a_j [rad], NaN where unknown (see estimate_normals)
-  std::vector<bool> crossing;          ///< the stood-off path turns back or crosses itself here
+  std::vector<bool> crossing;          ///< the path at standoff turns back or crosses itself here
   std::vector<bool> contact;           ///< the tool's body meets ground here
   Targets targets;
   std::vector<std::string> warnings;
@@ -78,7 +78,7 @@ struct ToolPath {
 /// - Piecewise constant: the tool stops at an edge and turns in place at angular_rate.
 /// - A gap is crossed in a straight line between two samples, the first with its gap flag set; no
 ///   surface is claimed between them, no step divides it, and the tool is at rest at both its ends.
-///   The flag says that whoever executes the path decides what happens there.
+///   What happens there is for the executing system to decide.
 /// - Aims without a target are warned of and the stretch over them is a gap, since the bottom
 ///   between their neighbours is not what was aimed at; missed = kRefuse makes them an error.
 /// - Targets that coincide (to 1 µm) give no length and no stop, and a warning. One target gives

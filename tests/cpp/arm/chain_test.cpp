@@ -137,7 +137,7 @@ double difference(const Pose& a, const Pose& b) {
   return (a.matrix() - b.matrix()).cwiseAbs().maxCoeff();
 }
 
-/// Every link, every frame on a link and the flange of the arm stand where the chain has them.
+/// Every link, every frame on a link and the flange of the arm are where the chain has them.
 void expect_same_motion(const JointChain& chain, const Arm& arm, double tolerance) {
   for (std::uint64_t draw = 0; draw < 3; ++draw) {
     const std::vector<double> q = random_q(arm, draw);
@@ -332,22 +332,22 @@ TEST(ChainFromArm, MovesAsTheArmDoes) {
     SCOPED_TRACE(seed);
     const JointChain chain = random_chain(seed);
     const Arm arm = arm_from_chain(chain);
-    const JointChain told = chain_from_arm(arm);
-    expect_same_motion(told, arm_from_chain(told), 1e-13);
+    const JointChain back = chain_from_arm(arm);
+    expect_same_motion(back, arm_from_chain(back), 1e-13);
     const std::vector<double> q = random_q(arm, seed);
-    EXPECT_LE(difference(chain_frames(told, q).back(), row_frames(arm, q).world_from_tool), 1e-13);
-    // Links that a chain told keep their frames; the flange is the one link more.
-    ASSERT_EQ(told.links.size(), arm.links().size() + 1);
+    EXPECT_LE(difference(chain_frames(back, q).back(), row_frames(arm, q).world_from_tool), 1e-13);
+    // Links that came from a chain keep their frames; the flange is the one link more.
+    ASSERT_EQ(back.links.size(), arm.links().size() + 1);
     for (std::size_t k = 0; k < arm.links().size(); ++k) {
-      EXPECT_LE(difference(chain_frames(told, q)[k],
+      EXPECT_LE(difference(chain_frames(back, q)[k],
                            row_frames(arm, q).world_from_row[k] * arm.links()[k].row_from_link),
                 1e-12);
     }
   }
 }
 
-TEST(ChainFromArm, TellsRowsWhoseFramesStandBeyondTheAxis) {
-  // A table as from a book: the frame behind a row stands on the next axis, not on its own.
+TEST(ChainFromArm, KeepsRowsWhoseFramesLieBeyondTheAxis) {
+  // A table as from a book: the frame after a row lies on the next axis, not on its own.
   Joint first, second;
   first.coordinate = 0;
   first.row = {0.3, kPi / 2, 0.1, 0.2, 0.0};

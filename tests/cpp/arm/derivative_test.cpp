@@ -31,7 +31,7 @@ JetMatrix shift(const Jet& length, int axis) {
 
 JetMatrix constant(const Pose& pose) { return pose.matrix().cast<Jet>(); }
 
-/// A row of a table, its joint standing at `value`.
+/// A row of a table, its joint at `value`.
 JetMatrix row_product(const DhRow& row, JointType type, DhConvention convention, const Jet& value) {
   const Jet zero(0.0);
   const JetMatrix joint = turn(row.theta + (type == JointType::kRevolute ? value : zero), 2) *

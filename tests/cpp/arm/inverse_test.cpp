@@ -56,7 +56,7 @@ TEST(Inverse, ComesBackToAStartNearby) {
     for (Index i = 0; i < q.rows(); ++i) {
       same += (result.q.row(i) - q.row(i)).norm() < 1e-3 ? 1 : 0;
     }
-    EXPECT_GE(same, 90U) << arm.name();  // the rest stand by a singularity
+    EXPECT_GE(same, 90U) << arm.name();  // the rest are near a singularity
   }
 }
 

@@ -67,11 +67,11 @@ TEST(Jacobian, IsTheDerivativeOfForward) {
       const Pose pose = row_frames(arm, row_of(q, i)).world_from_tool;
       for (Index j = 0; j < arm.size(); ++j) {
         constexpr double kStep = 1e-6;
-        JointMatrix beside = q;
-        beside(i, j) += kStep;
-        const Pose more = row_frames(arm, row_of(beside, i)).world_from_tool;
-        beside(i, j) -= 2 * kStep;
-        const Pose less = row_frames(arm, row_of(beside, i)).world_from_tool;
+        JointMatrix shifted = q;
+        shifted(i, j) += kStep;
+        const Pose more = row_frames(arm, row_of(shifted, i)).world_from_tool;
+        shifted(i, j) -= 2 * kStep;
+        const Pose less = row_frames(arm, row_of(shifted, i)).world_from_tool;
         const Vec3 linear = (more.translation() - less.translation()) / (2 * kStep);
         const Eigen::Matrix3d spin =
             (more.linear() - less.linear()) / (2 * kStep) * pose.linear().transpose();

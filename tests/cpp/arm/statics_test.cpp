@@ -12,7 +12,7 @@ namespace {
 const Wrenches kNone(nullptr, 0, 6);
 
 TEST(Statics, AWeightHangsOnALever) {
-  Arm arm = planar_arm();  // stood up: its plane is vertical
+  Arm arm = planar_arm();  // turned up: its plane is vertical
   arm.set_base(Pose(Eigen::AngleAxisd(kPi / 2, Vec3::UnitX())));
   StaticsOptions options;
   options.gravity = Vec3(0.0, -9.80665, 0.0);  // in the base frame

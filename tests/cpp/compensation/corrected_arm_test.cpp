@@ -140,7 +140,7 @@ TEST(CorrectedArm, RefusesWhatDoesNotFit) {
 
 TEST(CorrectedArm, NamesAnEffectWhoseActionsDoNotFit) {
   const Arm arm = ur10e();
-  const auto of = [&](ToldEffect::Moves moves) {
+  const auto of = [&](FunctionEffect::Moves moves) {
     const JointMatrix q = JointMatrix::Zero(2, arm.size());
     CorrectedArm(arm, {found("broken", -1, 1.0, moves)}, some_support(arm)).forward(view_of(q));
   };

@@ -82,7 +82,7 @@ TEST(Cast, AnyNumberOfRaysFillsItsPackets) {
   });
 }
 
-TEST(Cast, OddLengthsBesideOrdinaryOnesInAPacket) {
+TEST(Cast, ExtremeLengthsAmongOrdinaryOnesInAPacket) {
   const Scene scene({test::seabed(60, 50)});
   Rays rays = fans(2, 40, Vec3(30, 20, 9), Vec3(0, 1, 0), 0.1);
   const auto plain = scene.cast(view(rays.origins), view(rays.directions), 1);

@@ -95,7 +95,8 @@ TEST(Cast, TiesGoToTheLowestMeshAndTriangle) {
   for (Index v = 0; v < mesh.vertex_count(); ++v) {
     std::int32_t lowest = 0;
     while ((mesh.triangles().row(lowest).array() != static_cast<std::int32_t>(v)).all()) ++lowest;
-    // Slopes that double holds exactly, so that the rays pass through the vertex and not beside it.
+    // Slopes that double holds exactly, so that the rays pass through the vertex and not next to
+    // it.
     for (const Vec3& from : {Vec3(0, 0, 3), Vec3(0.5, -1.25, 2), Vec3(-16, 3, 0.125)}) {
       const RayHit hit = twice.cast(mesh.vertices().row(v).transpose() + from, -from);
       EXPECT_EQ(hit.mesh, 0);

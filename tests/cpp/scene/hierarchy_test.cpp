@@ -11,7 +11,7 @@
 namespace bathyal {
 namespace {
 
-/// Every triangle stands in exactly one block, every block hangs in exactly one lane, children come
+/// Every triangle is in exactly one block, every block hangs in exactly one lane, children come
 /// after their parent, and each box holds what is below it.
 void check_structure(const Scene::Hierarchy& h) {
   std::vector<int> triangle_seen(h.primitive_count);

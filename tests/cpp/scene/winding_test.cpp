@@ -179,7 +179,7 @@ TEST(WindingNumber, NothingIsNowhere) {
   EXPECT_EQ(scene.contains(view(points)), std::vector<bool>{false});
 }
 
-TEST(WindingNumber, MemoryIsToldOnceTaken) {
+TEST(WindingNumber, MemoryCountsClustersOnceMade) {
   const Scene scene({test::sphere(5, 2.0)});
   const std::size_t before = scene.memory();
   const PointMatrix points = matrix_of({{0, 0, 0}});

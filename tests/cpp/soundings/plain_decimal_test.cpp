@@ -141,14 +141,14 @@ TEST(RoundDecimal, DividesAsExactlyByMultiplication) {
 TEST(RoundDecimal, RoundsTiesToEven) {
   // 2^53 + 2 k + 1 lies half way between two doubles.
   for (std::uint64_t k = 0; k < 2000; ++k) {
-    const std::uint64_t odd = (std::uint64_t{1} << 53U) + 2 * k + 1;
+    const std::uint64_t tie = (std::uint64_t{1} << 53U) + 2 * k + 1;
     for (int power = 1; power <= 2; ++power) {
       const std::uint64_t scale = power == 1 ? 10 : 100;
-      std::string text = std::to_string(odd * scale);
+      std::string text = std::to_string(tie * scale);
       text.append("e-").append(std::to_string(power));
       const double expected = std::strtod(text.c_str(), nullptr);
-      EXPECT_EQ(number::divide(odd * scale, power), expected);
-      EXPECT_EQ(number::divide_exactly(odd * scale, power), expected);
+      EXPECT_EQ(number::divide(tie * scale, power), expected);
+      EXPECT_EQ(number::divide_exactly(tie * scale, power), expected);
       EXPECT_EQ(std::bit_cast<std::uint64_t>(expected) & 1U, 0U);
     }
   }

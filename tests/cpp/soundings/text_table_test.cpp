@@ -124,7 +124,7 @@ TEST(TextTable, TakesADecimalCommaOnlyWhereThereIsNoDoubt) {
   EXPECT_EQ(read("1,5 2 3,5\n", options), (Numbers{1.5, 2, 3.5}));
   options.decimal = '.';
   EXPECT_NE(failure("1,5;2\n", options).find("`decimal`"), std::string::npos);
-  // Blanks and commas: the comma separates, and what then is no number is told.
+  // Blanks and commas: the comma separates, and what then is no number is an error.
   EXPECT_NE(failure("1,5 2,5\n").find("f.xyz:1: "), std::string::npos);
   EXPECT_NE(failure("1.5;2,5\n").find("got \"2,5\""), std::string::npos);
 }

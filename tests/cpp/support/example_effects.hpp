@@ -8,17 +8,17 @@
 #include "bathyal/effects/effect.hpp"
 
 // Effects to try corrected arms with, one of each kind of site and argument, written here so that
-// the library's own formulas are not what is asked.
+// the tests do not rest on the library's own formulas.
 
 namespace bathyal {
 
-/// An effect that is told outright: its needs and its one action.
-class ToldEffect final : public Effect {
+/// An effect from a function: its needs and its one action.
+class FunctionEffect final : public Effect {
  public:
   using Moves = Action (*)(const EffectData&);
 
-  ToldEffect(std::string name, Moves moves, std::vector<std::string> needs = {},
-             bool by_difference = false)
+  FunctionEffect(std::string name, Moves moves, std::vector<std::string> needs = {},
+                 bool by_difference = false)
       : name_(std::move(name)),
         moves_(moves),
         needs_(std::move(needs)),
@@ -44,14 +44,14 @@ class ToldEffect final : public Effect {
   bool by_difference_;
 };
 
-inline FoundEffect found(std::string name, int joint, double value, ToldEffect::Moves moves,
+inline FoundEffect found(std::string name, int joint, double value, FunctionEffect::Moves moves,
                          std::vector<std::string> needs = {}, bool by_difference = false) {
   FoundEffect effect;
   effect.variant.effect = name;
   effect.variant.joint = joint;
   effect.variant.parameters = {{"size", "rad", 1e-3}};
   effect.effect =
-      std::make_shared<ToldEffect>(std::move(name), moves, std::move(needs), by_difference);
+      std::make_shared<FunctionEffect>(std::move(name), moves, std::move(needs), by_difference);
   effect.values = Eigen::VectorXd::Constant(1, value);
   return effect;
 }

@@ -81,7 +81,7 @@ inline std::vector<Pose> plain_frames(const Arm& arm, const Eigen::VectorXd& q) 
 }
 
 /// Poses with every covariate there is; gravity leans, sessions are 0, 1, 2 of unequal length, and
-/// rows do not stand in the order of time.
+/// rows are not in the order of time.
 struct Scene {
   Arm arm;
   RowMatrix q;

@@ -56,7 +56,7 @@ struct Ground {
   double noise, spikes;
 };
 
-// Each is single-valued: not one of them may be told as several sheets.
+// Each is single-valued: not one of them may be reported as several sheets.
 const std::vector<Ground> kSingleValued = {
     {"noise as large as the spacing", flat, 0.05, 0.0},
     {"smooth", flat, 0.0, 0.0},

@@ -91,7 +91,7 @@ TEST(NormalStd, WithoutAnAttributeComesFromTheScatterAround) {
   EXPECT_NEAR(std::sqrt(without) / std::atan(2 * sigma / 0.05), 1.0, 0.05);
   const Scene lone = scene_of(mesh_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}));
   EXPECT_TRUE(std::isnan(plan_toolpath(lone, down({{0.2, 0.2}})).normal_std[0]))
-      << "nothing to tell";
+      << "soundings unknown";
   EXPECT_EQ(plan_toolpath(Plane(Vec3::UnitZ(), 0), down({{0, 0}})).normal_std[0], 0.0);
 }
 

@@ -128,7 +128,7 @@ TEST(Section, ACutThroughVerticesAndAlongEdgesIsNeitherBrokenNorDoubled) {
 }
 
 TEST(Section, WholeTrianglesInTheCuttingPlaneLeaveOnePath) {
-  // A step whose riser stands in the plane y = 0 of the cut: both of its triangles lie in it.
+  // A step whose riser lies in the plane y = 0 of the cut: both of its triangles lie in it.
   const Scene scene =
       scene_of(mesh_of({{-2, -2, 0},
                         {2, -2, 0},
@@ -311,8 +311,8 @@ TEST(Section, VerticalIsGravityOrTheVehiclesAxis) {
   const auto roof = [](double x, double) { return -std::abs(x); };
   const Scene scene = scene_of(grid(roof, -9, 9, 2, -9, 9, 1));
   ToolPathOptions options = piecewise_constant();
-  options.targets.vehicle.frame = AimsFrame::kWorld;
-  options.targets.vehicle.world_from_vehicle =
+  options.targets.reference.frame = AimsFrame::kWorld;
+  options.targets.reference.world_from_vehicle =
       Pose(Eigen::AngleAxisd(0.3, Vec3::UnitX()));  // rolled
   const Aims aims = down({{-2, 1}, {2, 1}});
   const auto crest = [](const ToolPath& path) {
@@ -322,7 +322,7 @@ TEST(Section, VerticalIsGravityOrTheVehiclesAxis) {
     return Vec3(Vec3::Constant(NAN));
   };
   EXPECT_NEAR((crest(plan_toolpath(scene, aims, options)) - Vec3(0, 1, 0)).norm(), 0, 1e-9);
-  options.targets.vehicle.vertical = Vertical::kVehicle;
+  options.targets.reference.vertical = Vertical::kVehicle;
   // From (±2, 1, −2) up to z = 0 along (0, −sin, cos) of the roll.
   EXPECT_NEAR(
       (crest(plan_toolpath(scene, aims, options)) - Vec3(0, 1 - 2 * std::tan(0.3), 0)).norm(), 0,

@@ -14,11 +14,11 @@ const Vec3 kUp(0, 0, 1);
 TEST(Sheet, ATargetWhereTwoSheetsCrossIsFollowedOnItsOwn) {
   const TriangleMesh slope = grid([](double x, double) { return x - 2; }, 0, 4, 2, 0, 1, 1);
   const TriangleMesh level = grid([](double, double) { return 0.0; }, 0, 4, 2, 0, 1, 1);
-  const SheetPoint crossing{{2, 0.25, 0}, kUp, 0, 0}, beside{{1, 0.25, 0}, kUp, 0, 0};
+  const SheetPoint crossing{{2, 0.25, 0}, kUp, 0, 0}, on_level{{1, 0.25, 0}, kUp, 0, 0};
   for (const std::int32_t mesh : {0, 1}) {
     const Scene scene(mesh == 0 ? std::vector<TriangleMesh>{level, slope}
                                 : std::vector<TriangleMesh>{slope, level});
-    SheetPoint a = crossing, b = beside;
+    SheetPoint a = crossing, b = on_level;
     a.mesh = b.mesh = mesh;
     for (int turn = 0; turn < 2; ++turn, std::swap(a, b)) {
       const Leg leg = follow_sheet(scene, a, b, kUp);

@@ -143,12 +143,12 @@ TEST(FindTargets, TellsAHoleFromTheEdgeOfTheSurvey) {
 
 TEST(FindTargets, MovesAimsOfTheVehicle) {
   TargetOptions options;
-  options.vehicle.world_from_vehicle =
+  options.reference.world_from_vehicle =
       Eigen::Translation3d(10, 20, -30) * Eigen::AngleAxisd(kPi / 2, Vec3::UnitZ());
   const Plane plane(Vec3::UnitZ(), -35.0);
   const Aims aims = axis(Vec3(1, 0, 0), Vec3(1, 0, -1));
   EXPECT_NEAR((find_targets(plane, aims, options).point[0] - Vec3(10, 26, -35)).norm(), 0, 1e-12);
-  options.vehicle.frame = AimsFrame::kWorld;
+  options.reference.frame = AimsFrame::kWorld;
   EXPECT_NEAR((find_targets(plane, aims, options).point[0] - Vec3(36, 0, -35)).norm(), 0, 1e-12);
 }
 
@@ -168,10 +168,10 @@ TEST(FindTargets, RefusesWhatIsNotAnAim) {
   EXPECT_THROW(find_targets(plane, axis(Vec3::Zero(), Vec3(0, INFINITY, 0))),
                std::invalid_argument);
   TargetOptions options;
-  options.vehicle.world_from_vehicle.linear() *= 2.0;
+  options.reference.world_from_vehicle.linear() *= 2.0;
   EXPECT_THROW(find_targets(plane, down({{0, 0}}), options), std::invalid_argument);
   options = {};
-  options.vehicle.world_from_vehicle.linear().col(0) *= -1.0;
+  options.reference.world_from_vehicle.linear().col(0) *= -1.0;
   EXPECT_THROW(find_targets(plane, down({{0, 0}}), options), std::invalid_argument) << "mirrored";
   options = {};
   options.grazing_angle = 0.0;

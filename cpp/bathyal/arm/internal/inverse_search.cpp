@@ -17,7 +17,7 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kCenteringSteps = 10;
 constexpr double kCentered = 1e-3;  ///< a shorter step towards the middle ends it [rad], [m]
-constexpr int kFreeStarts = 16;  ///< that look for a way without limits when there is none within
+constexpr int kFreeStarts = 16;     ///< that ignore the limits when none within them reaches
 
 /// Starts of one target, best first.
 class Starts {
@@ -162,7 +162,7 @@ class Search final : public InverseRows {
     return status;
   }
 
-  /// Made when the first target asks for it: a call that only follows a path does without.
+  /// Made when a target first needs it: a call that only follows a path does without.
   const StartLibrary& library() const {
     std::call_once(library_once_, [this] {
       library_ = std::make_unique<StartLibrary>(arm_, problem_, options_.seed);

@@ -48,7 +48,7 @@ class Stepping final : public InverseRows {
     int iteration = 0;
     for (;; ++iteration) {
       state.evaluate(target, q.data());
-      // The k-th of `steps` takes 1 / (steps − k) of what is left: equal parts of the way.
+      // The k-th of `steps` takes 1 / (steps − k) of the rest: equal parts of the way.
       const int left = std::max(options_.steps - iteration, 1);
       if ((left == 1 && reached(state)) || singular ||
           iteration == options_.steps + options_.max_iterations) {

@@ -78,7 +78,7 @@ class TipSolver {
     form_normal_equations();
     lock_at_limits(true, q);
     if (!factor(kFloor * state_.scale())) return 0.0;
-    // What the pull towards the middle would do to the tool is solved for and taken off.
+    // The motion of the tool that the step towards the middle would cause is subtracted.
     Buffer<N> pull(size_), seen(size_), leak(size_);
     for (std::size_t j = 0; j < size(); ++j) pull[j] = free_[j] * pull_of(j, q[j]);
     for (std::size_t i = 0; i < size(); ++i) {

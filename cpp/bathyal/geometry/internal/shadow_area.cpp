@@ -89,7 +89,7 @@ Lengths measure(std::vector<Interval>& intervals) {
 }  // namespace
 
 // The areas in plan of all triangles, summed, are exact but count a place once for every triangle
-// over it; lines across the mesh tell by which part that is too much.
+// over it; lines across the mesh give the share by which that is too much.
 double shadow_area(const TriangleMesh& mesh, int num_threads) {
   const Vec3 origin = local_origin(mesh.vertices());
   const Index count = mesh.triangle_count();

@@ -51,7 +51,7 @@ class Grid {
   }
 
   std::uint32_t operator()(const Box& box) const {
-    // Clamped: in a scene that is tiny beside a metre the base is known to some cells only.
+    // Clamped: in a scene much smaller than a metre the base is known to a few cells only.
     const Float4 place = (twice_middle(box) - base_) * scale_;
     const Int4 cell = __builtin_convertvector(min4(max4(place, Float4{}), last_), Int4);
     return static_cast<std::uint32_t>(cell[0] + count_[0] * (cell[1] + count_[1] * cell[2]));

@@ -15,7 +15,7 @@ struct Cell {
   std::uint32_t count;
 };
 
-/// One box a triangle (first tag 1, second tag the primitive), sorted into cells of some hundreds.
+/// One box a triangle (first tag 1, second tag the primitive), sorted into cells of a few hundred.
 struct SortedBoxes {
   PageArray<Box> items;
   std::vector<Cell> cells;

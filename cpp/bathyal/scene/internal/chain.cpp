@@ -32,7 +32,7 @@ class Chainer {
     for (SegmentEnd end = 0; end < count; ++end) {  // open lines, from either of their ends
       if (partner_[index(end)] == kNone && !taken_[index(end / 2)]) lines.push_back(open_line(end));
     }
-    for (SegmentEnd end = 0; end < count; end += 2) {  // what is left goes round
+    for (SegmentEnd end = 0; end < count; end += 2) {  // the remaining segments form closed lines
       if (!taken_[index(end / 2)]) lines.push_back(closed_line(end));
     }
     std::sort(lines.begin(), lines.end(), [this](const Polyline& a, const Polyline& b) {
@@ -103,7 +103,7 @@ class Chainer {
     }
   }
 
-  /// The direction most opposed to direction i; equal ones are told apart by the pair's numbers, so
+  /// The direction most opposed to direction i; equal ones are ordered by the pair's numbers, so
   /// that both of a pair judge it alike.
   static std::size_t straightest(const std::vector<Vec3>& leaving, std::size_t i) {
     std::size_t best = i;

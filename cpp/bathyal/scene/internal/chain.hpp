@@ -16,8 +16,8 @@ struct CutSegment {
 };
 
 /// Joins segments that share a point into polylines; every segment lands in exactly one of them.
-/// Where more than two meet, a line goes on into the one that turns least and any odd one ends
-/// there, so lines end only where an odd number of segments meet. The result does not depend on the
+/// Where more than two meet, a line goes on into the one that turns least and one without a partner
+/// ends, so lines end only where an odd number of segments meet. The result does not depend on the
 /// order of the segments: an open line starts at the end that comes first along `along` (then by
 /// x, y, z), a closed one at its first point and runs counter-clockwise seen from the side `normal`
 /// points to; lines are sorted by mesh, then by where they start.

@@ -8,7 +8,7 @@
 namespace bathyal::scene {
 namespace {
 
-// What a triangle says of an edge that lies in the plane.
+// What a triangle contributes about an edge that lies in the plane.
 constexpr unsigned kSurface = 1;   // leaves the plane here
 constexpr unsigned kLeft = 2;      // lies in the plane, on the left of the edge
 constexpr unsigned kRight = 4;     // the same, on the right
@@ -123,7 +123,7 @@ void CutCollector::add_flat_triangle(const std::array<Vec3, 3>& corners, std::in
   std::array<double, 3> length{};
   for (std::size_t i = 0; i < 3; ++i) length[i] = reach(corners[(i + 1) % 3] - corners[i]);
   if (std::min({length[0], length[1], length[2]}) == 0.0)
-    return;  // an edge, told by its neighbours
+    return;  // an edge, which its neighbours report
   const auto longest =
       static_cast<std::size_t>(std::max_element(length.begin(), length.end()) - length.begin());
   const double size = std::max({reach(corners[0]), reach(corners[1]), reach(corners[2])});

@@ -26,7 +26,7 @@ class CutCollector {
  private:
   struct Piece {
     CutSegment segment;
-    unsigned evidence = 0;                // what the triangles around it say
+    unsigned evidence = 0;                // kSurface … kCovered of the triangles around it
     std::array<std::int32_t, 2> older{};  // the piece before it at each of its ends, or kNone
   };
 

@@ -39,7 +39,7 @@ Cutter Cutter::between(const Vec3& start, const Vec3& end, const Vec3& up) {
   const double largest = std::max(reach(start), reach(end));
   if (!(horizontal > kVertexRounding * (largest + line.stableNorm()))) {
     throw_argument("b", "a point that is not above, below or at a along up",
-                   "one " + to_text(horizontal) + " m beside it");
+                   "one " + to_text(horizontal) + " m away from it");
   }
   Cutter cutter(normal, start);
   cutter.along_ = line - line.dot(unit_up) * unit_up;

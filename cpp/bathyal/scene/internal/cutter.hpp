@@ -9,13 +9,13 @@
 
 namespace bathyal::scene {
 
-/// Order by x, then y, then z: in it every edge has a first end, whichever triangle asks.
+/// Order by x, y, then z: in it every edge has a first end, the same for each of its triangles.
 inline bool precedes(const Vec3& a, const Vec3& b) {
   if (a.x() != b.x()) return a.x() < b.x();
   return a.y() != b.y() ? a.y() < b.y() : a.z() < b.z();
 }
 
-/// Largest coordinate: what a point's rounding is a part of.
+/// Largest coordinate, to which a point's rounding is relative.
 inline double reach(const Vec3& point) { return point.cwiseAbs().maxCoeff(); }
 
 /// Where a section cuts: a plane and, between two points, the strip of it that is kept.
@@ -28,7 +28,7 @@ class Cutter {
   /// horizontal: Filaretov, Konoplin, Konoplin (2018), r = A_i A_{i+1} × z. Left at full length:
   /// the signs of p need no unit normal, and r · (A_{i+1} − A_i) is then exactly 0 for `up` = z.
   /// \throw std::invalid_argument when a value is not finite, `up` is zero, or `end` lies over
-  /// `start` along `up` as far as double can tell.
+  /// `start` along `up` to the precision of double.
   static Cutter between(const Vec3& start, const Vec3& end, const Vec3& up);
 
   /// p = r · (V − A) in units of |normal|, a function of the vertex alone, so that all triangles
@@ -40,7 +40,7 @@ class Cutter {
   }
 
   /// Where the edge from v0 (p = p0) to v1 (p1 of the other sign) meets the plane: the same bytes
-  /// whichever triangle asks.
+  /// from either of its triangles.
   static Vec3 cut_edge(const Vec3& v0, double p0, const Vec3& v1, double p1) {
     if (precedes(v1, v0)) return cut_between(v1, p1, v0, p0);
     return cut_between(v0, p0, v1, p1);

@@ -19,7 +19,7 @@ namespace bathyal {
 /// every block belongs to exactly one lane of one node. The same bytes for any number of threads.
 ///
 /// Boxes and blocks are in the local frame, local = world − origin, in float; boxes are rounded
-/// outwards. They serve to rule things out; what is decided is decided in double on `corners`.
+/// outwards. They serve to cull; hits are decided in double on `corners`.
 struct Scene::Hierarchy {
   /// Copies no mesh array.
   /// \throw std::invalid_argument when the triangles reach further than 10¹² m from their middle,
@@ -63,7 +63,7 @@ struct Scene::Hierarchy {
   Vec3 high = Vec3::Zero();
   PageArray<scene::WideNode> nodes;
   PageArray<scene::TriangleBlock> blocks;
-  scene::Clusters clusters;  ///< for winding numbers; made when first asked for
+  scene::Clusters clusters;  ///< for winding numbers; made at the first query
 };
 
 }  // namespace bathyal

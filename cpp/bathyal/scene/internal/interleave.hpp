@@ -4,8 +4,8 @@
 #include "bathyal/scene/internal/packet.hpp"
 #include "bathyal/scene/internal/prefetch.hpp"
 
-// Rays of a packet that have parted, walked in turns: a step of one ray asks memory for what its
-// next step needs and lets the other rays go first. Rays without order wait for memory more than
+// Rays of a packet that have parted, walked in turns: a step of one ray prefetches what its next
+// step needs and lets the other rays go first. Rays without order wait for memory more than
 // they compute, and so wait together.
 
 namespace bathyal::scene {

@@ -9,7 +9,7 @@ namespace bathyal::scene {
 
 /// The point of a triangle closest to a query, with the weights of corners 1 and 2.
 struct ClosestPoint {
-  double squared_distance = 0.0;  ///< [m²], of `point` as it stands, rounding included
+  double squared_distance = 0.0;  ///< [m²], of `point` as stored, rounding included
   Vec3 point = Vec3::Zero();
   double u = 0.0;
   double v = 0.0;

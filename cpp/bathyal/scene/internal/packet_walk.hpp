@@ -4,8 +4,8 @@
 #include "bathyal/scene/internal/interleave.hpp"
 
 // A packet's walk down the hierarchy: neighbouring rays of a fan visit much the same boxes and
-// triangles, so each is tested against all of them at once. Where the rays part, what is left of
-// the packet goes on ray by ray, so rays without any order lose little.
+// triangles, so each is tested against all of them at once. Where the rays part, the rest of the
+// packet goes on ray by ray, so rays without any order lose little.
 
 namespace bathyal::scene {
 namespace {

@@ -5,7 +5,7 @@
 
 namespace bathyal::scene {
 
-/// Asks memory for every cache line of a value that is soon looked at.
+/// Prefetches every cache line of a value that is soon read.
 /// Always inlined: a copy compiled for one instruction set must not be called by another.
 template <class T>
 [[gnu::always_inline]] inline void prefetch(const T& value) {

@@ -5,7 +5,7 @@
 
 #include "bathyal/geometry/shared_array.hpp"
 
-// What the functions that take rays as two arrays say to a caller's mistake.
+// Errors of the functions that take rays as two arrays.
 
 namespace bathyal::scene {
 
@@ -13,8 +13,8 @@ namespace bathyal::scene {
 void check_rows(PointView first, PointView second, std::string_view first_name,
                 std::string_view second_name);
 
-/// Tells what is wrong with row `row`: `first` not finite, else `second`, of which `expected` says
-/// what it should be.
+/// \throw std::invalid_argument that says what is wrong with row `row`: `first` not finite, else
+/// `second`, which should be what `expected` says.
 [[noreturn]] void throw_bad_row(PointView first, PointView second, Index row,
                                 std::string_view first_name, std::string_view second_name,
                                 std::string_view expected);

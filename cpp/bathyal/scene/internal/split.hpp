@@ -26,7 +26,7 @@ inline constexpr int kAreaDepth = 32;
 /// Splits items[first, first + count) into a binary tree and reorders them so that every leaf's
 /// items are neighbours. Splits by the surface area heuristic over bins (Wald 2007), the cost of a
 /// side being its area times the blocks of eight triangles that it needs. An item's first tag is
-/// how many triangles it stands for; the second tag is the owner's. The root goes to nodes[root],
+/// how many triangles it contains; the second tag is the owner's. The root goes to nodes[root],
 /// which exists; other nodes are appended. A range of `leaf_items` or fewer is a leaf.
 /// Pure function of the items: no threads, no randomness.
 void split_by_area(Box* items, std::uint32_t first, std::uint32_t count, std::uint32_t leaf_items,

@@ -27,11 +27,11 @@ struct Cluster {
   double radius = 0.0;                               ///< no less than |x − centre| of any x [m]
 };
 
-/// The clusters of a hierarchy's lanes, eight a node. Made when first asked for: whoever casts rays
-/// only does not pay for them.
+/// The clusters of a hierarchy's lanes, eight a node. Made at the first query: programs that only
+/// cast rays do not pay for them.
 class Clusters {
  public:
-  /// Any number of threads may ask at once.
+  /// Any number of threads may call it at once.
   const std::vector<Cluster>& of(const Scene::Hierarchy& hierarchy, int num_threads) const;
 
   std::size_t bytes() const { return bytes_.load(); }

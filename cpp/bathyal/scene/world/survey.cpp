@@ -35,7 +35,7 @@ struct Sounding {
   double intensity;
 };
 
-/// A slow swing made of two sines that never fall into step.
+/// A slow swing: the sum of two sines of incommensurate periods.
 struct Swing {
   double phase_a, phase_b, amplitude, length;
 

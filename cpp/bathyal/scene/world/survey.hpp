@@ -8,7 +8,7 @@
 
 namespace bathyal {
 
-/// A multibeam survey that never was, over a bottom that is known exactly.
+/// A simulated multibeam survey over a bottom that is known exactly.
 struct SurveyOptions {
   std::uint64_t seed = 0;  ///< the same seed and options give the same bytes
 

@@ -48,7 +48,7 @@ class FieldEnds {
     ends_ = ends_in_block();
   }
 
-  /// The next end. There must be one: nobody asks behind the end of the last line.
+  /// The next end. There must be one: not to be called after the end of the last line.
   const char* next() {
     while (ends_ == 0) {
       block_ += kFieldBlock;

@@ -46,7 +46,7 @@ class GrowingArray {
   }
   void commit(std::size_t count) { size_ += count; }
 
-  /// Wishes for room for `count` while the array is still empty, on large pages where that is
+  /// Reserves room for `count` while the array is still empty, on large pages where that is
   /// megabytes: faulting small pages in one by one costs half as much as parsing what fills them.
   /// A guess that is too high costs no memory, one that is refused or too low costs time only.
   void expect(std::size_t count) {

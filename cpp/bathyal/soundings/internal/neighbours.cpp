@@ -111,7 +111,7 @@ void Neighbours<kDimensions>::search(const Point& query, int count, std::size_t 
 template <int kDimensions>
 void Neighbours<kDimensions>::for_each(
     int count, int num_threads, const std::function<void(std::size_t, const Found&)>& use) const {
-  // In the order of the tree: neighbours ask one after the other and find the same nodes in cache.
+  // In the order of the tree: consecutive queries are neighbours and find the same nodes in cache.
   parallel_for(points_.size(), kQueries, num_threads, [&](std::size_t begin, std::size_t end) {
     Found found;
     for (std::size_t i = begin; i < end; ++i) {

@@ -11,7 +11,7 @@ namespace bathyal::number {
 namespace {
 
 /// A value beyond the range of double: from_chars leaves it untouched, so zero and infinity are
-/// told apart by the power of ten of the first digit that is not zero.
+/// distinguished by the power of ten of the first digit that is not zero.
 double out_of_range(const std::string& text) {
   int exponent = 0;
   const std::size_t mark = text.find_first_of("eE");

@@ -38,8 +38,8 @@ constexpr std::array<Five, kMostFives + 1> make_fives() {
 
 inline constexpr std::array<Five, kMostFives + 1> kFives = make_fives();
 
-/// quotient · 2^exponent for a quotient with its bit 62 or 63 set, of which the lowest bit stands
-/// for all that is below it, far from the ends of double's range.
+/// quotient · 2^exponent for a quotient with its bit 62 or 63 set, whose lowest bit is sticky: set
+/// where any digit below it is not 0. Far from the ends of double's range.
 inline double scale_quotient(std::uint64_t quotient, int exponent) {
   // One bit less lets it convert as a signed number. Of the 62 or 63 bits left, nine or more are
   // below the 53 that the conversion keeps, so the lowest one decides ties and nothing else; and

@@ -47,7 +47,7 @@ std::size_t TextBlocks::bytes_left() const {
 
 void TextBlocks::parse_parts(int num_threads,
                              const std::function<void(std::size_t, std::string_view)>& parse) {
-  // Reading is the first task drawn, so it runs beside the parsing and not after it.
+  // Reading is the first task drawn, so it runs during the parsing and not after it.
   parallel_for(parts_.size() + 1, 1, num_threads, [&](std::size_t task, std::size_t) {
     if (task == 0) {
       read_ahead();
@@ -59,7 +59,7 @@ void TextBlocks::parse_parts(int num_threads,
   split();
 }
 
-/// Puts fresh bytes behind what the last block left over.
+/// Appends fresh bytes to the remainder of the last block.
 void TextBlocks::fill(Buffer& buffer, std::string_view left_over) {
   const std::size_t want = at_end_ ? 0 : std::min(kBlock - 1, source_.bytes_left()) + 1;
   char* const bytes = buffer.bytes.room_for(left_over.size() + want + 1 + kTextPadding);
@@ -83,7 +83,7 @@ void TextBlocks::find_cut(Buffer& buffer) {
   std::memset(bytes + buffer.filled, 0, kTextPadding);
 }
 
-/// Fills the other buffer with what the block in hand leaves over, and fresh bytes behind it.
+/// Fills the other buffer with the remainder of the current block, and fresh bytes after it.
 void TextBlocks::read_ahead() {
   const Buffer& now = current();
   Buffer& next = buffers_[1 - turn_];

@@ -31,33 +31,33 @@ class TextBlocks {
   /// The first bytes of the text, up to kBlock, cut or not: to see what it is before `start`.
   std::string_view head() const { return {current().bytes.data(), current().filled}; }
 
-  /// Takes the first block in hand.
+  /// Makes the first block the current one.
   void start(TextCut cut);
 
-  /// The block in hand: whole lines (or whole words), of which the last ends in a line end (or a
-  /// blank) even where the source does not. kTextPadding bytes behind it are readable. Empty at the
+  /// The current block: whole lines (or whole words), of which the last ends in a line end (or a
+  /// blank) even where the source does not. kTextPadding bytes after it are readable. Empty at the
   /// end of the text.
   std::string_view block() const;
 
   /// Whether there is no block because no place to cut was found within kLongestPiece.
   bool too_long() const { return current().too_long; }
 
-  /// Where the block in hand begins in the source [bytes].
+  /// Where the current block begins in the source [bytes].
   std::size_t offset() const { return current().offset + current().begin; }
 
-  /// Calls `parse(i, text)` once for each part i of the block in hand, on `num_threads` threads,
-  /// and meanwhile reads the next block, which it then takes in hand. The parts are the same for
-  /// any number of threads. `parse` must not throw what depends on the order of the calls.
+  /// Calls `parse(i, text)` once for each part i of the current block, on `num_threads` threads,
+  /// and meanwhile reads the next block, which then becomes the current one. The parts are the same
+  /// for any number of threads. `parse` must not throw what depends on the order of the calls.
   void parse_parts(int num_threads,
                    const std::function<void(std::size_t, std::string_view)>& parse);
 
-  /// How many parts the block in hand has.
+  /// How many parts the current block has.
   std::size_t part_count() const { return parts_.size(); }
 
-  /// The block in hand and what the source has left behind it, as far as it knows [bytes].
+  /// The current block and the rest of the source, as far as its size is known [bytes].
   std::size_t bytes_left() const;
 
-  /// Lets the front of the block in hand fall away (a header that has been dealt with).
+  /// Drops the front of the current block (a header that has been read).
   void skip(std::size_t bytes);
 
   /// Two of them and what they are parsed to stay in a core's cache; less would make the threads

@@ -8,7 +8,7 @@
 
 namespace bathyal {
 
-/// Parses the rest of the text, from the block in hand on, as rows of this format and joins them to
+/// Parses the rest of the text, from the current block on, as rows of this format and joins them to
 /// a table whose `table` has the first `leading` of the chosen columns (0: all).
 /// \throw std::invalid_argument when `leading` is more than that; Error that names `name` and the
 /// first line that could not be read.

@@ -81,7 +81,7 @@ bool split_fields(std::string_view line, const TextFormat& format, std::size_t w
     if (after_separator) {
       line.remove_prefix(1);
     } else if (format.separator != ' ' && !line.empty() && !starts_comment(line, format)) {
-      fields.back() = {};  // something stands behind a closing quote: no field at all
+      fields.back() = {};  // something follows a closing quote: no field at all
       return false;
     }
   }

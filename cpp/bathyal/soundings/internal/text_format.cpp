@@ -44,7 +44,7 @@ void set_separator(TextFormat& format, char separator, const std::vector<std::st
   }
 }
 
-/// The text outside quotes, which alone tells the separator.
+/// The text outside quotes, which alone decides the separator.
 std::string unquoted(std::string_view line) {
   std::string result;
   char quote = '\0';
@@ -61,7 +61,7 @@ std::string unquoted(std::string_view line) {
   return quote == '\0' ? result : std::string(line);
 }
 
-/// Whether a blank stands between two other things within one tab-separated field: then tabs and
+/// Whether a blank lies between two other characters within one tab-separated field: then tabs and
 /// blanks both are nothing but white space.
 bool blanks_part_fields(const std::string& line) {
   for (std::size_t i = 1; i + 1 < line.size(); ++i) {

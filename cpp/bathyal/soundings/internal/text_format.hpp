@@ -10,12 +10,12 @@
 
 namespace bathyal {
 
-/// What the head of a file says about the rest.
+/// The format of a file, as its head shows it.
 struct TextFormat {
   char separator = ' ';
   char decimal = '.';
   bool empty_is_nan = false;
-  std::vector<std::string> comments;    ///< those that hold beside this separator
+  std::vector<std::string> comments;    ///< marks that remain valid with this separator
   std::array<bool, 256> may_comment{};  ///< first bytes of `comments`
   std::vector<std::string> names;       ///< one a column, or none
   std::vector<Index> slot;              ///< one a column: its place in a row of the result, or −1
@@ -42,7 +42,7 @@ bool is_blank_or_comment(std::string_view line, const TextFormat& format);
 /// Whether the field is empty or says NA, N/A or null, in capitals or not.
 bool is_missing(std::string_view field);
 
-/// The number a field holds, words and the policy for empty fields included.
+/// The number in a field, by name (nan, inf) and the policy for empty fields included.
 bool field_value(std::string_view field, const TextFormat& format, double& value);
 
 /// The first line of `text`, without its end, which is LF, CRLF or CR; `text` loses both.

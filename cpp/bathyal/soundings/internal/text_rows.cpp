@@ -112,7 +112,7 @@ std::string no_number(const TextFormat& format, std::size_t column, std::string_
 }
 
 /// Reads one line that is no plain row; the authority on what a line means. Returns the failure's
-/// text, or nothing; `is_row` tells a row from a comment or a blank line.
+/// text, or nothing; `is_row` is false for a comment or a blank line.
 std::optional<std::string> read_line(std::string_view line, const TextFormat& format, double* row,
                                      bool& is_row) {
   is_row = false;

@@ -21,7 +21,7 @@ struct alignas(kPartAlignment) TextRows {
   void clear();
 };
 
-/// Parses whole lines, which stand at `offset` in the source [bytes]; kTextPadding bytes behind
+/// Parses whole lines, which begin at `offset` in the source [bytes]; kTextPadding bytes after
 /// `text` are readable.
 void parse_rows(std::string_view text, std::size_t offset, const TextFormat& format,
                 TextRows& rows);

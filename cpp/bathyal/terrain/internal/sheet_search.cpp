@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t kCellGrain = 2048;
 constexpr std::size_t kNoiseSamples = 4000;
 
-/// A neighbourhood's points and where each stands in PlanGrid::points(). A place with very many
+/// A neighbourhood's points and the index of each in PlanGrid::points(). A place with very many
 /// points is thinned evenly.
 struct Neighbourhood {
   std::array<PlanGrid::Point, kMaxNeighbourhood> storage;
@@ -64,7 +64,7 @@ std::size_t index_of(const PlanGrid& grid, const PlanGrid::Cell& cell) {
 }
 
 /// The first occupied cell of each block of two by two. Neighbourhoods overlap so far that no patch
-/// worth telling of slips through between these.
+/// worth reporting slips through between these.
 std::vector<std::size_t> first_of_blocks(const PlanGrid& grid) {
   std::vector<std::size_t> result;
   for (std::size_t c = 0; c < grid.cells().size(); ++c) {

@@ -25,7 +25,7 @@ struct SheetSearch {
 /// Looks at one cell in each block of two by two, then at the neighbours of every cell found.
 SheetSearch search_sheets(const PlanGrid& grid, double min_separation, int num_threads);
 
-/// Median, over some thousand neighbourhoods, of the rms about the planes that they lie on [m].
+/// Median, over about a thousand neighbourhoods, of the rms about the planes that they lie on [m].
 double measure_noise(const PlanGrid& grid);
 
 }  // namespace bathyal

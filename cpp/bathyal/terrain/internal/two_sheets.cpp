@@ -12,10 +12,10 @@ using Point = PlanGrid::Point;
 using Mask = std::array<std::uint8_t, kMaxNeighbourhood>;
 using HeightArray = std::array<double, kMaxNeighbourhood>;
 
-constexpr std::size_t kMinGroup = 5;  // two more than a plane needs, so that its rms says something
-constexpr double kHopeless = 2.0;     // contrast of a first guess that no refinement mends
+constexpr std::size_t kMinGroup = 5;  // two more than a plane needs, for an rms
+constexpr double kHopeless = 2.0;     // contrast of a first guess beyond refinement
 
-/// What conditions 1 and 2 ask: of a seed of a patch, and of a cell that touches one.
+/// Thresholds of conditions 1 and 2: for a seed of a patch, and for a cell that touches one.
 struct Thresholds {
   double contrast;  ///< separation over rms; one normal cloud cut in two gives 2.7
   double inside;    ///< share of each group inside the other's hull
@@ -56,7 +56,7 @@ struct Moments {
     f.c = mz - f.a * mx - f.b * my;
     const double squares = szz - 2.0 * (f.a * sxz + f.b * syz) + f.a * f.a * sxx +
                            2.0 * f.a * f.b * sxy + f.b * f.b * syy;
-    // What is left of zz by rounding alone is no scatter.
+    // A remainder of zz that rounding alone explains is no scatter.
     if (n > 3.0 && squares > 1e-14 * zz) f.rms = std::sqrt(squares / (n - 3.0));
     return f;
   }

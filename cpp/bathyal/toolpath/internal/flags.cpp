@@ -25,7 +25,7 @@ void flag_turning_back(ToolPath& path) {
     if (path.gap[j]) continue;
     const Vec3 moved = path.position[j + 1] - path.position[j];
     const Vec3 below = path.surface[j + 1] - path.surface[j];
-    // At an edge of the piecewise-constant form the bottom's point rests: the travel tells instead.
+    // At an edge of the piecewise-constant form the bottom's point rests: use the travel.
     const Vec3 ahead = below.isZero() ? Vec3(path.travel[j] + path.travel[j + 1]) : below;
     if (moved.dot(ahead) < -1e-12 * ahead.norm()) path.crossing[j] = path.crossing[j + 1] = true;
   }

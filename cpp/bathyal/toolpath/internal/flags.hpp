@@ -5,8 +5,8 @@
 
 namespace bathyal {
 
-/// Sets `crossing`, for a path that stands off: samples where the tool's point turns back against
-/// its travel, and all samples of a loop the stood-off path makes in the upright plane of its
+/// Sets `crossing`, for a path with standoff: samples where the tool's point turns back against
+/// its travel, and all samples of a loop that path makes in the upright plane of its
 /// segment (the swallowtail over ground more concave than the standoff; loops shorter than ten
 /// standoffs along the bottom are looked for). Without standoff nothing is flagged: the path is the
 /// bottom's own section.
@@ -22,7 +22,7 @@ struct ToolBody {
 
 /// Sets `contact` where ground reaches further than the tolerance into the body. Exact: balls of
 /// the distance to the nearest ground are strung along the capsule's axis, and the axis is cast. A
-/// plane never meets the body of a tool that stands on it.
+/// plane never meets the body of a tool that touches it.
 void flag_contacts(ToolPath& path, const Surface& surface, const ToolBody& body, int num_threads);
 
 }  // namespace bathyal

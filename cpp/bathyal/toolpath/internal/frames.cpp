@@ -135,7 +135,7 @@ std::vector<double> knots_of(const std::vector<double>& starts, const std::vecto
       divide(knots, end, turning < end ? fine : step);
     }
     if (knots.back() == end) continue;
-    if (knots.back() > starts[k]) knots.pop_back();  // what is left is too short for its own part
+    if (knots.back() > starts[k]) knots.pop_back();  // the rest is too short for a part of its own
     knots.push_back(end);
   }
   return knots;
@@ -209,7 +209,7 @@ ToolPath sample(const Route& route, const AppendRun& append_run) {
 }  // namespace
 
 Eigen::Matrix3d tool_frame(const Vec3& approach, const Vec3& direction, const Vec3& fallback) {
-  constexpr double kAlong = 1e-6;  // a direction this close to a tells no heading
+  constexpr double kAlong = 1e-6;  // a direction this close to a has no heading
   Vec3 travel = Vec3::Zero();
   for (const Vec3& candidate : {direction, fallback, Vec3(Vec3::UnitX()), Vec3(Vec3::UnitY())}) {
     const double length = candidate.norm();

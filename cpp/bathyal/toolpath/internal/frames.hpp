@@ -13,7 +13,7 @@ namespace bathyal {
 Eigen::Matrix3d tool_frame(const Vec3& approach, const Vec3& direction, const Vec3& fallback);
 
 /// The paper's form: samples at both ends of every piece with the piece's own frame; where two
-/// pieces of one facet go on straight the shared end stands once. Fills every array of the path up
+/// pieces of one facet go on straight the shared end appears once. Fills every array of the path up
 /// to the gap flag and normal_std; the position is still on the bottom.
 ToolPath sample_piecewise_constant(const Route& route, double step);
 
@@ -23,7 +23,7 @@ ToolPath sample_piecewise_constant(const Route& route, double step);
 /// undefined, not even for a return on the same line. Turns that overlap do not commute; halfway
 /// between the product built up from behind and that built back from ahead, the reversed path has
 /// the same frames. Samples: the ends of pieces, within turns points no further apart than an
-/// eighth of blend_length, and what `step` asks for.
+/// eighth of blend_length, and those that `step` requires.
 ToolPath sample_blended(const Route& route, double blend_length, double step);
 
 /// The smallest angle that turns one frame into the other [rad].

@@ -8,8 +8,8 @@ namespace bathyal {
 /// Around every vertex of the scene.
 Eigen::AlignedBox3d bounds_of(const Scene& scene);
 
-/// Whether an axis that meets nothing passes through a gap of the scene, as find_targets says it.
-/// `direction` is of unit length; `up` tells which way the bottom lies; `bounds` are the scene's,
+/// Whether an axis that meets nothing passes through a gap of the scene, as in find_targets.
+/// `direction` is of unit length; `up` points away from the bottom; `bounds` are the scene's,
 /// for a first look: a chord between two of its points lies inside.
 bool passes_through_gap(const Scene& scene, const Eigen::AlignedBox3d& bounds, const Vec3& origin,
                         const Vec3& direction, const Vec3& up);

@@ -66,7 +66,7 @@ std::optional<Fit> fit_heights(const TriangleMesh& mesh, const Values* uncertain
 }
 
 /// The same over a plane that turns with the fit until it is the fitted one. Over the plane of a
-/// steep facet among noisy soundings one fit would stay near that facet: there the noise stands in
+/// steep facet among noisy soundings one fit would stay near that facet: there the noise lies in
 /// the places and not in the heights, and flattens the slope.
 std::optional<Fit> fit_footprint(const TriangleMesh& mesh, const Values* uncertainty,
                                  const std::vector<std::int32_t>& vertices, const Vec3& centre,

@@ -93,8 +93,8 @@ std::string list_text(const std::vector<std::size_t>& numbers) {
   return count > kShown ? text + ", … (" + std::to_string(count) + " in all)" : text;
 }
 
-/// "aim 6 has no target" or "aims 3 and 6 have no target": what is told of `noun` in one and in
-/// several.
+/// "aim 6 has no target" or "aims 3 and 6 have no target": what is said of `noun` in the singular
+/// and in the plural.
 void warn(Route& route, const std::string& noun, const std::vector<std::size_t>& numbers,
           const std::string& one, const std::string& several) {
   if (numbers.empty()) return;

@@ -31,13 +31,13 @@ struct Leg {
 /// - No sheet joins them: the path follows a's sheet to its open end, crosses straight to the next
 ///   open end ahead and so on to b's sheet; every crossing begins a new run. Open ends that meet
 ///   (to 1 µm, the tiles of one survey) are no gap.
-/// - a above b: no upright plane is told by the pair. The one that also holds the level part of the
+/// - a above b: the pair determines no upright plane. The one that also holds the level part of the
 ///   normals at a and b is taken (straight down a wall), or where both normals are upright the one
 ///   across the world's axis that `up` leans least towards.
 /// - Edges that lie in the plane appear once, on the lowest of their triangles, and of whole
 ///   triangles in it their outline (Scene::section). Pieces shorter than kCoincident are dropped.
-/// - A body that stands on the bottom as a mesh of its own is not merged with it: the bottom's
-///   sheet goes on beneath it, which flag_contacts tells.
+/// - A body on the bottom that is a mesh of its own is not merged with it: the bottom's sheet goes
+///   on beneath it, which flag_contacts reports.
 /// - A target where sheets cross or touch is followed on the sheet of its own facet.
 /// `a` and `b` are further apart than kCoincident.
 Leg follow_sheet(const Scene& scene, const SheetPoint& a, const SheetPoint& b, const Vec3& up);

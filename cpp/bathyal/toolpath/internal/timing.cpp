@@ -33,8 +33,8 @@ std::vector<TimedSegment> stretches_of(const ToolPath& path, const MotionLimits&
   return stretches;
 }
 
-/// The fastest speed at each sample: what the stretches beside it allow, then what can be reached
-/// from behind and slowed down from ahead.
+/// The fastest speed at each sample: what the stretches on both sides allow, then what can be
+/// reached from behind and slowed down from ahead.
 std::vector<double> speeds_at(const ToolPath& path, const std::vector<TimedSegment>& stretches,
                               double acceleration) {
   const std::size_t count = path.size();

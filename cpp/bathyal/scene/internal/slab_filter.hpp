@@ -11,14 +11,14 @@
 namespace bathyal::scene {
 
 /// x ↦ direction · (x − anchor) over the hierarchy's frame, the direction scaled to unit length, in
-/// float and eight lanes at a time: tells what may lie in the range [0, length]. It rules out and
+/// float and eight lanes at a time: finds what may lie in the slab [0, length]. It rules out and
 /// decides nothing.
-class Gauge {
+class SlabFilter {
  public:
   /// `length` [m]; `slack`, in the direction's own units, is what the rounding of vertices may be
   /// worth; that of the floats comes on top.
-  Gauge(const Scene::Hierarchy& hierarchy, const Vec3& direction, const Vec3& anchor, double length,
-        double slack) {
+  SlabFilter(const Scene::Hierarchy& hierarchy, const Vec3& direction, const Vec3& anchor,
+             double length, double slack) {
     const double scale = 1.0 / direction.stableNorm();
     const double offset = scale * direction.dot(hierarchy.origin - anchor);
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -35,7 +35,7 @@ class Gauge {
 
   /// The lanes whose box is not clear of the range. The box of an empty lane is infinite or NaN and
   /// never among them.
-  LaneMask sift(const WideNode& node) const {
+  LaneMask filter(const WideNode& node) const {
     std::array<const float*, 3> least, most;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       least[axis] = rising_[axis] ? node.low[axis] : node.high[axis];
@@ -48,7 +48,7 @@ class Gauge {
   }
 
   /// The lanes whose triangle is not clear of the range; never those without one, which hold NaN.
-  LaneMask sift(const TriangleBlock& block) const {
+  LaneMask filter(const TriangleBlock& block) const {
     const auto four = [&](std::size_t i) {
       const Float4 h0 = value({block.v0[0], block.v0[1], block.v0[2]}, i);
       const Float4 h1 = h0 + slope({block.e1[0], block.e1[1], block.e1[2]}, i);
