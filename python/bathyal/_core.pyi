@@ -563,7 +563,7 @@ class PlaneFit:
     @property
     def flat(self) -> bool:
         """
-        Whether the plane may stand for the bottom.
+        Whether the plane may represent the bottom.
         """
     @property
     def flat_share(self) -> float:
@@ -669,7 +669,7 @@ class SheetReport:
     @property
     def min_separation(self) -> float:
         """
-        What was asked of a separation [m].
+        Vertical distance from which two sheets count [m], as given or chosen.
         """
     @property
     def noise(self) -> float:
@@ -711,8 +711,8 @@ class Hits:
     What each of N rays met first.
     
     All arrays are read-only. ``range``, ``mesh`` and ``triangle`` are there when the cast returns (as
-    columns of one array, so with a stride); ``point``, ``normal`` and ``barycentric`` are computed when
-    they are first asked for, and kept.
+    columns of one array, so with a stride); ``point``, ``normal`` and ``barycentric`` are computed at
+    the first access, and kept.
     """
     def __len__(self) -> int:
         ...
@@ -813,7 +813,7 @@ class Scene:
     
     Answers are decided in double, the same bytes on every instruction set and for any number of
     threads; equal ranges or distances give the lowest (mesh, triangle). The meshes are shared, not
-    copied. Any number of threads may ask at once.
+    copied. Any number of threads may query it at once.
     
     Parameters
     ----------
@@ -984,7 +984,7 @@ class Scene:
         a, b : (3,) array
             Two points [m], not above each other along `up`.
         up : (3,) array, optional
-            Beside two points: any length but zero; (0, 0, 1) unless given.
+            With two points: any length but zero; (0, 0, 1) unless given.
         
         Returns
         -------
@@ -1038,7 +1038,7 @@ class Scene:
     @property
     def memory(self) -> int:
         """
-        Bytes held beside the meshes' own arrays.
+        Bytes held besides the meshes' own arrays.
         """
     @property
     def meshes(self) -> list[TriangleMesh]:
@@ -1129,7 +1129,7 @@ class ToolPath:
     @property
     def crossing(self) -> numpy.ndarray:
         """
-        (M,) whether the stood-off path turns back or crosses itself here.
+        (M,) whether the path at standoff turns back or crosses itself here.
         """
     @property
     def frame(self) -> numpy.ndarray:
@@ -1561,7 +1561,7 @@ class Arm:
         q : (N, n) or (n,) array
             [rad] or [m]
         frame : str
-            Axes along which the velocities are told: "world" or "tool".
+            Axes along which the velocities are given: "world" or "tool".
         num_threads : int
             0 is all.
         
@@ -1621,7 +1621,7 @@ class Arm:
         Joint torques that hold the arm still.
         
         The drives carry Jᵀ · wrench, the weight of every link and of the payload, less the buoyancy of the
-        volumes told. Masses and volumes are those of `links`; unknown ones are 0.
+        volumes given. Masses and volumes are those of `links`; unknown ones are 0.
         
         Parameters
         ----------
@@ -1630,7 +1630,7 @@ class Arm:
         wrench : (6,) or (N, 6) array, optional
             Force and moment that the tool exerts on its surroundings at the tool centre point [N, N m].
         frame : str
-            Axes along which the wrench is told: "world" or "tool".
+            Axes along which the wrench is given: "world" or "tool".
         gravity : (3,) array
             In the arm's base frame [m/s²]: turn it with the vehicle.
         water_density : float
@@ -1704,7 +1704,7 @@ class Arm:
     @property
     def joint_names(self) -> list[str]:
         """
-        One name a coordinate: of the joint that leads it, in the arm or beside it.
+        One name a coordinate: of the joint that leads it, in the arm or outside it.
         """
     @property
     def joint_types(self) -> list[str]:
@@ -3254,7 +3254,7 @@ class Diagnosis:
         """
 def arm_from_chain(chain: dict, *, nearly_parallel: typing.SupportsFloat | typing.SupportsIndex = 0.1) -> Arm:
     """
-    The Arm of joint origins, axes and links: what a URDF tells.
+    The Arm of joint origins, axes and links: what a URDF describes.
     """
 def arm_from_parts(parts: dict) -> Arm:
     """
@@ -3270,9 +3270,9 @@ def chain_from_arm(arm: Arm) -> dict:
     """
 def clean_cloud(cloud: typing.Any, *, same_place: str = 'keep', spike_sigma: typing.SupportsFloat | typing.SupportsIndex = 0.0, spike_height: typing.SupportsFloat | typing.SupportsIndex = 0.1, spike_neighbours: typing.SupportsInt | typing.SupportsIndex = 16, outlier_sigma: typing.SupportsFloat | typing.SupportsIndex = 0.0, outlier_neighbours: typing.SupportsInt | typing.SupportsIndex = 12, voxel: typing.SupportsFloat | typing.SupportsIndex = 0.0, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> CleanResult:
     """
-    Drop what is no sounding and, where asked, what is too much or out of line; say how many and why.
+    Drop points that are no soundings and, on request, redundant ones and outliers; report how many.
     
-    Points that are not finite go first, then exact duplicates. The other steps run only where asked, in
+    Points that are not finite go first, then exact duplicates. The other steps run only on request, in
     the order of the parameters. Attributes and datum follow; rows keep their order, and which positions
     stay does not depend on it.
     
@@ -3468,9 +3468,9 @@ def find_targets(surface: typing.Any, aims: typing.Any, *, world_from_vehicle: t
     world_from_vehicle : (4, 4) array, optional
         Pose of the vehicle, identity unless given.
     frame : {"vehicle", "world"}
-        What the aims stand in: the vehicle's frame (`world_from_vehicle` moves them) or the world's.
+        Frame of the aims: the vehicle's (`world_from_vehicle` moves them) or the world's.
     vertical : {"gravity", "vehicle"}
-        The world's z or the vehicle's; for a plane it tells which side is out of the bottom.
+        The world's z or the vehicle's; for a plane it decides which side is out of the bottom.
     grazing_angle : float
         Incidence above which a hit is "grazing" [rad].
     max_range : float
@@ -3519,7 +3519,7 @@ def fit_plane(cloud: typing.Any, *, tolerance: typing.SupportsFloat | typing.Sup
     tolerance : float
         How far the ground may lie off the plane and still count as flat [m].
     patch_points : int
-        Soundings in a patch; the median of a patch stands for the ground there, so that neither noise
+        Soundings in a patch; the median of a patch is the ground's height there, so that neither noise
         nor single spikes count as relief.
     flat_share : float
         Share of the patches that must lie within `tolerance`.
@@ -3604,7 +3604,7 @@ def forecast_touches(arm: Arm, touches: Touches, *, parametrization: str = 'haya
     """
 def generate_survey(*, seed: typing.SupportsInt | typing.SupportsIndex = 0, origin: typing.Any = (431200.0, 6172650.0, -38.0), length: typing.SupportsFloat | typing.SupportsIndex = 60.0, width: typing.SupportsFloat | typing.SupportsIndex = 40.0, wave_height: typing.SupportsFloat | typing.SupportsIndex = 0.5, wave_length: typing.SupportsFloat | typing.SupportsIndex = 9.0, ripple_height: typing.SupportsFloat | typing.SupportsIndex = 0.04, roughness: typing.SupportsFloat | typing.SupportsIndex = 0.15, boulders: typing.SupportsInt | typing.SupportsIndex = 30, boulder_radius: typing.SupportsFloat | typing.SupportsIndex = 1.3, trench_depth: typing.SupportsFloat | typing.SupportsIndex = 1.1, trench_width: typing.SupportsFloat | typing.SupportsIndex = 3.5, lines: typing.SupportsInt | typing.SupportsIndex = 2, altitude: typing.SupportsFloat | typing.SupportsIndex = 8.0, opening: typing.SupportsFloat | typing.SupportsIndex = 2.0943951, beams: typing.SupportsInt | typing.SupportsIndex = 256, ping_spacing: typing.SupportsFloat | typing.SupportsIndex = 0.12, lost_width: typing.SupportsFloat | typing.SupportsIndex = 2.0, range_noise: typing.SupportsFloat | typing.SupportsIndex = 0.006, range_noise_rate: typing.SupportsFloat | typing.SupportsIndex = 0.0008, angle_noise: typing.SupportsFloat | typing.SupportsIndex = 0.0006, spike_fraction: typing.SupportsFloat | typing.SupportsIndex = 0.0, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> PointCloud:
     """
-    A multibeam survey that never was, over a bottom that is known exactly.
+    A simulated multibeam survey over a bottom that is known exactly.
     
     Sand waves with ripples, boulders with scour and shadow, a trench, a stripe of lost pings, noise that
     grows with range, and the uneven spacing of beams at equal angles. The same seed and options give the
@@ -3815,7 +3815,7 @@ def plan_toolpath(surface: typing.Any, aims: typing.Any, *, world_from_vehicle: 
     Parameters
     ----------
     surface, aims, world_from_vehicle, frame, vertical, grazing_angle, max_range, num_threads
-        As in find_targets; `vertical` also says how the bottom is cut.
+        As in find_targets; `vertical` also decides how the bottom is cut.
     missed : {"leave_out", "refuse"}
         Aims without a target: left out with a warning, the stretch over them a gap; or an error.
     orientation : {"blended", "piecewise_constant"}
@@ -3950,7 +3950,7 @@ def read_pcd(path: os.PathLike | str | bytes, *, num_threads: typing.SupportsInt
     """
     The point cloud of a .pcd file: ascii, binary or binary_compressed.
     
-    Fields beside x, y, z become attributes; `rgb` and `rgba` are taken apart into red, green, blue.
+    Fields other than x, y, z become attributes; `rgb` and `rgba` are taken apart into red, green, blue.
     """
 def read_text_table(path: os.PathLike | str | bytes, *, separator: str | None = None, decimal: str | None = None, comments: collections.abc.Sequence[str] = ['#', '//', '%', '!', ';'], header_lines: typing.SupportsInt | typing.SupportsIndex = -1, skip_lines: typing.SupportsInt | typing.SupportsIndex = 0, columns: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex | str] = (), leading: typing.SupportsInt | typing.SupportsIndex = 0, empty_is_nan: bool = False, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> TextTable:
     """
@@ -3962,9 +3962,9 @@ def read_text_table(path: os.PathLike | str | bytes, *, separator: str | None = 
     separator : " ", ",", ";" or tab, optional
         " " is any run of blanks and tabs. None looks at the file.
     decimal : "." or ",", optional
-        None takes a comma only where ";" or a tab separates columns and the numbers leave no doubt.
+        None takes a comma only where ";" or a tab separates columns and no number could mean thousands.
     comments : sequence of str
-        A line that begins with one of these is skipped, and so is the rest of a line behind a blank
+        A line that begins with one of these is skipped, and so is the rest of a line after a blank
         and one of these.
     header_lines : int
         Lines of column names; -1 takes lines without numbers as such.
@@ -4034,6 +4034,6 @@ def write_xyz(path: os.PathLike | str | bytes, cloud: PointCloud, *, decimals: t
     """
     Write x y z and the named attributes as text, one point a line.
     
-    `decimals` of -1 writes the shortest text that reads back as the same number; `preamble` stands above
-    all else as it is. Writes in place: write aside and rename.
+    `decimals` of -1 writes the shortest text that reads back as the same number; `preamble` goes above
+    everything else, unchanged. Writes in place: write aside and rename.
     """

@@ -8,6 +8,7 @@ extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, std::size_t siz
   if (size < 2) return 0;
   const std::size_t wanted = data[0] + 256U * (data[1] % 8);
   const auto unpacked = std::make_unique<char[]>(wanted);
-  bathyal::unpack_lzf({reinterpret_cast<const char*>(data) + 2, size - 2}, unpacked.get(), wanted);
+  bathyal::soundings::unpack_lzf({reinterpret_cast<const char*>(data) + 2, size - 2},
+                                 unpacked.get(), wanted);
   return 0;
 }

@@ -25,12 +25,13 @@ extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, std::size_t siz
   if (size == 0) return 0;
   const char decimal = (data[0] & 1U) != 0 ? '.' : ',';
   const std::string text(reinterpret_cast<const char*>(data) + 1, size - 1);
-  const std::string padded = text + ';' + std::string(bathyal::kTextPadding, '\0');
+  const std::string padded = text + ';' + std::string(bathyal::soundings::kTextPadding, '\0');
   double value = 0.0;
-  if (bathyal::parse_plain_decimal(padded.data(), padded.data() + text.size(), decimal, value)) {
+  if (bathyal::soundings::parse_plain_decimal(padded.data(), padded.data() + text.size(), decimal,
+                                              value)) {
     check_value(text, decimal, value);
   }
-  const char* const end = bathyal::parse_number(padded.data(), decimal, value);
+  const char* const end = bathyal::soundings::parse_number(padded.data(), decimal, value);
   if (end == nullptr) return 0;
   const auto taken = static_cast<std::size_t>(end - padded.data());
   if (taken == 0 || taken > text.size()) std::abort();

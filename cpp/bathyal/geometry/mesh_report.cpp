@@ -15,6 +15,8 @@
 namespace bathyal {
 namespace {
 
+using namespace geometry;
+
 constexpr std::size_t kTriangleGrain = 8192;
 constexpr double kFlat = 1e-12;  // height over longest edge below which a triangle has no area
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();

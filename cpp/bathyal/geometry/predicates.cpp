@@ -13,6 +13,8 @@
 namespace bathyal::exact {
 namespace {
 
+using geometry::BigInteger;
+
 __extension__ using Int128 = __int128;
 
 int sign_of(Int128 value) { return (value > 0) - (value < 0); }

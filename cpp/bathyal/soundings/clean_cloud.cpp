@@ -15,6 +15,8 @@
 namespace bathyal {
 namespace {
 
+using namespace soundings;
+
 constexpr std::size_t kGrain = std::size_t{1} << 14U;
 
 Soundings finite_soundings(PointView points) {

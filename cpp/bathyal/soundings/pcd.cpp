@@ -22,6 +22,8 @@
 namespace bathyal {
 namespace {
 
+using namespace soundings;
+
 static_assert(std::endian::native == std::endian::little, "PCD data are little-endian");
 
 constexpr std::size_t kRecordGrain = std::size_t{1} << 14U;  ///< points converted by one thread

@@ -10,6 +10,8 @@
 namespace bathyal {
 namespace {
 
+using namespace soundings;
+
 TextTable read_rows(TextBlocks& blocks, const TextOptions& options, const std::string& name) {
   blocks.start(TextCut::kLine);
   if (blocks.too_long()) throw Error(name + ":1: a line of more than 1 MiB");

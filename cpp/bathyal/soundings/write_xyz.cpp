@@ -19,6 +19,8 @@
 namespace bathyal {
 namespace {
 
+using namespace soundings;
+
 constexpr std::size_t kLongestNumber = 352;  ///< −DBL_MAX with 17 decimals has 328 characters
 constexpr std::size_t kRowsAtOnce = 4096;    ///< formatted by one thread
 constexpr std::size_t kBatch = 32;           ///< such pieces between two writes

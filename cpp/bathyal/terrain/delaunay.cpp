@@ -17,6 +17,8 @@
 namespace bathyal {
 namespace {
 
+using namespace terrain;
+
 constexpr std::size_t kGrain = 1 << 15;
 constexpr std::size_t kPointsPerCell = 20000;  // fewer are not worth a thread
 constexpr int kMostCells = 1024;

@@ -15,6 +15,8 @@
 namespace bathyal {
 namespace {
 
+using namespace terrain;
+
 constexpr double kLargest = 1e75;              // so that squares and their sums stay finite
 constexpr double kNeighbourhoodPoints = 2.25;  // cells of 1.5 spacings
 constexpr int kMinSeeds = 3;                   // one or two alone occur by chance

@@ -13,6 +13,8 @@
 namespace bathyal {
 namespace {
 
+using namespace toolpath;
+
 constexpr double kClearance = 1.0;  // above the highest point of the bottom [m]
 
 /// One line's only stretch in a cell.
@@ -51,14 +53,14 @@ std::vector<Cell> cells_of(const std::vector<std::pair<double, std::vector<Inter
 }
 
 /// The four ends of a cell's first and last line: where mowing it may begin.
-std::array<Point2, 4> entries_of(const Cell& cell) {
-  return {Point2(cell.front().low, cell.front().y), Point2(cell.front().high, cell.front().y),
-          Point2(cell.back().low, cell.back().y), Point2(cell.back().high, cell.back().y)};
+std::array<PlanPoint, 4> entries_of(const Cell& cell) {
+  return {PlanPoint(cell.front().low, cell.front().y), PlanPoint(cell.front().high, cell.front().y),
+          PlanPoint(cell.back().low, cell.back().y), PlanPoint(cell.back().high, cell.back().y)};
 }
 
 /// To and fro through each cell, each time on to the nearest entry of those not yet mown.
-std::vector<Point2> mow(std::vector<Cell> cells) {
-  std::vector<Point2> ends;
+std::vector<PlanPoint> mow(std::vector<Cell> cells) {
+  std::vector<PlanPoint> ends;
   while (!cells.empty()) {
     std::size_t next = 0, entry = 0;
     double nearest = std::numeric_limits<double>::infinity();
@@ -86,7 +88,7 @@ std::vector<Point2> mow(std::vector<Cell> cells) {
 }
 
 /// A height above the bottom everywhere (a scene) or at (x, y) (a plane that is not upright).
-double height_above(const Surface& surface, const Point2& at) {
+double height_above(const Surface& surface, const PlanPoint& at) {
   if (const auto* plane = std::get_if<Plane>(&surface)) {
     const Vec3& m = plane->normal();
     return (plane->offset() - m.x() * at.x() - m.y() * at.y()) / m.z() + kClearance;
@@ -124,11 +126,11 @@ Aims cover_polygon(const Surface& surface, const Polygon& polygon, double spacin
   options.check();
   check_positive("spacing", spacing);
   check_surface(surface);
-  const Point2 origin = polygon.rows() > 0 ? Point2(polygon.row(0)) : Point2(0.0, 0.0);
-  const Corners corners = corners_along(polygon, origin, options.direction);
+  const PlanPoint origin = polygon.rows() > 0 ? PlanPoint(polygon.row(0)) : PlanPoint(0.0, 0.0);
+  const PolygonCorners corners = corners_along(polygon, origin, options.direction);
 
   double low = std::numeric_limits<double>::infinity(), high = -low;
-  for (const Point2& corner : corners) {
+  for (const PlanPoint& corner : corners) {
     low = std::min(low, corner.y() + options.margin);
     high = std::max(high, corner.y() - options.margin);
   }
@@ -144,13 +146,13 @@ Aims cover_polygon(const Surface& surface, const Polygon& polygon, double spacin
       lines.emplace_back(y, stretches(corners, y, options.margin));
     }
   }
-  const std::vector<Point2> ends = mow(cells_of(lines));
+  const std::vector<PlanPoint> ends = mow(cells_of(lines));
 
   Aims aims(static_cast<Index>(ends.size()), 6);
   const double scene_top =
       std::holds_alternative<Scene>(surface) ? height_above(surface, origin) : 0.0;
   for (Index i = 0; i < aims.rows(); ++i) {
-    const Point2 at =
+    const PlanPoint at =
         origin + Eigen::Rotation2Dd(options.direction) * ends[static_cast<std::size_t>(i)];
     const double z = std::holds_alternative<Scene>(surface) ? scene_top : height_above(surface, at);
     aims.row(i) << at.x(), at.y(), z, 0.0, 0.0, -1.0;

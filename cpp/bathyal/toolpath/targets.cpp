@@ -11,6 +11,8 @@
 namespace bathyal {
 namespace {
 
+using namespace toolpath;
+
 constexpr double kParallel = 1e-12;  // |m·d| of an axis that runs along the plane
 
 Targets no_targets(std::size_t count) {

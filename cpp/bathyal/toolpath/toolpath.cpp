@@ -13,6 +13,8 @@
 namespace bathyal {
 namespace {
 
+using namespace toolpath;
+
 /// "2 hole, 1 parallel"
 std::string count_text(const Targets& targets) {
   std::map<TargetStatus, int> counts;

@@ -3,6 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include "bathyal/arm/internal/start_library.hpp"
+#include "bathyal/arm/inverse_problem.hpp"
+#include "bathyal/arm/row_frames.hpp"
+#include "bathyal/arm/tip_state.hpp"
 #include "support/arms.hpp"
 
 namespace bathyal {
@@ -127,7 +131,7 @@ TEST(Inverse, PositionAndAxisTasks) {
   }
 }
 
-TEST(Inverse, TellsWhyNothingWasReached) {
+TEST(Inverse, ReportsWhyNothingWasReached) {
   DhTable table{DhConvention::kStandard,
                 {{0.5, 0, 0, 0, 0}, {0.4, 0, 0, 0, 0}},
                 {JointType::kRevolute, JointType::kRevolute},
@@ -291,6 +295,58 @@ TEST(Inverse, Refusals) {
   EXPECT_THROW(inverse(arm, targets, no_start(arm)), std::invalid_argument);
   targets[16] = NAN;
   EXPECT_THROW(inverse(arm, targets, no_start(arm)), std::invalid_argument);
+}
+
+TEST(TipState, ItsJacobianIsTheDerivativeOfTheResidual) {
+  const Arm ur = ur10e();
+  const arm::InverseProblem problem(ur, {});
+  arm::TipState state(problem.program.view, problem.task);
+  const JointMatrix q = random_poses(ur, 2, 5);
+  const arm::PlainPose target =
+      problem.relative(arm::plain(row_frames(ur, {q.data(), problem.size()}).world_from_tool));
+  state.evaluate(target, q.row(0).data());
+  EXPECT_LT(state.error(), 1e-12);
+  // Near the target, where the residual is first order in the step.
+  constexpr double kStep = 1e-6;
+  const std::vector<double> jacobian(state.jacobian(), state.jacobian() + 6 * ur.size());
+  for (Index j = 0; j < ur.size(); ++j) {
+    JointMatrix moved = q.row(0);
+    moved(0, j) += kStep;
+    state.evaluate(target, moved.data());
+    for (Index i = 0; i < 6; ++i) {
+      EXPECT_NEAR(-state.residual()[i] / kStep,
+                  jacobian[static_cast<std::size_t>(i * ur.size() + j)], 1e-5);
+    }
+  }
+}
+
+TEST(InverseProblem, UnwindsByWholeTurnsWithinTheLimits) {
+  const Arm ur = ur10e();
+  const arm::InverseProblem problem(ur, {});
+  std::vector<double> q(problem.size(), 3.0);
+  const std::vector<double> reference(problem.size(), -3.0);
+  problem.unwind(reference, q.data());
+  for (std::size_t j = 0; j < q.size(); ++j) {
+    EXPECT_NEAR(q[j], problem.wraps[j] != 0 ? 3.0 - 2.0 * std::numbers::pi : 3.0, 1e-12);
+  }
+  EXPECT_TRUE(problem.within_limits(q.data()));
+  q[0] = problem.upper[0] + 0.1;
+  EXPECT_FALSE(problem.within_limits(q.data()));
+}
+
+TEST(StartLibrary, StartsLieWithinTheLimitsAndTheirOwnPoseScoresBest) {
+  const Arm franka = panda();
+  const arm::InverseProblem problem(franka, {});
+  const arm::StartLibrary library(franka, problem, 3);
+  const JointMatrix q = Eigen::Map<const JointMatrix>(library.start(11), 1, franka.size());
+  EXPECT_TRUE(problem.within_limits(library.start(11)));
+  std::vector<double> scores;
+  library.score(
+      problem.relative(arm::plain(row_frames(franka, {q.data(), problem.size()}).world_from_tool)),
+      scores);
+  const auto best = std::min_element(scores.begin(), scores.end()) - scores.begin();
+  EXPECT_LE(scores[static_cast<std::size_t>(best)], scores[11]);
+  EXPECT_LT(scores[11], *std::max_element(scores.begin(), scores.end()) / 4);
 }
 
 }  // namespace

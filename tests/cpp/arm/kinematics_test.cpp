@@ -191,7 +191,7 @@ TEST(Kinematics, Refusals) {
   }
 }
 
-TEST(JointAngles, LimitsAreTold) {
+TEST(JointAngles, LimitsAreReported) {
   const Arm arm = panda();
   JointMatrix q = JointMatrix::Zero(2, 7);
   q.col(3).setConstant(-1.0);

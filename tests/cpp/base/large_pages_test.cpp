@@ -29,7 +29,7 @@ bool starts_on(const void* memory, std::size_t border) {
   return reinterpret_cast<std::uintptr_t>(memory) % border == 0;
 }
 
-/// Whether the system was asked for large pages where `address` lies ("hg" of its mapping).
+/// Whether large pages were requested of the system where `address` lies ("hg" of its mapping).
 bool is_asked_for(const void* address) {
   const auto wanted = reinterpret_cast<std::uintptr_t>(address);
   std::ifstream maps("/proc/self/smaps");
@@ -82,7 +82,7 @@ TEST(LargePages, AreMappedAndReadAsNothing) {
   EXPECT_TRUE(asked);
 }
 
-TEST(LargePages, TellWhenThereIsNoMemory) {
+TEST(LargePages, ReportThatThereIsNoMemory) {
   constexpr std::size_t kMost = std::numeric_limits<std::size_t>::max();
   EXPECT_EQ(allocate_large(kMost), nullptr);
   EXPECT_EQ(allocate_large(std::size_t{1} << 62U), nullptr);

@@ -22,7 +22,7 @@ TEST(PageVector, BehavesAsAVector) {
   EXPECT_EQ(PageVector<int>(3, 7), (PageVector<int>{7, 7, 7}));
 }
 
-TEST(PageVector, TellsWhenThereIsNoMemory) {
+TEST(PageVector, ReportsThatThereIsNoMemory) {
   PageVector<char> bytes;
   EXPECT_THROW(bytes.reserve(std::size_t{1} << 62U), std::bad_alloc);
 }

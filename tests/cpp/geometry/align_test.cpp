@@ -64,7 +64,7 @@ TEST(Align, NoMotionNearTheBestOneIsBetter) {
   }
 }
 
-TEST(Align, RefusesWhatTellsNoMotion) {
+TEST(Align, RefusesWhatDeterminesNoMotion) {
   const PointMatrix points = random_points(5, 6);
   PointMatrix line(5, 3);
   for (Index i = 0; i < 5; ++i) line.row(i) = static_cast<double>(i) * Eigen::RowVector3d(1, 2, 3);

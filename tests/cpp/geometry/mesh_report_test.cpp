@@ -141,7 +141,7 @@ TEST(MeshReport, NamesEveryDefect) {
   EXPECT_EQ(r.high, Vec3(6, 6, 1));
 }
 
-TEST(MeshReport, TellsFansThatTouchInAVertexAndEdgesTurnedTheSameWay) {
+TEST(MeshReport, CountsFansThatTouchInAVertexAndEdgesTurnedTheSameWay) {
   const std::vector<Vec3> v = {{0, 0, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}, {-1, -1, 0}};
   const MeshReport bow = mesh_report(mesh_of(v, {{0, 1, 2}, {0, 3, 4}}));
   EXPECT_EQ(bow.nonmanifold_vertices, 1);

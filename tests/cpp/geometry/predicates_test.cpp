@@ -138,7 +138,7 @@ TEST(Predicates, ChangeSignWithTheOrderOfPoints) {
   EXPECT_GT(near, 15000);
 }
 
-/// Of the two diagonals of a square exactly one is Delaunay, whichever way it is asked.
+/// Of the two diagonals of a square exactly one is Delaunay, in any order of the arguments.
 TEST(Predicates, PerturbedTiesHaveOneAnswer) {
   const std::array<Point2, 4> square{Point2{0, 0}, {1, 0}, {1, 1}, {0, 1}};
   for (int turn = 0; turn < 4; ++turn) {
@@ -153,7 +153,7 @@ TEST(Predicates, PerturbedTiesHaveOneAnswer) {
 }
 
 TEST(BigInteger, ComputesWithSignsAndCarries) {
-  using exact::BigInteger;
+  using geometry::BigInteger;
   const std::uint64_t ones = ~std::uint64_t{0};
   const BigInteger a(ones, 64, false), b(ones, 0, false), one(1, 0, false), minus(1, 0, true);
   const BigInteger power(1, 128, false);

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "bathyal/scene/moller_trumbore.hpp"
 #include "bathyal/scene/scene.hpp"
 #include "meshes.hpp"
 #include "rays.hpp"
@@ -165,6 +166,24 @@ TEST(Occluded, AgreesWithCastOnAllLevels) {
       ASSERT_EQ(blocked[k], hits[k].range < length) << level << " " << i;
     }
   });
+}
+
+TEST(MollerTrumbore, AgreesWithTheHierarchyAwayFromEdges) {
+  const TriangleMesh mesh = test::seabed(20, 20);
+  const Scene scene({mesh});
+  PointMatrix origins(50, 3), directions(50, 3);
+  for (Index i = 0; i < 50; ++i) {
+    origins.row(i) << 1.37 + 0.31 * static_cast<double>(i), 2.11 + 0.29 * static_cast<double>(i), 9;
+    directions.row(i) << 0.1, -0.07, -2;
+  }
+  const auto expected = scene.cast(origins, directions);
+  const auto hits = intersect_moller_trumbore(mesh, origins, directions);
+  ASSERT_EQ(hits.size(), expected.size());
+  for (std::size_t i = 0; i < hits.size(); ++i) {
+    EXPECT_EQ(hits[i].triangle, expected[i].triangle);
+    EXPECT_EQ(std::isfinite(hits[i].range), hits[i].triangle >= 0);
+    if (hits[i].triangle >= 0) EXPECT_NEAR(hits[i].range, expected[i].range, 1e-12);
+  }
 }
 
 }  // namespace

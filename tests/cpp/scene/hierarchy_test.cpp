@@ -6,6 +6,10 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "bathyal/scene/internal/cells.hpp"
+#include "bathyal/scene/internal/nearness.hpp"
+#include "bathyal/scene/internal/slab_filter.hpp"
+#include "bathyal/scene/internal/split.hpp"
 #include "meshes.hpp"
 
 namespace bathyal {
@@ -114,6 +118,73 @@ TEST(Hierarchy, RefusesWhatFloatCannotHold) {
                               test::one_triangle(Vec3(3e12, 0, 0))};
   EXPECT_THROW(Scene::Hierarchy({far[0], far[1]}, 1), std::invalid_argument);
   EXPECT_THROW(Scene::Hierarchy({far[0]}, -1), std::invalid_argument);
+}
+
+TEST(Cells, HoldEveryTriangleOnceForAnyNumberOfThreads) {
+  const Scene scene({test::seabed(60, 60)});
+  const Scene::Hierarchy& h = scene.hierarchy();
+  const scene::SortedBoxes one = scene::sort_into_cells(h, 1), four = scene::sort_into_cells(h, 4);
+  std::vector<int> seen(h.primitive_count);
+  std::uint32_t next = 0;
+  for (const scene::Cell& cell : one.cells) {
+    EXPECT_EQ(cell.first, next);
+    next += cell.count;
+    for (std::uint32_t i = cell.first; i < next; ++i) ++seen[one.items[i].second_tag()];
+  }
+  EXPECT_EQ(next, h.primitive_count);
+  for (const int count : seen) ASSERT_EQ(count, 1);
+  ASSERT_EQ(one.items.bytes(), four.items.bytes());
+  EXPECT_EQ(std::memcmp(one.items.data(), four.items.data(), one.items.bytes()), 0);
+
+  std::vector<scene::BinaryNode> nodes(1);
+  std::vector<scene::Box> items(one.items.begin(), one.items.end());
+  scene::split_by_area(items.data(), 0, h.primitive_count, 8, nodes, 0);
+  std::uint32_t in_leaves = 0;
+  for (const scene::BinaryNode& node : nodes) {
+    if (!node.is_leaf()) continue;
+    EXPECT_LE(node.item_count(), 8U);
+    in_leaves += node.item_count();
+  }
+  EXPECT_EQ(in_leaves, h.primitive_count);
+}
+
+/// The exact extremes of direction · (x − anchor) over a triangle.
+std::array<double, 2> extent(const std::array<Vec3, 3>& corners, const Vec3& direction,
+                             const Vec3& anchor) {
+  std::array<double, 2> range{INFINITY, -INFINITY};
+  for (const Vec3& corner : corners) {
+    const double x = direction.dot(corner - anchor);
+    range = {std::min(range[0], x), std::max(range[1], x)};
+  }
+  return range;
+}
+
+TEST(Culling, NeverRulesOutWhatLiesInReach) {
+  const Scene scene({test::seabed(40, 40, Vec3(431200, 6172650, -38))});
+  const Scene::Hierarchy& h = scene.hierarchy();
+  const Vec3 direction = Vec3(0.6, 0.7, -0.2).normalized(), anchor(431217.3, 6172661.9, -37.2);
+  const Vec3 query(431221.7, 6172644.2, -30.1);
+  const scene::SlabFilter slab(h, direction, anchor, 5.0, 0.0);
+  const scene::Nearness nearness(h, query - h.origin);
+  int kept = 0, lanes = 0;
+  for (std::size_t b = 0; b < h.blocks.size(); ++b) {
+    const unsigned in_slab = slab.filter(h.blocks[b]).bits();
+    scene::LaneDistances bounds;
+    nearness.bound(h.blocks[b], bounds);
+    for (int lane = 0; lane < scene::kWidth; ++lane) {
+      const std::uint32_t primitive = h.blocks[b].primitive[lane];
+      if (primitive == scene::kNoPrimitive) continue;
+      const auto corners = h.corners(primitive);
+      const auto [low, high] = extent(corners, direction, anchor);
+      if (low <= 5.0 && high >= 0.0) EXPECT_TRUE((in_slab >> lane & 1U) != 0);
+      kept += static_cast<int>(in_slab >> lane & 1U);
+      ++lanes;
+      for (const Vec3& corner : corners) {
+        EXPECT_LE(bounds[static_cast<std::size_t>(lane)], nearness.limit((corner - query).norm()));
+      }
+    }
+  }
+  EXPECT_LT(kept, lanes / 2) << "the slab holds a part of the seabed only";
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <numbers>
 #include <random>
 
+#include "bathyal/scene/internal/chain.hpp"
 #include "bathyal/scene/scene.hpp"
 #include "meshes.hpp"
 #include "sections.hpp"
@@ -113,6 +114,19 @@ TEST(Section, OrderOfTrianglesDoesNotMatter) {
   for (const double offset : {-1.9, 0.0, 0.3, 1.2}) {
     expect_equal(scene.section(Plane({1, 2, 3}, offset)), other.section(Plane({1, 2, 3}, offset)));
     expect_equal(scene.section(Plane({0, 0, 1}, offset)), other.section(Plane({0, 0, 1}, offset)));
+  }
+}
+
+TEST(ChainSegments, DoNotDependOnTheOrderOfTheSegments) {
+  const std::vector<Vec3> points{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}};
+  std::vector<scene::CutSegment> segments{{{2, 3}, 0, 5}, {{1, 0}, 0, 4}, {{1, 2}, 0, 6}};
+  for (int turn = 0; turn < 3; ++turn) {
+    std::rotate(segments.begin(), segments.begin() + 1, segments.end());
+    const auto lines = scene::chain_segments(points, segments, Vec3::UnitX(), Vec3::UnitZ());
+    ASSERT_EQ(lines.size(), 1U);
+    EXPECT_EQ(lines[0].points, points);
+    EXPECT_EQ(lines[0].triangle, (std::vector<std::int32_t>{4, 6, 5}));
+    EXPECT_FALSE(lines[0].closed);
   }
 }
 

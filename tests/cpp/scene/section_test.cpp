@@ -4,6 +4,7 @@
 #include <numbers>
 #include <random>
 
+#include "bathyal/scene/internal/cutter.hpp"
 #include "bathyal/scene/scene.hpp"
 #include "meshes.hpp"
 #include "sections.hpp"
@@ -140,6 +141,24 @@ TEST(Section, RefusesPairsWithoutAPlane) {
   EXPECT_THROW(scene.section(a, Vec3::Constant(std::nan(""))), std::invalid_argument);
   const Vec3 far(512345.3, 7212345.7, -52.0);
   EXPECT_THROW(scene.section(far, far + Vec3(1e-10, 0.0, 1.0)), std::invalid_argument);
+}
+
+TEST(Cutter, CutsAnEdgeAlikeFromBothEndsAndClipsToItsStrip) {
+  const scene::Cutter cutter = scene::Cutter::between({431200.5, 6172650.25, -38},
+                                                      {431210.5, 6172650.25, -30}, Vec3::UnitZ());
+  const Vec3 a(431203.1, 6172649.3, -37.7), b(431204.9, 6172651.9, -36.1);
+  const double pa = cutter.height(a), pb = cutter.height(b);
+  ASSERT_LT(pa * pb, 0.0);
+  const Vec3 cut = scene::Cutter::cut_edge(a, pa, b, pb);
+  EXPECT_EQ(cut, scene::Cutter::cut_edge(b, pb, a, pa));
+  EXPECT_NEAR(cut.y(), 6172650.25, 1e-8);
+  EXPECT_EQ(cutter.height(cutter.anchor()), 0.0);
+  Vec3 p(431190.5, 6172650.25, -38), q(431205.5, 6172650.25, -38);
+  ASSERT_TRUE(cutter.clip(p, q));
+  EXPECT_NEAR(p.x(), 431200.5, 1e-9);
+  EXPECT_EQ(q.x(), 431205.5);
+  q = Vec3(431195.5, 6172650.25, -38), p = q - Vec3::UnitX();
+  EXPECT_FALSE(cutter.clip(p, q));
 }
 
 }  // namespace

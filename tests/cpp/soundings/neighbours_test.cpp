@@ -8,9 +8,13 @@
 #include <vector>
 
 #include "bathyal/base/random.hpp"
+#include "bathyal/soundings/internal/clean_steps.hpp"
+#include "bathyal/soundings/internal/parallel_sort.hpp"
 
 namespace bathyal {
 namespace {
+
+using namespace soundings;
 
 Soundings random_soundings(int count) {
   RandomStream random(21);
@@ -60,6 +64,27 @@ TEST(Neighbours, AreFewerWhereThereAreNoMore) {
   expect_brute_force<2>(1, 5);
   expect_brute_force<3>(2, 5);
   expect_brute_force<3>(40, 64);
+}
+
+TEST(ParallelSort, IsTheSortForAnyNumberOfThreads) {
+  RandomStream random(5);
+  std::vector<std::uint64_t> values(200000);
+  for (std::uint64_t& value : values) value = random.next();
+  std::vector<std::uint64_t> expected = values;
+  std::sort(expected.begin(), expected.end());
+  for (const int num_threads : {1, 4}) {
+    std::vector<std::uint64_t> sorted = values;
+    parallel_sort(sorted, std::less<>(), num_threads);
+    EXPECT_EQ(sorted, expected);
+  }
+}
+
+TEST(CleanSteps, ThinningKeepsTheSoundingNearestToTheCentroidOfAVoxel) {
+  CleanOptions options;
+  options.voxel = 1.0;
+  const Soundings soundings{
+      {0.1, 0.1, 0.1, 2}, {0.5, 0.5, 0.5, 0}, {0.9, 0.8, 0.9, 1}, {3.2, 0.1, 0.1, 3}};
+  EXPECT_EQ(mark_thinned(soundings, options), (Marks{1, 0, 1, 0}));
 }
 
 }  // namespace

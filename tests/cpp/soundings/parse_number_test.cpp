@@ -14,6 +14,8 @@
 namespace bathyal {
 namespace {
 
+using namespace soundings;
+
 struct Parsed {
   bool is_number;
   std::size_t length;

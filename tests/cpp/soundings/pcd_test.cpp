@@ -12,9 +12,12 @@
 
 #include "bathyal/base/error.hpp"
 #include "bathyal/soundings/internal/lzf.hpp"
+#include "bathyal/soundings/internal/pcd_header.hpp"
 
 namespace bathyal {
 namespace {
+
+using namespace soundings;
 
 std::string header(const std::string& fields, const std::string& sizes, const std::string& types,
                    const std::string& counts, const std::string& width, const std::string& data,
@@ -230,6 +233,21 @@ TEST(Lzf, RefusesDamage) {
   EXPECT_FALSE(unpacks(std::string("\0a\x20", 3), 4));         // no distance
   EXPECT_FALSE(unpacks(std::string("\0a\xe0", 3), 10));        // no length
   EXPECT_FALSE(unpacks(std::string("\0a\xe0\xff\0", 5), 10));  // a copy beyond the end
+}
+
+TEST(PcdHeader, CountsBytesAndColumns) {
+  const std::string text =
+      header("x y z _ rgb", "8 8 8 1 4", "F F F U U", "1 1 1 4 1", "3", "binary");
+  const PcdHeader read = read_pcd_header(text + "data", "test");
+  EXPECT_EQ(read.points, 3U);
+  EXPECT_EQ(read.point_size, 32U);
+  EXPECT_EQ(read.columns, 8U);
+  EXPECT_EQ(read.bytes, text.size());
+  EXPECT_EQ(read.data, PcdData::kBinary);
+  ASSERT_NE(read.find("rgb"), nullptr);
+  EXPECT_EQ(read.find("rgb")->offset, 28U);
+  EXPECT_EQ(read.find("rgb")->column, 7U);
+  EXPECT_EQ(read.find("intensity"), nullptr);
 }
 
 }  // namespace

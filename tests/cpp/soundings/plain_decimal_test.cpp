@@ -8,10 +8,14 @@
 #include <string>
 
 #include "bathyal/base/random.hpp"
+#include "bathyal/soundings/internal/digits.hpp"
 #include "bathyal/soundings/internal/parse_number.hpp"
+#include "bathyal/soundings/internal/round_decimal.hpp"
 
 namespace bathyal {
 namespace {
+
+using namespace soundings;
 
 /// Parses `text` with `behind` after it; false where it is not a plain decimal.
 bool parse(const std::string& text, double& value, char decimal = '.', char behind = ',') {
@@ -152,6 +156,23 @@ TEST(RoundDecimal, RoundsTiesToEven) {
       EXPECT_EQ(std::bit_cast<std::uint64_t>(expected) & 1U, 0U);
     }
   }
+}
+
+TEST(Digits, AreCountedAlignedAndJoined) {
+  RandomStream random(17);
+  for (int count = 1; count <= 8; ++count) {
+    const std::string digits = random_digits(random, count);
+    const std::string text =
+        digits + "x9999999";  // whatever follows the first other byte is ignored
+    const std::uint64_t values = number::load_digits(text.data());
+    ASSERT_EQ(number::count_digits(values), count);
+    EXPECT_EQ(number::join_digits(number::align_digits(values, count)), std::stoull(digits));
+  }
+  const std::string sixteen = random_digits(random, 16);
+  const auto [first, second] = number::join_digits(number::load_digits(sixteen.data()),
+                                                   number::load_digits(sixteen.data() + 8));
+  EXPECT_EQ(first, std::stoull(sixteen.substr(0, 8)));
+  EXPECT_EQ(second, std::stoull(sixteen.substr(8)));
 }
 
 }  // namespace

@@ -7,11 +7,17 @@
 #include <vector>
 
 #include "bathyal/base/random.hpp"
+#include "bathyal/soundings/internal/byte_source.hpp"
 #include "bathyal/soundings/internal/field_ends.hpp"
+#include "bathyal/soundings/internal/growing_array.hpp"
 #include "bathyal/soundings/internal/parse_number.hpp"
+#include "bathyal/soundings/internal/text_blocks.hpp"
+#include "bathyal/soundings/internal/text_format.hpp"
 
 namespace bathyal {
 namespace {
+
+using namespace soundings;
 
 using Offsets = std::vector<std::size_t>;
 
@@ -147,6 +153,51 @@ TEST(TextRows, LooksAtUnwantedTextOnlyAsFarAsAQuoteOrACommentNeeds) {
   EXPECT_EQ(rows.lines, 3);
   ASSERT_EQ(rows.values.size(), 3U);
   EXPECT_EQ(rows.values.data()[2], 3.0);
+}
+
+TEST(GrowingArray, KeepsItsValuesWhileItGrowsAndWhenItIsHandedOver) {
+  GrowingArray<int> array;
+  for (int i = 0; i < 10000; ++i) array.push_back(i);
+  ASSERT_EQ(array.size(), 10000U);
+  const std::shared_ptr<const int> values = array.release();
+  for (int i = 0; i < 10000; ++i) ASSERT_EQ(values.get()[i], i);
+  EXPECT_EQ(array.size(), 0U);
+}
+
+TEST(TextBlocks, GiveTheWholeTextInWholeLinesForAnyNumberOfThreads) {
+  std::string text;
+  for (int i = 0; text.size() < 2 * TextBlocks::kBlock + 12345; ++i) {
+    text += std::to_string(i * 7919) + "\n";
+  }
+  text += "the last line has no end";
+  for (const int num_threads : {1, 3}) {
+    const auto source = open_memory(text);
+    TextBlocks blocks(*source);
+    std::string joined;
+    for (blocks.start(TextCut::kLine); !blocks.block().empty();) {
+      EXPECT_EQ(blocks.offset(), joined.size());
+      EXPECT_EQ(blocks.block().back(), '\n');
+      std::vector<std::string> parts(blocks.part_count());
+      blocks.parse_parts(
+          num_threads, [&](std::size_t i, std::string_view part) { parts[i] = std::string(part); });
+      for (const std::string& part : parts) {
+        EXPECT_EQ(part.back(), '\n');
+        joined += part;
+      }
+    }
+    EXPECT_FALSE(blocks.too_long());
+    EXPECT_EQ(joined, text + "\n");
+  }
+}
+
+TEST(TextFormat, IsDetectedFromTheHead) {
+  const TextFormat format =
+      detect_format("# made by hand\ndepth;east;north\n1,5;2;3\n2,5;3;4\n", {}, "test");
+  EXPECT_EQ(format.separator, ';');
+  EXPECT_EQ(format.decimal, ',');
+  EXPECT_EQ(format.names, (std::vector<std::string>{"depth", "east", "north"}));
+  EXPECT_EQ(format.lines_before, 2);
+  EXPECT_EQ(format.chosen, 3);
 }
 
 }  // namespace

@@ -112,7 +112,7 @@ TEST(TextTable, ChoosesColumnsByIndexAndName) {
   EXPECT_THROW(parse_text_table("1 2 3\n", options), std::invalid_argument);
 }
 
-TEST(TextTable, TakesADecimalCommaOnlyWhereThereIsNoDoubt) {
+TEST(TextTable, TakesADecimalCommaOnlyWhereItIsUnambiguous) {
   EXPECT_EQ(read("1,5;2;-3,25\n"), (Numbers{1.5, 2, -3.25}));
   EXPECT_EQ(parse_text_table("1,5\t2\n").decimal, ',');
   EXPECT_EQ(read("620152,873;7246504,912;-52,913\n"), (Numbers{620152.873, 7246504.912, -52.913}));
@@ -129,7 +129,7 @@ TEST(TextTable, TakesADecimalCommaOnlyWhereThereIsNoDoubt) {
   EXPECT_NE(failure("1.5;2,5\n").find("got \"2,5\""), std::string::npos);
 }
 
-TEST(TextTable, KeepsNanAndInfinityAndAsksAboutEmptyFields) {
+TEST(TextTable, KeepsNanAndInfinityAndRefusesEmptyFields) {
   const Numbers values = read("nan -inf +Infinity\n");
   EXPECT_TRUE(std::isnan(values[0]));
   EXPECT_EQ(values[1], -INFINITY);
@@ -249,7 +249,7 @@ TEST(TextTable, BoundsTheLengthOfALine) {
   EXPECT_EQ(read("1 " + blanks.substr(0, 1 << 19) + "2\n"), (Numbers{1, 2}));
 }
 
-TEST(TextTable, TellsWhyAFileCannotBeOpened) {
+TEST(TextTable, ReportsWhyAFileCannotBeOpened) {
   EXPECT_EQ(message([] { read_text_table("no such file.xyz"); }),
             "no such file.xyz: No such file or directory");
   EXPECT_EQ(message([] { read_text_table("/"); }), "/: Is a directory");

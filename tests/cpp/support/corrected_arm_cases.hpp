@@ -7,7 +7,7 @@
 #include "bathyal/geometry/rotation_vector.hpp"
 #include "support/arms.hpp"
 
-// What tests of corrected arms ask with.
+// Poses and cases that tests of corrected arms share.
 
 namespace bathyal {
 

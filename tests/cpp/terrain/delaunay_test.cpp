@@ -17,9 +17,13 @@
 #include "bathyal/geometry/predicates.hpp"
 #include "bathyal/terrain/internal/hilbert_order.hpp"
 #include "bathyal/terrain/internal/triangulate_cells.hpp"
+#include "bathyal/terrain/internal/triangulator.hpp"
+#include "bathyal/terrain/triangulate.hpp"
 
 namespace bathyal {
 namespace {
+
+using namespace terrain;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
@@ -266,6 +270,36 @@ TEST(Delaunay, RefusesWhatHasNoTriangulation) {
   for (const double bad : {0.0, -1.0, static_cast<double>(NAN)}) {
     EXPECT_THROW(delaunay(PointView(square.data(), 4, 3), {.max_edge = bad}),
                  std::invalid_argument);
+  }
+}
+
+TEST(Triangulator, ClosesTheHullWithGhosts) {
+  const Plane2 points = scattered(500);
+  std::vector<std::int32_t> order(points.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<std::int32_t>(i);
+  const auto triangles = triangulate_points(points, order);
+  EXPECT_EQ(triangles.size(), 2 * points.size() - 2);
+  const auto ghosts = std::count_if(triangles.begin(), triangles.end(),
+                                    [](const Corners& t) { return is_ghost(t); });
+  EXPECT_EQ(static_cast<Index>(triangles.size()) - ghosts, full(points).triangles.rows());
+  EXPECT_TRUE(triangulate_points(Plane2{{0, 0}, {1, 1}, {2, 2}}, {{0, 1, 2}}).empty());
+}
+
+TEST(Triangulate, SharesTheCloudAndCountsWhatIsNotFinite) {
+  PointMatrix points = with_depth(scattered(300));
+  const PointCloud cloud{Points(points)};
+  const Triangulation made = triangulate(cloud);
+  EXPECT_EQ(made.mesh.vertices().data(), cloud.points().data());
+  EXPECT_TRUE(made.sheets.single_valued());
+  EXPECT_GT(made.mesh.triangle_count(), 0);
+  points(7, 2) = std::nan("");
+  try {
+    triangulate(PointCloud{Points(points)});
+    ADD_FAILURE() << "a point that is not finite was taken";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_NE(std::string(error.what()).find("1 point that is not, the first in row 7"),
+              std::string::npos)
+        << error.what();
   }
 }
 

@@ -13,6 +13,8 @@
 namespace bathyal {
 namespace {
 
+using namespace terrain;
+
 /// Half of the points crowd in a millionth of the area, and a tenth are repeated.
 PointMatrix crowded_points(Index count) {
   PointMatrix points(count, 3);

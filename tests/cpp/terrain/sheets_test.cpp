@@ -10,9 +10,14 @@
 #include <vector>
 
 #include "bathyal/base/random.hpp"
+#include "bathyal/terrain/internal/plan_grid.hpp"
+#include "bathyal/terrain/internal/sheet_search.hpp"
+#include "bathyal/terrain/internal/two_sheets.hpp"
 
 namespace bathyal {
 namespace {
+
+using namespace terrain;
 
 using std::numbers::pi;
 
@@ -144,7 +149,7 @@ TEST(FindSheets, FindsAnArchAPipeAndASphere) {
   EXPECT_GT(find(sphere).share(), 0.5);
 }
 
-TEST(FindSheets, TellsPassesThatDisagreeByClearlyMoreThanTheirNoise) {
+TEST(FindSheets, ReportsPassesThatDisagreeByClearlyMoreThanTheirNoise) {
   const auto waves = [](double x, double) { return 0.3 * std::sin(x); };
   const auto two_passes = [&](double step) {
     std::vector<Vec3> points = ground(5, waves, 0.02);
@@ -208,6 +213,60 @@ TEST(FindSheets, ChecksItsOptions) {
   EXPECT_THROW(find({}, {.min_separation = -1.0}), std::invalid_argument);
   EXPECT_THROW(find({}, {.min_points = 4}), std::invalid_argument);
   EXPECT_THROW(find({}, {.num_threads = -1}), std::invalid_argument);
+}
+
+PointMatrix matrix_of(const std::vector<Vec3>& points) {
+  PointMatrix matrix(static_cast<Index>(points.size()), 3);
+  for (std::size_t i = 0; i < points.size(); ++i) matrix.row(static_cast<Index>(i)) = points[i];
+  return matrix;
+}
+
+TEST(PlanGrid, PutsEveryPointIntoItsCellAndFindsTheCellsAround) {
+  const PointMatrix points = matrix_of(ground(
+      3, [](double, double) { return 0.0; }, 0.0));
+  const PlanGrid grid(points, 4.0);
+  ASSERT_EQ(grid.points().size(), 40000U);
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < grid.cells().size(); ++i) {
+    const PlanGrid::Cell& cell = grid.cells()[i];
+    ASSERT_EQ(cell.begin, next);
+    next = cell.end;
+    const auto [x, y] = grid.centre(cell);
+    for (std::size_t p = cell.begin; p < cell.end; ++p) {
+      ASSERT_LE(std::abs(grid.points()[p].x - x), 0.500001 * grid.cell_size());
+      ASSERT_LE(std::abs(grid.points()[p].y - y), 0.500001 * grid.cell_size());
+    }
+    std::size_t around = 0, expected = 0;
+    for (const auto& run : grid.neighbours(i)) around += run.size();
+    if (i % 101 != 0) continue;  // the count below is quadratic
+    for (const PlanGrid::Cell& other : grid.cells()) {
+      expected += std::abs(other.column - cell.column) <= 1 && std::abs(other.row - cell.row) <= 1;
+    }
+    ASSERT_EQ(around, expected);
+  }
+  EXPECT_EQ(next, grid.points().size());
+}
+
+TEST(TwoSheets, SplitsTwoPlanesAndLeavesOneWhole) {
+  RandomStream draw(8);
+  std::vector<PlanGrid::Point> points;
+  for (int i = 0; i < 60; ++i) {
+    const double x = draw.uniform(-1, 1), y = draw.uniform(-1, 1);
+    points.push_back({x, y, 0.3 * x + (i % 3 == 0 ? 2.0 : 0.0) + 0.01 * draw.normal()});
+  }
+  const TwoSheets split = split_into_sheets(points, 0.5);
+  ASSERT_TRUE(split.found);
+  EXPECT_TRUE(split.seed);
+  EXPECT_NEAR(split.separation, 2.0, 0.02);
+  for (std::size_t i = 0; i < points.size(); ++i) ASSERT_EQ(split.upper[i], i % 3 == 0);
+  EXPECT_NEAR(rms_about_sheets(points), 0.01, 0.004);
+  EXPECT_FALSE(split_into_sheets(points, 3.0).found);
+}
+
+TEST(SheetSearch, MeasuresTheNoiseOfASlope) {
+  const PointMatrix points = matrix_of(ground(
+      4, [](double x, double y) { return x - y; }, 0.02));
+  EXPECT_NEAR(measure_noise(PlanGrid(points, 2.25)), 0.02, 0.003);
 }
 
 }  // namespace

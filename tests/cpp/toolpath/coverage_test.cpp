@@ -6,6 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "bathyal/toolpath/internal/polygon.hpp"
 #include "bottoms.hpp"
 
 namespace bathyal {
@@ -158,6 +159,18 @@ TEST(CoverPolygon, RefusesWhatIsNoPolygon) {
                std::invalid_argument);
   EXPECT_THROW(cover_polygon(Plane(Vec3::UnitX(), 0.0), polygon_of(kRectangle), 1.0),
                std::invalid_argument);
+}
+
+TEST(Polygon, StretchesKeepTheMarginFromEveryEdge) {
+  const auto corners = toolpath::corners_along(polygon_of(kU), kU[0], 0.0);
+  const auto two = toolpath::stretches(corners, 6.0, 0.5);
+  ASSERT_EQ(two.size(), 2U);
+  EXPECT_NEAR(two[0].low, 0.5, 1e-12);
+  EXPECT_NEAR(two[0].high, 2.5, 1e-12);
+  EXPECT_NEAR(two[1].low, 9.5, 1e-12);
+  EXPECT_NEAR(two[1].high, 11.5, 1e-12);
+  EXPECT_EQ(toolpath::stretches(corners, 1.5, 0.5).size(), 1U);
+  EXPECT_TRUE(toolpath::stretches(corners, 6.0, 1.6).empty());
 }
 
 }  // namespace

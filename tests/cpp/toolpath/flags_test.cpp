@@ -11,6 +11,8 @@
 namespace bathyal {
 namespace {
 
+using namespace toolpath;
+
 using test::any;
 using test::down;
 using test::grid;

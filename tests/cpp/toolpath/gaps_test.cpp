@@ -89,7 +89,7 @@ TEST(Gaps, WhereMeshesLieOnEachOtherThePathStaysOnThatOfItsTargets) {
   }
 }
 
-TEST(Gaps, AMissedAimMakesAGapAndIsToldOf) {
+TEST(Gaps, AMissedAimMakesAGapAndIsReported) {
   const Scene scene = scene_of(grid(kFlat, 0, 10, 10, 0, 4, 4));
   const Aims aims = down({{-3, 1}, {1, 1}, {3, 1}, {20, 1}, {6, 1}, {8, 1}, {30, 1}});
   const ToolPath path = plan_toolpath(scene, aims, piecewise_constant());
@@ -125,7 +125,7 @@ TEST(Gaps, OfManyMissedAimsTheFirstTenAreNamedAndAllCounted) {
             "out");
 }
 
-TEST(Gaps, AimsThatGrazeOrComeFromBeneathAreUsedAndToldOf) {
+TEST(Gaps, AimsThatGrazeOrComeFromBeneathAreUsedAndReported) {
   const Scene scene = scene_of(grid(kFlat, 0, 10, 10, 0, 4, 4));
   ToolPathOptions options;
   options.targets.grazing_angle = 1.0;

@@ -12,6 +12,8 @@
 namespace bathyal {
 namespace {
 
+using namespace toolpath;
+
 using test::down;
 using test::grid;
 using test::piecewise_constant;

@@ -7,10 +7,14 @@
 #include <cmath>
 
 #include "bathyal/base/random.hpp"
+#include "bathyal/toolpath/internal/route.hpp"
+#include "bathyal/toolpath/internal/sheet_walk.hpp"
 #include "bottoms.hpp"
 
 namespace bathyal {
 namespace {
+
+using namespace toolpath;
 
 using test::down;
 using test::grid;
@@ -175,6 +179,36 @@ TEST(OutwardNormal, OfAFacetWithoutAreaIsThatOfItsNeighbourOnThePath) {
       EXPECT_LT(angle(a, Vec3(-0.2, -0.1, 1)), 1e-9);
     }
   }
+}
+
+TEST(SheetWalk, StaysOnTheSheetAndWithinTheRadius) {
+  const TriangleMesh mesh = grid([](double, double) { return 0.0; }, 0, 10, 10, 0, 10, 10);
+  const SheetWalk walk(mesh);
+  const Vec3 centre(5, 5, 0);
+  std::vector<std::int32_t> expected;
+  for (Index v = 0; v < mesh.vertex_count(); ++v) {
+    if ((Vec3(mesh.vertices().row(v)) - centre).norm() <= 1.5) {
+      expected.push_back(static_cast<std::int32_t>(v));
+    }
+  }
+  EXPECT_EQ(walk.vertices_within(2 * (5 * 10 + 5), centre, 1.5), expected);
+  EXPECT_EQ(walk.vertices_around(0).size(), 7U);  // of the corner's two triangles and those around
+}
+
+TEST(Route, IsCutIntoEqualPartsThatKeepTheFacet) {
+  Route route;
+  route.runs.emplace_back();
+  Piece piece;
+  piece.to = Vec3(1, 0, 0);
+  piece.triangle = 7;
+  route.runs[0].pieces = {piece};
+  subdivide(route, 0.3);
+  ASSERT_EQ(route.runs[0].pieces.size(), 4U);
+  for (const Piece& part : route.runs[0].pieces) {
+    EXPECT_NEAR(part.length(), 0.25, 1e-15);
+    EXPECT_EQ(part.triangle, 7);
+  }
+  EXPECT_EQ(route.runs[0].pieces.back().to, Vec3(1, 0, 0));
 }
 
 }  // namespace

@@ -291,7 +291,7 @@ TEST(Section, FromTheWallOfABoxToItsTopIsRoundTheEdge) {
   EXPECT_NEAR(path.arc_length.back(), 0.3 + 0.5, 1e-9);
 }
 
-TEST(Section, CoincidentTargetsAddNoLengthAndAreToldOf) {
+TEST(Section, CoincidentTargetsAddNoLengthAndAreReported) {
   const Scene scene = scene_of(grid(kFlat, 0, 4, 4, 0, 4, 4));
   for (const Surface& surface : {Surface(scene), Surface(Plane(Vec3::UnitZ(), -5.0))}) {
     const ToolPath path =

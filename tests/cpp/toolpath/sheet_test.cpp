@@ -8,6 +8,8 @@
 namespace bathyal::test {
 namespace {
 
+using namespace toolpath;
+
 const Vec3 kUp(0, 0, 1);
 
 // A slope and a level sheet that cross at x = 2, where a target lies on both.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "bathyal/toolpath/aims.hpp"
 #include "bottoms.hpp"
 
 namespace bathyal {
@@ -38,7 +39,7 @@ TEST(FindTargets, MeetsAPlaneByEquation3) {
   EXPECT_TRUE(targets.barycentric[0].array().isNaN().all());
 }
 
-TEST(FindTargets, TellsParallelBehindAndTooFarOnAPlane) {
+TEST(FindTargets, ReportsParallelBehindAndTooFarOnAPlane) {
   const Plane plane(Vec3::UnitZ(), -5.0);
   EXPECT_EQ(status_of(plane, Vec3(0, 0, 0), Vec3(1, 2, 0)), TargetStatus::kParallel);
   EXPECT_EQ(status_of(plane, Vec3(0, 0, -5), Vec3(1, 2, 0)), TargetStatus::kParallel);
@@ -120,7 +121,7 @@ TEST(FindTargets, PrintedConditions7To9AreMetByTrianglesBehindAndBeyond) {
   EXPECT_EQ(targets.range[0], 1.0);
 }
 
-TEST(FindTargets, TellsAHoleFromTheEdgeOfTheSurvey) {
+TEST(FindTargets, DistinguishesAHoleFromTheEdgeOfTheSurvey) {
   const auto stripe = [](int c, int) { return c < 4 || c > 5; };  // lost: 4 < x < 6, open in y
   const Scene lost = scene_of(grid(kFlat, 0, 10, 10, 0, 10, 10, Vec3::Zero(), stripe));
   const auto square = [](int c, int r) { return c < 4 || c > 5 || r < 4 || r > 5; };
@@ -179,6 +180,22 @@ TEST(FindTargets, RefusesWhatIsNotAnAim) {
   options = {};
   options.max_range = NAN;
   EXPECT_THROW(find_targets(plane, down({{0, 0}}), options), std::invalid_argument);
+}
+
+TEST(AimsReference, TurnsAimsIntoTheWorldAndKnowsUp) {
+  AimsReference reference;
+  reference.world_from_vehicle.linear() =
+      Eigen::AngleAxisd(kPi / 2, Vec3::UnitX()).toRotationMatrix();
+  reference.world_from_vehicle.translation() = Vec3(1, 2, 3);
+  Aims world = reference.to_world(axis({0, 0, 1}, {0, 0, -2}));
+  EXPECT_NEAR((Vec3(world.row(0).head<3>()) - Vec3(1, 1, 3)).norm(), 0.0, 1e-15);
+  EXPECT_NEAR((Vec3(world.row(0).tail<3>()) - Vec3(0, 1, 0)).norm(), 0.0, 1e-15);
+  EXPECT_EQ(reference.up(), Vec3::UnitZ());
+  reference.vertical = Vertical::kVehicle;
+  EXPECT_NEAR((reference.up() - Vec3(0, -1, 0)).norm(), 0.0, 1e-15);
+  reference.frame = AimsFrame::kWorld;
+  world = reference.to_world(axis({0, 0, 1}, {0, 0, -2}));
+  EXPECT_EQ(Vec3(world.row(0).head<3>()), Vec3(0, 0, 1));
 }
 
 }  // namespace

@@ -4,7 +4,7 @@
 #include <array>
 #include <cstdint>
 
-namespace bathyal::exact {
+namespace bathyal::geometry {
 
 /// A signed integer of up to 8 704 bits without the heap, for the predicates' last resort: the
 /// difference of any two finite doubles, over the smallest of them, has at most 2 100 bits, and the
@@ -118,4 +118,4 @@ class BigInteger {
   std::array<std::uint64_t, 136> limbs_;  ///< lowest first; set only below size_
 };
 
-}  // namespace bathyal::exact
+}  // namespace bathyal::geometry

@@ -8,7 +8,7 @@
 
 #include "bathyal/base/parallel.hpp"
 
-namespace bathyal {
+namespace bathyal::geometry {
 namespace {
 
 constexpr std::size_t kGrain = 4096;
@@ -186,4 +186,4 @@ Index count_duplicate_triangles(TriangleView triangles, Index vertex_count, int 
   return count;
 }
 
-}  // namespace bathyal
+}  // namespace bathyal::geometry

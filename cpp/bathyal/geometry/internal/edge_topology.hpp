@@ -5,7 +5,7 @@
 
 #include "bathyal/geometry/triangle_mesh.hpp"
 
-namespace bathyal {
+namespace bathyal::geometry {
 
 /// How the triangles of a mesh hang together. Edges of a corner repeated in one triangle are no
 /// edges.
@@ -25,4 +25,4 @@ EdgeTopology edge_topology(const TriangleMesh& mesh, int num_threads);
 /// Triangles on the same three vertices as one before them.
 Index count_duplicate_triangles(TriangleView triangles, Index vertex_count, int num_threads);
 
-}  // namespace bathyal
+}  // namespace bathyal::geometry

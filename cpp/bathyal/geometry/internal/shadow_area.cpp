@@ -9,7 +9,7 @@
 
 #include "bathyal/base/parallel.hpp"
 
-namespace bathyal {
+namespace bathyal::geometry {
 namespace {
 
 constexpr std::size_t kLines = 1024;
@@ -137,4 +137,4 @@ double shadow_area(const TriangleMesh& mesh, int num_threads) {
   return total * (lengths.union_ / lengths.each);
 }
 
-}  // namespace bathyal
+}  // namespace bathyal::geometry

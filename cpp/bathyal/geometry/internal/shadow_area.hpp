@@ -3,9 +3,9 @@
 
 #include "bathyal/geometry/triangle_mesh.hpp"
 
-namespace bathyal {
+namespace bathyal::geometry {
 
 /// Area of the mesh's shadow on the horizontal plane, every place counted once [m²].
 double shadow_area(const TriangleMesh& mesh, int num_threads);
 
-}  // namespace bathyal
+}  // namespace bathyal::geometry

@@ -12,7 +12,7 @@
 #include "bathyal/soundings/internal/growing_array.hpp"
 #include "bathyal/soundings/internal/text_format.hpp"
 
-namespace bathyal {
+namespace bathyal::soundings {
 namespace {
 
 struct GridHeader {
@@ -224,4 +224,4 @@ AsciiGrid read_grid_blocks(TextBlocks& blocks, int num_threads, const std::strin
   return grid;
 }
 
-}  // namespace bathyal
+}  // namespace bathyal::soundings

@@ -7,7 +7,7 @@
 #include "bathyal/geometry/shared_array.hpp"
 #include "bathyal/soundings/internal/text_blocks.hpp"
 
-namespace bathyal {
+namespace bathyal::soundings {
 
 /// The points of an ESRI ASCII grid: cell centres, row by row from the north, those without a value
 /// left out.
@@ -28,4 +28,4 @@ bool is_ascii_grid(std::string_view head);
 /// word that is no number, more or fewer numbers than cells, no cell with a value.
 AsciiGrid read_grid_blocks(TextBlocks& blocks, int num_threads, const std::string& name);
 
-}  // namespace bathyal
+}  // namespace bathyal::soundings

@@ -15,7 +15,7 @@
 
 #include "bathyal/base/error.hpp"
 
-namespace bathyal {
+namespace bathyal::soundings {
 namespace {
 
 [[noreturn]] void throw_system(const std::string& name, int code) {
@@ -121,4 +121,4 @@ std::string printable(std::string_view text, std::size_t limit) {
   return text.empty() ? result : result + "…";
 }
 
-}  // namespace bathyal
+}  // namespace bathyal::soundings

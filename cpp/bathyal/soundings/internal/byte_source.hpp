@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-namespace bathyal {
+namespace bathyal::soundings {
 
 /// Bytes that are read once, front to back: a file, a pipe, or memory.
 class ByteSource {
@@ -33,4 +33,4 @@ std::unique_ptr<ByteSource> open_memory(std::string_view bytes);
 /// `limit` bytes of it.
 std::string printable(std::string_view text, std::size_t limit = 60);
 
-}  // namespace bathyal
+}  // namespace bathyal::soundings

@@ -9,7 +9,7 @@
 #include "bathyal/soundings/internal/neighbours.hpp"
 #include "bathyal/soundings/internal/parallel_sort.hpp"
 
-namespace bathyal {
+namespace bathyal::soundings {
 namespace {
 
 constexpr std::size_t kPointGrain = std::size_t{1} << 14U;
@@ -153,4 +153,4 @@ Marks mark_thinned(const Soundings& soundings, const CleanOptions& options) {
   return marks;
 }
 
-}  // namespace bathyal
+}  // namespace bathyal::soundings

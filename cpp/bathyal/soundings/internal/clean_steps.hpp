@@ -6,7 +6,7 @@
 
 #include "bathyal/soundings/clean_cloud.hpp"
 
-namespace bathyal {
+namespace bathyal::soundings {
 
 /// A finite sounding and the row it came from.
 struct Sounding {
@@ -25,4 +25,4 @@ Marks mark_spikes(const Soundings& soundings, const CleanOptions& options);
 Marks mark_outliers(const Soundings& soundings, const CleanOptions& options);
 Marks mark_thinned(const Soundings& soundings, const CleanOptions& options);
 
-}  // namespace bathyal
+}  // namespace bathyal::soundings

@@ -9,7 +9,7 @@
 #include <cstring>
 
 /// Decimal digits, eight at a time: eight bytes of text in one word, the first the lowest.
-namespace bathyal::number {
+namespace bathyal::soundings::number {
 
 inline constexpr std::uint64_t kPowersOfTen[] = {1,      10,      100,      1000,     10000,
                                                  100000, 1000000, 10000000, 100000000};
@@ -68,4 +68,4 @@ inline TwoNumbers join_digits(std::uint64_t first, std::uint64_t second) {
 #endif
 }
 
-}  // namespace bathyal::number
+}  // namespace bathyal::soundings::number

@@ -7,7 +7,7 @@
 #include <emmintrin.h>
 #endif
 
-namespace bathyal {
+namespace bathyal::soundings {
 
 /// Bytes that must be readable behind a text whose field ends are looked for: it is looked at so
 /// many at a time.
@@ -76,4 +76,4 @@ class FieldEnds {
   std::uint64_t after_end_ = 1;  ///< 1 where the byte before the block was a blank or a line's end
 };
 
-}  // namespace bathyal
+}  // namespace bathyal::soundings

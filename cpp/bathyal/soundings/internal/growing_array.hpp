@@ -10,7 +10,7 @@
 
 #include "bathyal/base/large_pages.hpp"
 
-namespace bathyal {
+namespace bathyal::soundings {
 
 /// Numbers that are appended without knowing how many there will be. Unlike std::vector it neither
 /// clears new memory nor copies when it grows large: realloc moves pages, and pages that were never
@@ -92,4 +92,4 @@ class GrowingArray {
   std::size_t capacity_ = 0;
 };
 
-}  // namespace bathyal
+}  // namespace bathyal::soundings

@@ -3,7 +3,7 @@
 
 #include <cstring>
 
-namespace bathyal {
+namespace bathyal::soundings {
 
 // A control byte below 32 is followed by that many bytes plus one, as they are. Any other says to
 // copy what was written before: its upper three bits are the length less two (7: one more byte adds
@@ -39,4 +39,4 @@ bool unpack_lzf(std::string_view packed, char* to, std::size_t size) {
   return out == size;
 }
 
-}  // namespace bathyal
+}  // namespace bathyal::soundings

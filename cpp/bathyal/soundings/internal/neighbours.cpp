@@ -5,7 +5,7 @@
 
 #include "bathyal/base/parallel.hpp"
 
-namespace bathyal {
+namespace bathyal::soundings {
 namespace {
 
 constexpr std::size_t kLeaf = 12;
@@ -125,4 +125,4 @@ void Neighbours<kDimensions>::for_each(
 template class Neighbours<2>;
 template class Neighbours<3>;
 
-}  // namespace bathyal
+}  // namespace bathyal::soundings

@@ -9,7 +9,7 @@
 
 #include "bathyal/soundings/internal/clean_steps.hpp"
 
-namespace bathyal {
+namespace bathyal::soundings {
 
 /// The nearest soundings to each sounding, in plan (kDimensions 2) or in space (3).
 ///
@@ -58,4 +58,4 @@ class Neighbours {
 extern template class Neighbours<2>;
 extern template class Neighbours<3>;
 
-}  // namespace bathyal
+}  // namespace bathyal::soundings

@@ -6,7 +6,7 @@
 
 #include "bathyal/base/parallel.hpp"
 
-namespace bathyal {
+namespace bathyal::soundings {
 
 /// Sorts by a strict order in which no two values are equal, so that there is one result for any
 /// number of threads: runs of fixed length are sorted and then merged in pairs.
@@ -31,4 +31,4 @@ void parallel_sort(std::vector<Value>& values, const Less& less, int num_threads
   }
 }
 
-}  // namespace bathyal
+}  // namespace bathyal::soundings

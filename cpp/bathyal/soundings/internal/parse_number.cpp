@@ -7,7 +7,7 @@
 #include <string>
 #include <system_error>
 
-namespace bathyal::number {
+namespace bathyal::soundings::number {
 namespace {
 
 /// A value beyond the range of double: from_chars leaves it untouched, so zero and infinity are
@@ -32,4 +32,4 @@ double slow_value(const char* begin, const char* end, char decimal) {
   return result.ec == std::errc::result_out_of_range ? out_of_range(text) : value;
 }
 
-}  // namespace bathyal::number
+}  // namespace bathyal::soundings::number

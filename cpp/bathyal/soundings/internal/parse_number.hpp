@@ -7,7 +7,7 @@
 #include "bathyal/soundings/internal/digits.hpp"
 #include "bathyal/soundings/internal/round_decimal.hpp"
 
-namespace bathyal {
+namespace bathyal::soundings {
 
 /// Bytes that must be readable behind any text that is parsed: digits are loaded eight at a time,
 /// and the ends of fields are looked for in 64 bytes at once.
@@ -96,4 +96,4 @@ inline const char* parse_number(const char* begin, char decimal, double& value) 
   return p;
 }
 
-}  // namespace bathyal
+}  // namespace bathyal::soundings

@@ -10,7 +10,7 @@
 #include "bathyal/soundings/internal/byte_source.hpp"
 #include "bathyal/soundings/internal/text_format.hpp"
 
-namespace bathyal {
+namespace bathyal::soundings {
 namespace {
 
 constexpr std::size_t kLongestHeader = std::size_t{1} << 16U;
@@ -180,4 +180,4 @@ PcdHeader read_pcd_header(std::string_view bytes, const std::string& name) {
   return header;
 }
 
-}  // namespace bathyal
+}  // namespace bathyal::soundings

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-namespace bathyal {
+namespace bathyal::soundings {
 
 enum class PcdData { kAscii, kBinary, kCompressed };
 
@@ -34,4 +34,4 @@ struct PcdHeader {
 /// \throw Error that names `name` and the line.
 PcdHeader read_pcd_header(std::string_view bytes, const std::string& name);
 
-}  // namespace bathyal
+}  // namespace bathyal::soundings

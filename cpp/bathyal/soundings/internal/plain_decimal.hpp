@@ -8,7 +8,7 @@
 #include "bathyal/soundings/internal/digits.hpp"
 #include "bathyal/soundings/internal/round_decimal.hpp"
 
-namespace bathyal {
+namespace bathyal::soundings {
 namespace number {
 
 /// Appends the `count` (1 to 8) digits at `p` to those of `whole`; false where they are not all
@@ -65,4 +65,4 @@ inline bool parse_plain_decimal(const char* begin, const char* end, char decimal
   return true;
 }
 
-}  // namespace bathyal
+}  // namespace bathyal::soundings

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bathyal/soundings/internal/round_decimal.hpp"
 
-namespace bathyal::number {
+namespace bathyal::soundings::number {
 
 double divide_exactly(std::uint64_t digits, int power) {
   const Five& five = kFives[static_cast<std::size_t>(power)];
@@ -12,4 +12,4 @@ double divide_exactly(std::uint64_t digits, int power) {
   return scale_quotient(quotient, five.exponent - shift);
 }
 
-}  // namespace bathyal::number
+}  // namespace bathyal::soundings::number

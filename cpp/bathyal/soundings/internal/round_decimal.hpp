@@ -7,7 +7,7 @@
 #include <cstdint>
 
 /// From decimal digits and a power of ten to the nearest double, ties to even.
-namespace bathyal::number {
+namespace bathyal::soundings::number {
 
 __extension__ using Wide = unsigned __int128;
 
@@ -73,4 +73,4 @@ inline double divide_digits(std::uint64_t digits, int count, int power) {
   return static_cast<double>(static_cast<std::int64_t>(digits)) / kExactPowers[power];
 }
 
-}  // namespace bathyal::number
+}  // namespace bathyal::soundings::number

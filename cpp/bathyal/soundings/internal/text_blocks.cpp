@@ -8,7 +8,7 @@
 #include "bathyal/base/parallel.hpp"
 #include "bathyal/soundings/internal/parse_number.hpp"
 
-namespace bathyal {
+namespace bathyal::soundings {
 namespace {
 
 /// Whether the text may be cut in front of bytes[i]; i > 0, and bytes[i] is known. "\r\n" is one
@@ -109,4 +109,4 @@ void TextBlocks::split() {
   }
 }
 
-}  // namespace bathyal
+}  // namespace bathyal::soundings

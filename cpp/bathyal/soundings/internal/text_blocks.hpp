@@ -9,7 +9,7 @@
 #include "bathyal/soundings/internal/byte_source.hpp"
 #include "bathyal/soundings/internal/growing_array.hpp"
 
-namespace bathyal {
+namespace bathyal::soundings {
 
 /// Longest line, or longest run without a blank where blanks are what counts [bytes].
 inline constexpr std::size_t kLongestPiece = std::size_t{1} << 20U;
@@ -89,4 +89,4 @@ class TextBlocks {
   std::vector<std::string_view> parts_;
 };
 
-}  // namespace bathyal
+}  // namespace bathyal::soundings

@@ -8,7 +8,7 @@
 #include "bathyal/base/parallel.hpp"
 #include "bathyal/soundings/internal/text_rows.hpp"
 
-namespace bathyal {
+namespace bathyal::soundings {
 namespace {
 
 /// The result while it grows.
@@ -143,4 +143,4 @@ TextTable read_columns(TextBlocks& blocks, const TextFormat& format, Index leadi
   return result;
 }
 
-}  // namespace bathyal
+}  // namespace bathyal::soundings

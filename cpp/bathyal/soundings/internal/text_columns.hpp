@@ -6,7 +6,7 @@
 #include "bathyal/soundings/internal/text_blocks.hpp"
 #include "bathyal/soundings/internal/text_format.hpp"
 
-namespace bathyal {
+namespace bathyal::soundings {
 
 /// Parses the rest of the text, from the current block on, as rows of this format and joins them to
 /// a table whose `table` has the first `leading` of the chosen columns (0: all).
@@ -15,4 +15,4 @@ namespace bathyal {
 TextTable read_columns(TextBlocks& blocks, const TextFormat& format, Index leading, int num_threads,
                        const std::string& name);
 
-}  // namespace bathyal
+}  // namespace bathyal::soundings

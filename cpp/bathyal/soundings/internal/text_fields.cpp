@@ -6,7 +6,7 @@
 #include "bathyal/soundings/internal/parse_number.hpp"
 #include "bathyal/soundings/internal/text_format.hpp"
 
-namespace bathyal {
+namespace bathyal::soundings {
 namespace {
 
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\f' || c == '\v'; }
@@ -134,4 +134,4 @@ std::string not_text(std::string_view byte, std::size_t offset) {
   return "not text: byte " + printable(byte) + " at offset " + std::to_string(offset);
 }
 
-}  // namespace bathyal
+}  // namespace bathyal::soundings

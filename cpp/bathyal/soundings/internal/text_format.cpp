@@ -7,7 +7,7 @@
 #include "bathyal/base/error.hpp"
 #include "bathyal/soundings/internal/byte_source.hpp"
 
-namespace bathyal {
+namespace bathyal::soundings {
 namespace {
 
 constexpr std::size_t kSample = std::size_t{64} << 10U;  ///< bytes looked at to guess the format
@@ -300,4 +300,4 @@ TextFormat detect_format(std::string_view block, const TextOptions& options,
   return format;
 }
 
-}  // namespace bathyal
+}  // namespace bathyal::soundings

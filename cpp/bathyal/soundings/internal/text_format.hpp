@@ -8,7 +8,7 @@
 
 #include "bathyal/soundings/text_table.hpp"
 
-namespace bathyal {
+namespace bathyal::soundings {
 
 /// The format of a file, as its head shows it.
 struct TextFormat {
@@ -54,4 +54,4 @@ std::size_t find_binary(std::string_view text);
 /// The message about such a byte at `offset` in the source.
 std::string not_text(std::string_view byte, std::size_t offset);
 
-}  // namespace bathyal
+}  // namespace bathyal::soundings

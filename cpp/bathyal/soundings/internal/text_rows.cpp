@@ -9,7 +9,7 @@
 #include "bathyal/soundings/internal/plain_decimal.hpp"
 #include "bathyal/soundings/internal/text_blocks.hpp"
 
-namespace bathyal {
+namespace bathyal::soundings {
 namespace {
 
 /// Whether a comment could be taken for a number.
@@ -186,4 +186,4 @@ void parse_rows(std::string_view text, std::size_t offset, const TextFormat& for
   }
 }
 
-}  // namespace bathyal
+}  // namespace bathyal::soundings

@@ -9,7 +9,7 @@
 #include "bathyal/soundings/internal/text_blocks.hpp"
 #include "bathyal/soundings/internal/text_format.hpp"
 
-namespace bathyal {
+namespace bathyal::soundings {
 
 /// What a part of the text gave: rows of `TextFormat::chosen` numbers, up to the first line that
 /// could not be read.
@@ -26,4 +26,4 @@ struct alignas(kPartAlignment) TextRows {
 void parse_rows(std::string_view text, std::size_t offset, const TextFormat& format,
                 TextRows& rows);
 
-}  // namespace bathyal
+}  // namespace bathyal::soundings

@@ -13,7 +13,7 @@
 
 #include "bathyal/base/parallel.hpp"
 
-namespace bathyal {
+namespace bathyal::terrain {
 namespace {
 
 constexpr std::size_t kKeyGrain = 1 << 16;
@@ -242,4 +242,4 @@ PageVector<std::int32_t> hilbert_order(PointView points, int num_threads) {
   return rows;
 }
 
-}  // namespace bathyal
+}  // namespace bathyal::terrain

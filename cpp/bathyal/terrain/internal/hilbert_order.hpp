@@ -6,7 +6,7 @@
 #include "bathyal/base/page_allocator.hpp"
 #include "bathyal/geometry/shared_array.hpp"
 
-namespace bathyal {
+namespace bathyal::terrain {
 
 /// The rows of `points` along a Hilbert curve over their horizontal bounding box, so that
 /// neighbours in the list are neighbours on the bottom. Points in one cell of the curve follow a
@@ -15,4 +15,4 @@ namespace bathyal {
 /// row. For finite points, |x| and |y| at most 1e75; the same for any number of threads.
 PageVector<std::int32_t> hilbert_order(PointView points, int num_threads);
 
-}  // namespace bathyal
+}  // namespace bathyal::terrain

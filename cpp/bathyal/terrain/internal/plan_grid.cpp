@@ -5,7 +5,7 @@
 #include <bit>
 #include <cmath>
 
-namespace bathyal {
+namespace bathyal::terrain {
 namespace {
 
 struct Keyed {
@@ -133,4 +133,4 @@ void PlanGrid::link_rows() {
   }
 }
 
-}  // namespace bathyal
+}  // namespace bathyal::terrain

@@ -8,7 +8,7 @@
 
 #include "bathyal/geometry/point_cloud.hpp"
 
-namespace bathyal {
+namespace bathyal::terrain {
 
 /// The points of a cloud sorted into square cells of the plan. Only cells that hold a point are
 /// kept, so a long, thin, slanted survey costs no more than a square one.
@@ -53,4 +53,4 @@ class PlanGrid {
   std::vector<Cell> cells_;
 };
 
-}  // namespace bathyal
+}  // namespace bathyal::terrain

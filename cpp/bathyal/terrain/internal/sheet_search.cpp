@@ -9,7 +9,7 @@
 #include "bathyal/base/parallel.hpp"
 #include "bathyal/terrain/internal/two_sheets.hpp"
 
-namespace bathyal {
+namespace bathyal::terrain {
 namespace {
 
 constexpr std::size_t kCellGrain = 2048;
@@ -175,4 +175,4 @@ double measure_noise(const PlanGrid& grid) {
   return *middle;
 }
 
-}  // namespace bathyal
+}  // namespace bathyal::terrain

@@ -6,7 +6,7 @@
 
 #include "bathyal/terrain/internal/plan_grid.hpp"
 
-namespace bathyal {
+namespace bathyal::terrain {
 
 /// A cell whose neighbourhood has two sheets.
 struct SheetCell {
@@ -28,4 +28,4 @@ SheetSearch search_sheets(const PlanGrid& grid, double min_separation, int num_t
 /// Median, over about a thousand neighbourhoods, of the rms about the planes that they lie on [m].
 double measure_noise(const PlanGrid& grid);
 
-}  // namespace bathyal
+}  // namespace bathyal::terrain

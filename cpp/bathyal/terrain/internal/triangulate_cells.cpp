@@ -11,7 +11,7 @@
 #include "bathyal/base/parallel.hpp"
 #include "bathyal/terrain/internal/triangulator.hpp"
 
-namespace bathyal {
+namespace bathyal::terrain {
 namespace {
 
 constexpr double kUnbounded = std::numeric_limits<double>::infinity();
@@ -227,4 +227,4 @@ TriangleMatrix triangulate_in_cells(std::span<const Point2> points, int cells, i
   return Ordering(points.size(), parts, seam_triangles, num_threads).run();
 }
 
-}  // namespace bathyal
+}  // namespace bathyal::terrain

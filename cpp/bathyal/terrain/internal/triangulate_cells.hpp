@@ -6,7 +6,7 @@
 #include "bathyal/geometry/predicates.hpp"
 #include "bathyal/geometry/shared_array.hpp"
 
-namespace bathyal {
+namespace bathyal::terrain {
 
 /// The unique Delaunay triangulation of distinct points, in an order that keeps neighbours close:
 /// rows of `points`, counter-clockwise, each triangle beginning with its lowest, ordered by row.
@@ -18,4 +18,4 @@ namespace bathyal {
 /// 2017). Because the triangulation is unique, any number of cells and threads gives the same.
 TriangleMatrix triangulate_in_cells(std::span<const Point2> points, int cells, int num_threads);
 
-}  // namespace bathyal
+}  // namespace bathyal::terrain

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-namespace bathyal {
+namespace bathyal::terrain {
 namespace {
 
 constexpr std::array<std::int32_t, 3> kNext{1, 2, 0};
@@ -183,4 +183,4 @@ PageVector<Corners> triangulate_points(std::span<const Point2> points,
   return Triangulator(points, vertices).run();
 }
 
-}  // namespace bathyal
+}  // namespace bathyal::terrain

@@ -8,7 +8,7 @@
 #include "bathyal/base/page_allocator.hpp"
 #include "bathyal/geometry/predicates.hpp"
 
-namespace bathyal {
+namespace bathyal::terrain {
 
 /// Three vertices, counter-clockwise. Outside the hull one of them is kGhost.
 using Corners = std::array<std::int32_t, 3>;
@@ -30,4 +30,4 @@ inline bool is_ghost(const Corners& t) { return (t[0] | t[1] | t[2]) < 0; }
 PageVector<Corners> triangulate_points(std::span<const Point2> points,
                                        std::span<const std::int32_t> vertices);
 
-}  // namespace bathyal
+}  // namespace bathyal::terrain

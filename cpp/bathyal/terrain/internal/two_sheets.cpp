@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace bathyal {
+namespace bathyal::terrain {
 namespace {
 
 using Point = PlanGrid::Point;
@@ -234,4 +234,4 @@ TwoSheets split_into_sheets(std::span<const Point> points, double min_separation
   return result;
 }
 
-}  // namespace bathyal
+}  // namespace bathyal::terrain

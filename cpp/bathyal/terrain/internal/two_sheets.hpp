@@ -7,7 +7,7 @@
 
 #include "bathyal/terrain/internal/plan_grid.hpp"
 
-namespace bathyal {
+namespace bathyal::terrain {
 
 /// More points of one neighbourhood than this are not looked at.
 inline constexpr std::size_t kMaxNeighbourhood = 256;
@@ -30,4 +30,4 @@ double rms_about_sheets(std::span<const PlanGrid::Point> points);
 /// most.
 TwoSheets split_into_sheets(std::span<const PlanGrid::Point> points, double min_separation);
 
-}  // namespace bathyal
+}  // namespace bathyal::terrain

@@ -8,11 +8,11 @@
 #include "bathyal/toolpath/internal/polygon.hpp"
 #include "bathyal/toolpath/internal/route.hpp"
 
-namespace bathyal {
+namespace bathyal::toolpath {
 namespace {
 
 /// Whether the insides of two segments cross.
-bool cross(const Point2& a, const Point2& b, const Point2& c, const Point2& d) {
+bool cross(const PlanPoint& a, const PlanPoint& b, const PlanPoint& c, const PlanPoint& d) {
   const double ac = cross2(b - a, c - a), ad = cross2(b - a, d - a);
   const double ca = cross2(d - c, a - c), cb = cross2(d - c, b - c);
   return ((ac > 0.0 && ad < 0.0) || (ac < 0.0 && ad > 0.0)) &&
@@ -39,7 +39,7 @@ void flag_loops(ToolPath& path, std::size_t begin, std::size_t end, const Vec3& 
   if (ahead.norm() <= kCoincident) return;
   ahead.normalize();
   const Vec3 origin = path.position[begin];
-  std::vector<Point2> flat;
+  std::vector<PlanPoint> flat;
   std::vector<double> along{0.0};  // arc length of the bottom's points
   for (std::size_t j = begin; j < end; ++j) {
     const Vec3 p = path.position[j] - origin;
@@ -102,4 +102,4 @@ void flag_contacts(ToolPath& path, const Surface& surface, const ToolBody& body,
   path.contact.assign(contact.begin(), contact.end());
 }
 
-}  // namespace bathyal
+}  // namespace bathyal::toolpath

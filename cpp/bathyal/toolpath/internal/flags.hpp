@@ -3,7 +3,7 @@
 
 #include "bathyal/toolpath/toolpath.hpp"
 
-namespace bathyal {
+namespace bathyal::toolpath {
 
 /// Sets `crossing`, for a path with standoff: samples where the tool's point turns back against
 /// its travel, and all samples of a loop that path makes in the upright plane of its
@@ -25,4 +25,4 @@ struct ToolBody {
 /// plane never meets the body of a tool that touches it.
 void flag_contacts(ToolPath& path, const Surface& surface, const ToolBody& body, int num_threads);
 
-}  // namespace bathyal
+}  // namespace bathyal::toolpath

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace bathyal {
+namespace bathyal::toolpath {
 namespace {
 
 constexpr double kNoTurn = 1e-9;  // [rad]: frames that differ less are the same
@@ -243,4 +243,4 @@ double turn_between(const ToolPath& path, std::size_t i, std::size_t j) {
   return Quaternion(a[3], a[0], a[1], a[2]).angularDistance(Quaternion(b[3], b[0], b[1], b[2]));
 }
 
-}  // namespace bathyal
+}  // namespace bathyal::toolpath

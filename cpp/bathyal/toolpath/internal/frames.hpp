@@ -6,7 +6,7 @@
 #include "bathyal/toolpath/internal/route.hpp"
 #include "bathyal/toolpath/toolpath.hpp"
 
-namespace bathyal {
+namespace bathyal::toolpath {
 
 /// [n, −b, −a] with n the part of `direction` perpendicular to `approach`; where there is none, the
 /// part of `fallback`, and where that has none either of the world's x or y.
@@ -29,4 +29,4 @@ ToolPath sample_blended(const Route& route, double blend_length, double step);
 /// The smallest angle that turns one frame into the other [rad].
 double turn_between(const ToolPath& path, std::size_t i, std::size_t j);
 
-}  // namespace bathyal
+}  // namespace bathyal::toolpath

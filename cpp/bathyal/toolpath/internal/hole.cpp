@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace bathyal {
+namespace bathyal::toolpath {
 namespace {
 
 /// The open end of the bottom that lies nearest to the axis on one side of it.
@@ -75,4 +75,4 @@ bool passes_through_gap(const Scene& scene, const Eigen::AlignedBox3d& bounds, c
          passes_between_ends(scene, origin, direction, level);
 }
 
-}  // namespace bathyal
+}  // namespace bathyal::toolpath

@@ -3,7 +3,7 @@
 
 #include "bathyal/scene/scene.hpp"
 
-namespace bathyal {
+namespace bathyal::toolpath {
 
 /// Around every vertex of the scene.
 Eigen::AlignedBox3d bounds_of(const Scene& scene);
@@ -14,4 +14,4 @@ Eigen::AlignedBox3d bounds_of(const Scene& scene);
 bool passes_through_gap(const Scene& scene, const Eigen::AlignedBox3d& bounds, const Vec3& origin,
                         const Vec3& direction, const Vec3& up);
 
-}  // namespace bathyal
+}  // namespace bathyal::toolpath

@@ -9,7 +9,7 @@
 #include "bathyal/base/parallel.hpp"
 #include "bathyal/toolpath/internal/sheet_walk.hpp"
 
-namespace bathyal {
+namespace bathyal::toolpath {
 namespace {
 
 constexpr std::size_t kFewest = 6;  // vertices a fit of three numbers is trusted with
@@ -136,4 +136,4 @@ void estimate_normals(Route& route, const Surface& surface, double radius, int n
   }
 }
 
-}  // namespace bathyal
+}  // namespace bathyal::toolpath

@@ -3,7 +3,7 @@
 
 #include "bathyal/toolpath/internal/route.hpp"
 
-namespace bathyal {
+namespace bathyal::toolpath {
 
 /// Sets the normal and its standard deviation of every piece over the tool's footprint: the
 /// vertices of the piece's sheet within `radius` [m] of its middle. With radius = 0, and where
@@ -29,4 +29,4 @@ namespace bathyal {
 /// there. On a plane, whose soundings are unknown, 0.
 void estimate_normals(Route& route, const Surface& surface, double radius, int num_threads);
 
-}  // namespace bathyal
+}  // namespace bathyal::toolpath

@@ -5,12 +5,14 @@
 
 #include "bathyal/toolpath/coverage.hpp"
 
-namespace bathyal {
+namespace bathyal::toolpath {
 
-using Point2 = Eigen::Vector2d;
-using Corners = std::vector<Point2>;
+using PlanPoint = Eigen::Vector2d;
+using PolygonCorners = std::vector<PlanPoint>;
 
-inline double cross2(const Point2& a, const Point2& b) { return a.x() * b.y() - a.y() * b.x(); }
+inline double cross2(const PlanPoint& a, const PlanPoint& b) {
+  return a.x() * b.y() - a.y() * b.x();
+}
 
 /// Part of a line, from low to high along it.
 struct Interval {
@@ -20,9 +22,9 @@ struct Interval {
 /// The corners about `origin`, turned by −direction so that lines of that direction run along x;
 /// repeated corners are dropped.
 /// \throw std::invalid_argument as cover_polygon.
-Corners corners_along(const Polygon& polygon, const Point2& origin, double direction);
+PolygonCorners corners_along(const Polygon& polygon, const PlanPoint& origin, double direction);
 
 /// Parts of the line y = `y` inside the polygon and at least `margin` from every edge, rising.
-std::vector<Interval> stretches(const Corners& corners, double y, double margin);
+std::vector<Interval> stretches(const PolygonCorners& corners, double y, double margin);
 
-}  // namespace bathyal
+}  // namespace bathyal::toolpath

@@ -8,7 +8,7 @@
 #include "bathyal/base/parallel.hpp"
 #include "bathyal/toolpath/internal/sheet.hpp"
 
-namespace bathyal {
+namespace bathyal::toolpath {
 namespace {
 
 /// Two neighbouring targets that were found; aims without a target may lie between them.
@@ -182,4 +182,4 @@ void subdivide(Route& route, double length) {
   }
 }
 
-}  // namespace bathyal
+}  // namespace bathyal::toolpath

@@ -6,7 +6,7 @@
 
 #include "bathyal/toolpath/targets.hpp"
 
-namespace bathyal {
+namespace bathyal::toolpath {
 
 /// Targets closer than this are one target, shorter pieces of a path are dropped [m].
 inline constexpr double kCoincident = 1e-6;
@@ -43,4 +43,4 @@ Route join_targets(const Surface& surface, const Targets& targets, const Vec3& u
 /// Cuts every piece into equal parts no longer than `length` [m].
 void subdivide(Route& route, double length);
 
-}  // namespace bathyal
+}  // namespace bathyal::toolpath

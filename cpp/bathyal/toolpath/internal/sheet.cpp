@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace bathyal {
+namespace bathyal::toolpath {
 namespace {
 
 /// A point on a polyline: on segment `segment`, at `fraction` of its length.
@@ -240,4 +240,4 @@ Leg follow_sheet(const Scene& scene, const SheetPoint& a, const SheetPoint& b, c
   return {cross_gaps(between, a, b, up.cross(r)), false};
 }
 
-}  // namespace bathyal
+}  // namespace bathyal::toolpath

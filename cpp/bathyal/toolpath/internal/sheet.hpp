@@ -5,7 +5,7 @@
 
 #include "bathyal/toolpath/internal/route.hpp"
 
-namespace bathyal {
+namespace bathyal::toolpath {
 
 /// One end of a pair: a target's point and the facet it lies on.
 struct SheetPoint {
@@ -42,4 +42,4 @@ struct Leg {
 /// `a` and `b` are further apart than kCoincident.
 Leg follow_sheet(const Scene& scene, const SheetPoint& a, const SheetPoint& b, const Vec3& up);
 
-}  // namespace bathyal
+}  // namespace bathyal::toolpath

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace bathyal {
+namespace bathyal::toolpath {
 namespace {
 
 /// Adds to a rising list; false where it is there already. Footprints are small.
@@ -67,4 +67,4 @@ std::vector<std::int32_t> SheetWalk::vertices_around(std::int32_t triangle) cons
   return vertices;
 }
 
-}  // namespace bathyal
+}  // namespace bathyal::toolpath

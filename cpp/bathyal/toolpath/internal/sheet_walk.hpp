@@ -6,7 +6,7 @@
 
 #include "bathyal/geometry/triangle_mesh.hpp"
 
-namespace bathyal {
+namespace bathyal::toolpath {
 
 /// Finds the vertices near a point that belong to the same sheet of a mesh. Keeps a reference to
 /// the mesh.
@@ -29,4 +29,4 @@ class SheetWalk {
   std::vector<std::int32_t> triangles_;
 };
 
-}  // namespace bathyal
+}  // namespace bathyal::toolpath

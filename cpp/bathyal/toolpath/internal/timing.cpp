@@ -6,7 +6,7 @@
 
 #include "bathyal/toolpath/internal/frames.hpp"
 
-namespace bathyal {
+namespace bathyal::toolpath {
 namespace {
 
 /// The stretch from one sample to the next.
@@ -82,4 +82,4 @@ void set_times(ToolPath& path, const MotionLimits& limits) {
   }
 }
 
-}  // namespace bathyal
+}  // namespace bathyal::toolpath

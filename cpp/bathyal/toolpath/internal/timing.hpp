@@ -3,7 +3,7 @@
 
 #include "bathyal/toolpath/toolpath.hpp"
 
-namespace bathyal {
+namespace bathyal::toolpath {
 
 /// Limits of the tool's motion, all above 0.
 struct MotionLimits {
@@ -19,4 +19,4 @@ struct MotionLimits {
 /// acceleration, so that also a path of two samples has a finite time.
 void set_times(ToolPath& path, const MotionLimits& limits);
 
-}  // namespace bathyal
+}  // namespace bathyal::toolpath
