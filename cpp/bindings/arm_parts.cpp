@@ -131,8 +131,8 @@ Link take_link(Fields& fields) {
   fields.take("center_of_buoyancy", link.body.center_of_buoyancy);
   fields.take("collision", link.collision);
   fields.take("visual", link.visual);
-  for (const py::handle& told : fields.list("frames")) {
-    Fields frame("frame", told);
+  for (const py::handle& frame_object : fields.list("frames")) {
+    Fields frame("frame", frame_object);
     Frame& added = link.frames.emplace_back();
     frame.take("name", added.name);
     frame.take("pose", added.link_from_frame);
@@ -202,16 +202,16 @@ py::dict joint_parts(const Joint& joint) {
 }
 
 py::dict link_parts(const Link& link) {
-  py::dict told;
-  told["name"] = link.name;
-  told["mass"] = link.body.mass;
-  told["center_of_mass"] = to_numpy(link.body.center_of_mass);
-  told["inertia"] = to_numpy(link.body.inertia);
-  told["volume"] = link.body.volume;
-  told["center_of_buoyancy"] = to_numpy(link.body.center_of_buoyancy);
-  told["collision"] = link.collision;
-  told["visual"] = link.visual;
-  return told;
+  py::dict parts;
+  parts["name"] = link.name;
+  parts["mass"] = link.body.mass;
+  parts["center_of_mass"] = to_numpy(link.body.center_of_mass);
+  parts["inertia"] = to_numpy(link.body.inertia);
+  parts["volume"] = link.body.volume;
+  parts["center_of_buoyancy"] = to_numpy(link.body.center_of_buoyancy);
+  parts["collision"] = link.collision;
+  parts["visual"] = link.visual;
+  return parts;
 }
 
 py::dict chain_parts(const JointChain& chain) {

@@ -11,7 +11,7 @@ namespace bathyal::python {
 ///   list of signatures that pybind11 answers with;
 /// - memory that runs out in C++ names the function (MemoryError);
 /// - an object that was made by `__new__` without `__init__` is refused wherever it is used
-///   (TypeError): pybind11 would hand out memory that nobody has written to.
+///   (TypeError): pybind11 would hand out uninitialised memory.
 void guard_calls(pybind11::module_& module);
 
 }  // namespace bathyal::python

@@ -11,7 +11,7 @@
 
 namespace bathyal::python {
 
-/// The parts of `text` between `separator`s that stand outside of brackets and quotes; one at
+/// The parts of `text` between `separator`s outside of brackets and quotes; one at
 /// least.
 std::vector<std::string_view> split_outside_brackets(std::string_view text,
                                                      std::string_view separator);

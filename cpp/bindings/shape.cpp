@@ -172,7 +172,7 @@ void bind_shape(py::module_& module) {
       .def_property_readonly(
           "pose", [](const Shape& s) { return to_numpy(s.body_from_shape); },
           "(4, 4) body_from_shape.")
-      .def_readonly("part", &Shape::part, "The body that it outlines; empty where nobody said.")
+      .def_readonly("part", &Shape::part, "The body that it outlines; empty where unknown.")
       .def("as_dict", &state_of,
            "What the constructor takes, without what the kind has not: for files and tables.")
       .def("__repr__", &text_of)

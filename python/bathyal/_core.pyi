@@ -430,7 +430,7 @@ class Shape:
     @property
     def part(self) -> str:
         """
-        The body that it outlines; empty where nobody said.
+        The body that it outlines; empty where unknown.
         """
     @property
     def pose(self) -> numpy.ndarray:

@@ -88,7 +88,7 @@ class Arm {
   const Pose& root() const { return root_; }
   const Pose& flange() const { return flange_; }
 
-  /// Where the name and the numbers come from, one sentence; empty when nobody said.
+  /// Where the name and the numbers come from, one sentence; empty when unknown.
   const std::string& source() const { return source_; }
   void set_source(std::string source) { source_ = std::move(source); }
 

@@ -14,7 +14,7 @@ struct StaticsOptions {
   Vec3 gravity = {0.0, 0.0, -9.80665};
   double water_density = 1025.0;      ///< [kg/m³], 0 or more; 0 in air
   RigidBody payload;                  ///< what the arm carries, in the tool's frame
-  TipFrame frame = TipFrame::kWorld;  ///< axes along which the wrench is told
+  TipFrame frame = TipFrame::kWorld;  ///< axes along which the wrench is given
   int num_threads = 0;
 
   /// \throw std::invalid_argument

@@ -308,13 +308,13 @@ TEST(ArmFromChain, KeepsShapesWhereTheyAre) {
       }
     }
     const RowFrames frames = row_frames(arm, q);
-    const JointChain told = chain_from_arm(arm);
-    const std::vector<Pose> told_at = chain_frames(told, q);
+    const JointChain back = chain_from_arm(arm);
+    const std::vector<Pose> back_at = chain_frames(back, q);
     for (std::size_t k = 0; k < arm.links().size(); ++k) {
       const Pose from_link = frames.world_from_row[k] * arm.links()[k].row_from_link;
       append(collision, places(arm.links()[k].collision, from_link));
       append(visual, places(arm.links()[k].visual, from_link));
-      append(again, places(told.links[k].link.collision, told_at[k]));
+      append(again, places(back.links[k].link.collision, back_at[k]));
     }
     ASSERT_EQ(collision.size(), expected.size());
     ASSERT_EQ(visual.size(), expected.size());
@@ -361,8 +361,8 @@ TEST(ChainFromArm, KeepsRowsWhoseFramesLieBeyondTheAxis) {
   const std::vector<double> q{0.7, -1.1};
   EXPECT_LE(difference(chain_frames(chain, q).back(), row_frames(arm, q).world_from_tool), 1e-15);
   const Vec3 center = row_frames(arm, q).world_from_row[1] * upper.body.center_of_mass;
-  const Vec3 told = chain_frames(chain, q)[1] * chain.links[1].link.body.center_of_mass;
-  EXPECT_LE((center - told).norm(), 1e-15);
+  const Vec3 back = chain_frames(chain, q)[1] * chain.links[1].link.body.center_of_mass;
+  EXPECT_LE((center - back).norm(), 1e-15);
 }
 
 TEST(ArmFromChain, RefusesWhatIsNoChain) {

@@ -20,7 +20,7 @@ Pose any_pose() {
   return Eigen::Translation3d(0.3, -0.2, 0.5) * Eigen::AngleAxisd(0.7, Vec3(1, 2, -1).normalized());
 }
 
-/// What `check` says, empty where it says nothing.
+/// The text of the error that `check` throws; empty where it throws none.
 std::string refusal(const RigidBody& body) {
   try {
     body.check("link hand");

@@ -18,8 +18,8 @@ class ByteSource {
   /// \throw Error that names the source when the system cannot read it.
   virtual std::size_t read(char* to, std::size_t size) = 0;
 
-  /// What is left of a regular file or of memory, and SIZE_MAX for a pipe: an upper bound to check
-  /// a header's claims against before anything is allocated.
+  /// The unread rest of a regular file or of memory, and SIZE_MAX for a pipe: an upper bound to
+  /// check a header's claims against before anything is allocated.
   virtual std::size_t bytes_left() const = 0;
 };
 
