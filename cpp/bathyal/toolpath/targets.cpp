@@ -123,7 +123,7 @@ std::string_view to_text(TargetStatus status) {
 }
 
 void TargetOptions::check() const {
-  vehicle.check();
+  reference.check();
   check_positive("grazing_angle", grazing_angle);
   check_range("grazing_angle", grazing_angle, 0.0, std::numbers::pi);
   if (!(max_range > 0.0)) throw_argument("max_range", "a number above 0", to_text(max_range));

@@ -224,7 +224,7 @@ PointMatrix matrix_of(const std::vector<Vec3>& points) {
 TEST(PlanGrid, PutsEveryPointIntoItsCellAndFindsTheCellsAround) {
   const PointMatrix points = matrix_of(ground(
       3, [](double, double) { return 0.0; }, 0.0));
-  const PlanGrid grid(points, 4.0);
+  const PlanGrid grid(PointView(points.data(), points.rows(), 3), 4.0);
   ASSERT_EQ(grid.points().size(), 40000U);
   std::size_t next = 0;
   for (std::size_t i = 0; i < grid.cells().size(); ++i) {
@@ -266,7 +266,7 @@ TEST(TwoSheets, SplitsTwoPlanesAndLeavesOneWhole) {
 TEST(SheetSearch, MeasuresTheNoiseOfASlope) {
   const PointMatrix points = matrix_of(ground(
       4, [](double x, double y) { return x - y; }, 0.02));
-  EXPECT_NEAR(measure_noise(PlanGrid(points, 2.25)), 0.02, 0.003);
+  EXPECT_NEAR(measure_noise(PlanGrid(PointView(points.data(), points.rows(), 3), 2.25)), 0.02, 0.003);
 }
 
 }  // namespace
