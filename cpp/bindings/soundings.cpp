@@ -11,6 +11,7 @@
 
 #include "arrays.hpp"
 #include "bathyal/base/error.hpp"
+#include "bathyal/soundings/byte_source.hpp"
 #include "bathyal/soundings/clean_cloud.hpp"
 #include "bathyal/soundings/pcd.hpp"
 #include "bathyal/soundings/text_table.hpp"
@@ -118,6 +119,12 @@ Error
 }
 
 void bind_files(py::module_& module) {
+  module.def("check_bytes", &check_bytes, py::arg("what"), py::arg("bytes"),
+             R"(Raise `Error` where `bytes` are more than one file may take in memory.
+
+The limit is BATHYAL_MOST_BYTES of the environment, 4 GiB where that is not set.
+)");
+
   module.def(
       "read_pcd",
       [](const std::filesystem::path& path, int num_threads) {

@@ -7,7 +7,7 @@ import numpy
 import numpy.typing
 import os
 import typing
-__all__: list[str] = ['Arm', 'ArmFit', 'Cause', 'CleanReport', 'CleanResult', 'CorrectedArm', 'DhTable', 'Diagnosis', 'Effect', 'EffectRange', 'EffectRows', 'Error', 'Estimate', 'FitParameter', 'FoundEffect', 'HeldOut', 'HeldOutPart', 'Hits', 'InverseResult', 'Link', 'MeshReport', 'NamedEffect', 'Nearest', 'Outlier', 'Plane', 'PlaneFit', 'PointCloud', 'Polyline', 'RigidBody', 'Scene', 'Shape', 'SheetPatch', 'SheetReport', 'Structure', 'Support', 'Targets', 'TextTable', 'ToolPath', 'TouchForecast', 'TouchPlan', 'Touches', 'Tracked', 'Trade', 'TriangleMesh', 'Verification', 'arm_from_chain', 'arm_from_parts', 'arm_parts', 'chain_from_arm', 'clean_cloud', 'cover_polygon', 'diagnose', 'find_sheets', 'find_targets', 'fit_plane', 'forecast_touches', 'generate_survey', 'identify_arm', 'intersect_moller_trumbore', 'library_effects', 'mesh_report', 'plan_toolpath', 'plan_touches', 'read_pcd', 'read_text_table', 'set_simd_level', 'simd_level', 'survey_height', 'triangulate', 'triangulate_delaunay', 'verify_positions', 'write_xyz']
+__all__: list[str] = ['Arm', 'ArmFit', 'Cause', 'CleanReport', 'CleanResult', 'CorrectedArm', 'DhTable', 'Diagnosis', 'Effect', 'EffectRange', 'EffectRows', 'Error', 'Estimate', 'FitParameter', 'FoundEffect', 'HeldOut', 'HeldOutPart', 'Hits', 'InverseResult', 'Link', 'MeshReport', 'NamedEffect', 'Nearest', 'Outlier', 'Plane', 'PlaneFit', 'PointCloud', 'Polyline', 'RigidBody', 'Scene', 'Shape', 'SheetPatch', 'SheetReport', 'Structure', 'Support', 'Targets', 'TextTable', 'ToolPath', 'TouchForecast', 'TouchPlan', 'Touches', 'Tracked', 'Trade', 'TriangleMesh', 'Verification', 'arm_from_chain', 'arm_from_parts', 'arm_parts', 'chain_from_arm', 'check_bytes', 'clean_cloud', 'cover_polygon', 'diagnose', 'find_sheets', 'find_targets', 'fit_plane', 'forecast_touches', 'generate_survey', 'identify_arm', 'intersect_moller_trumbore', 'library_effects', 'mesh_report', 'plan_toolpath', 'plan_touches', 'read_pcd', 'read_text_table', 'set_simd_level', 'simd_level', 'survey_height', 'triangulate', 'triangulate_delaunay', 'verify_positions', 'write_xyz']
 class Error(RuntimeError):
     """
     A broken file, a solver that failed or a part that is not installed.
@@ -3267,6 +3267,12 @@ def arm_parts(arm: Arm) -> dict:
 def chain_from_arm(arm: Arm) -> dict:
     """
     Joint origins, axes and links of an Arm; the last joint is the flange's.
+    """
+def check_bytes(what: str, bytes: typing.SupportsFloat | typing.SupportsIndex) -> None:
+    """
+    Raise `Error` where `bytes` are more than one file may take in memory.
+    
+    The limit is BATHYAL_MOST_BYTES of the environment, 4 GiB where that is not set.
     """
 def clean_cloud(cloud: typing.Any, *, same_place: str = 'keep', spike_sigma: typing.SupportsFloat | typing.SupportsIndex = 0.0, spike_height: typing.SupportsFloat | typing.SupportsIndex = 0.1, spike_neighbours: typing.SupportsInt | typing.SupportsIndex = 16, outlier_sigma: typing.SupportsFloat | typing.SupportsIndex = 0.0, outlier_neighbours: typing.SupportsInt | typing.SupportsIndex = 12, voxel: typing.SupportsFloat | typing.SupportsIndex = 0.0, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> CleanResult:
     """

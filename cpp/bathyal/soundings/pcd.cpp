@@ -259,6 +259,9 @@ PointCloud parse_pcd(std::string_view bytes, int num_threads, const std::string&
   if (bytes.empty()) throw Error(name + ": the file is empty");
   const PcdHeader header = read_pcd_header(bytes, name);
   const std::string_view data = bytes.substr(header.bytes);
+  // Every number becomes a double.
+  const auto numbers = static_cast<double>(header.points) * static_cast<double>(header.columns);
+  check_bytes(name + ": what the header announces", numbers * sizeof(double));
   switch (header.data) {
     case PcdData::kAscii:
       return read_ascii(header, data, num_threads, name);

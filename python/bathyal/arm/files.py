@@ -9,14 +9,14 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from bathyal._core import Arm, CorrectedArm, Error
+from bathyal._core import Arm, CorrectedArm
 from bathyal.arm import corrected_files as corrected_arm_files
 from bathyal.arm.exports import write_ros_kinematics, write_ur_calibration
-from bathyal.arm.json import MOST_BYTES, arm_told, read_json, rigid_arm, write_json
+from bathyal.arm.json import arm_told, read_json, rigid_arm, write_json
 from bathyal.arm.urdf_reader import arm_from_urdf
 from bathyal.arm.urdf_writer import urdf_of_arm
 from bathyal.errors import argument_error
-from bathyal.io.files import PathLike, known_suffix, opened, reading
+from bathyal.io.files import PathLike, known_suffix, read_document, reading
 
 
 def read_arm(path: PathLike, **options: Any) -> Arm | CorrectedArm:
@@ -58,10 +58,9 @@ def read_arm(path: PathLike, **options: Any) -> Arm | CorrectedArm:
     if options:
         name = next(iter(options))
         raise argument_error(name, "only for a .urdf file", "one for .json")
-    with opened(path) as (stream, size), reading(path, "arm"):
-        if size > MOST_BYTES:
-            raise Error(f"expected at most {MOST_BYTES >> 20} MB, got {size / 2**20:.0f} MB")
-        told = read_json(stream.read())
+    content = read_document(path)
+    with reading(path, "arm"):
+        told = read_json(content)
         corrected = any(key in told for key in corrected_arm_files.KEYS)
         return corrected_arm_files.corrected_arm(told) if corrected else rigid_arm(told)
 

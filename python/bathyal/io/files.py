@@ -17,6 +17,7 @@ from bathyal._core import Error
 from bathyal.errors import argument_error
 from bathyal.io.asides import aside_in, sweep
 from bathyal.io.manifest import check_file, release
+from bathyal.io.regular_files import check_document, open_regular
 
 PathLike = str | os.PathLike[str]
 
@@ -115,25 +116,49 @@ def reading(path: PathLike, format_name: str) -> Iterator[None]:
 
 @contextmanager
 def opened(path: PathLike) -> Iterator[tuple[BinaryIO, int]]:
-    """A file open for reading and its size in bytes.
+    """A regular file open for reading and its size in bytes; never waits for a pipe's other end.
 
     Raises
     ------
     OSError
         Where there is no such file, or it may not be read: the operating system's own words.
     Error
-        Where the file is empty, or is a pipe or a device, or lies in a folder of results and is not
-        the file that its manifest lists.
+        Where the file is empty, is a pipe or a device, has more than BATHYAL_MOST_BYTES, or lies in
+        a folder of results and is not the file that its manifest lists.
     """
-    with open(path, "rb") as stream:
-        status = os.fstat(stream.fileno())
-        size = status.st_size
-        if not stat.S_ISREG(status.st_mode):
-            raise Error(f"{os.fspath(path)}: expected a file, got a pipe or a device")
-        if size == 0:
-            raise Error(f"{os.fspath(path)}: the file is empty")
+    with open_regular(path) as (stream, size):
         check_file(path, stream)
         yield stream, size
+
+
+def read_document(path: PathLike) -> bytes:
+    """A text that becomes Python's own objects as a whole (JSON, XML, small tables).
+
+    Raises
+    ------
+    OSError, Error
+        As `opened`; also where those objects could take more than BATHYAL_MOST_BYTES.
+    """
+    with opened(path) as (stream, size):
+        check_document(path, size)
+        return stream.read(size)
+
+
+def read_document_text(path: PathLike) -> str:
+    """`read_document` of UTF-8, with or without a byte order mark.
+
+    Raises
+    ------
+    OSError, Error
+        As `read_document`, and where it is not UTF-8.
+    """
+    try:
+        return read_document(path).decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        raise Error(
+            f"{os.fspath(path)}: expected text, got bytes that are not UTF-8 (a spreadsheet "
+            "program saves it as CSV UTF-8)"
+        ) from error
 
 
 def shown(path: PathLike) -> str:

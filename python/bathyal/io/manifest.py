@@ -17,6 +17,7 @@ from typing import Any, BinaryIO
 
 from bathyal._core import Error
 from bathyal.io.asides import aside_in, locked
+from bathyal.io.regular_files import check_document, open_regular
 
 NAME = "bathyal-manifest.json"
 _FORMAT = "bathyal results"
@@ -43,7 +44,9 @@ def read_manifest(folder: Path) -> list[ResultSet]:
     """
     path = folder / NAME
     try:
-        text = path.read_text(encoding="utf-8")
+        with open_regular(path) as (stream, size):
+            check_document(path, size)
+            text = stream.read(size).decode("utf-8")
     except FileNotFoundError:
         return []
     except UnicodeDecodeError:

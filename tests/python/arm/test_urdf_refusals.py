@@ -178,7 +178,7 @@ def test_file_beyond_all_measure_is_refused_before_it_is_read(tmp_path: Path) ->
     path = tmp_path / "huge.urdf"
     with open(path, "wb") as stream:
         stream.truncate(1 << 34)  # sparse
-    with pytest.raises(bathyal.Error, match="at most 64 MB, got 16384 MB"):
+    with pytest.raises(bathyal.Error, match="more than BATHYAL_MOST_BYTES"):
         bathyal.Arm.from_urdf(path)
 
 

@@ -6,7 +6,6 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
-import threading
 from pathlib import Path
 
 import numpy as np
@@ -161,17 +160,6 @@ def test_paths_that_cannot_be_read_are_named(tmp_path):
     if os.geteuid() != 0:
         with pytest.raises(bathyal.Error, match="Permission denied"):
             _core.read_text_table(locked)
-
-
-def test_a_pipe_is_read_as_a_file_is(tmp_path):
-    pipe = tmp_path / "pipe"
-    os.mkfifo(pipe)
-    content = b"".join(b"%d %d.5\n" % (i, i) for i in range(600_000))
-    writer = threading.Thread(target=pipe.write_bytes, args=(content,))
-    writer.start()
-    table = _core.read_text_table(pipe).table
-    writer.join()
-    np.testing.assert_array_equal(table[:, 0], np.arange(600_000))
 
 
 def test_memory_stays_bounded_above_the_result(tmp_path):

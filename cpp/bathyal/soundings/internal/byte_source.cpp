@@ -8,8 +8,11 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <charconv>
+#include <cmath>
 #include <cstdint>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <system_error>
 
@@ -25,23 +28,21 @@ namespace {
 class FileSource final : public ByteSource {
  public:
   explicit FileSource(const std::filesystem::path& path)
-      : name_(printable(path.native(), 400)), file_(::open(path.c_str(), O_RDONLY | O_CLOEXEC)) {
+      : name_(printable(path.native(), 400)), file_(::open(path.c_str(), kReadOnly)) {
     if (file_ < 0) throw_system(name_, errno);
-    struct stat status {};
-    const int failed = ::fstat(file_, &status) != 0 ? errno : 0;
-    if (failed != 0 || S_ISDIR(status.st_mode)) {
+    try {
+      left_ = checked_size();
+    } catch (...) {
       ::close(file_);
-      throw_system(name_, failed != 0 ? failed : EISDIR);
+      throw;
     }
-    // Files that the kernel makes up as they are read claim to be empty.
-    if (S_ISREG(status.st_mode) && status.st_size > 0)
-      left_ = static_cast<std::size_t>(status.st_size);
   }
   FileSource(const FileSource&) = delete;
   FileSource& operator=(const FileSource&) = delete;
   ~FileSource() override { ::close(file_); }
 
   std::size_t read(char* to, std::size_t size) override {
+    size = std::min(size, left_);
     std::size_t done = 0;
     while (done < size) {
       const ssize_t got = ::read(file_, to + done, size - done);
@@ -50,16 +51,31 @@ class FileSource final : public ByteSource {
       if (got == 0) break;
       done += static_cast<std::size_t>(got);
     }
-    if (left_ != SIZE_MAX) left_ -= std::min(left_, done);
+    left_ = done < size ? 0 : left_ - done;
     return done;
   }
 
   std::size_t bytes_left() const override { return left_; }
 
  private:
+  // Without O_NONBLOCK, open waits for the other end of a pipe.
+  static constexpr int kReadOnly = O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY;
+
+  /// Of the file that is open, whatever its path names by now.
+  std::size_t checked_size() const {
+    struct stat status {};
+    if (::fstat(file_, &status) != 0) throw_system(name_, errno);
+    if (S_ISDIR(status.st_mode)) throw_system(name_, EISDIR);
+    if (!S_ISREG(status.st_mode)) {
+      throw Error(name_ + ": expected a regular file, got a pipe or a device");
+    }
+    check_bytes(name_ + ": the file", static_cast<double>(status.st_size));
+    return static_cast<std::size_t>(status.st_size);
+  }
+
   std::string name_;
   int file_;
-  std::size_t left_ = SIZE_MAX;
+  std::size_t left_ = 0;
 };
 
 class MemorySource final : public ByteSource {
@@ -101,6 +117,29 @@ std::unique_ptr<ByteSource> open_file(const std::filesystem::path& path) {
 
 std::unique_ptr<ByteSource> open_memory(std::string_view bytes) {
   return std::make_unique<MemorySource>(bytes);
+}
+
+std::size_t most_bytes() {
+  constexpr std::size_t kDefault = std::size_t{4} << 30U;
+  const char* const text = std::getenv("BATHYAL_MOST_BYTES");
+  if (text == nullptr) return kDefault;
+  std::size_t value = 0;
+  const char* const end = text + std::strlen(text);
+  const auto [stop, code] = std::from_chars(text, end, value);
+  if (code != std::errc{} || stop != end) {
+    throw Error("BATHYAL_MOST_BYTES: expected a whole number of bytes, got " + printable(text));
+  }
+  return value;
+}
+
+void check_bytes(const std::string& what, double bytes) {
+  const auto most = static_cast<double>(most_bytes());
+  if (!(bytes > most)) return;
+  constexpr double kMega = 1e6;
+  std::array<char, 100> text{};
+  std::snprintf(text.data(), text.size(), " takes %.0f MB, more than BATHYAL_MOST_BYTES (%.0f MB)",
+                std::ceil(bytes / kMega), most / kMega);
+  throw Error(what + text.data() + ": set it in the environment to read more");
 }
 
 std::string printable(std::string_view text, std::size_t limit) {

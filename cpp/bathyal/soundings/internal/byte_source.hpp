@@ -9,7 +9,7 @@
 
 namespace bathyal::soundings {
 
-/// Bytes that are read once, front to back: a file, a pipe, or memory.
+/// Bytes that are read once, front to back: a file or memory.
 class ByteSource {
  public:
   virtual ~ByteSource() = default;
@@ -18,16 +18,26 @@ class ByteSource {
   /// \throw Error that names the source when the system cannot read it.
   virtual std::size_t read(char* to, std::size_t size) = 0;
 
-  /// The unread rest of a regular file or of memory, and SIZE_MAX for a pipe: an upper bound to
-  /// check a header's claims against before anything is allocated.
+  /// Bytes not read yet: an upper bound to check a header's claims against before anything is
+  /// allocated.
   virtual std::size_t bytes_left() const = 0;
 };
 
-/// \throw Error that names the path and the reason: missing, a directory, not readable.
+/// Never waits for the other end of a pipe. What is appended while the file is read is not read.
+/// \throw Error that names the path and the reason: missing, not readable, no regular file, larger
+///   than `most_bytes`.
 std::unique_ptr<ByteSource> open_file(const std::filesystem::path& path);
 
 /// `bytes` must outlive the source.
 std::unique_ptr<ByteSource> open_memory(std::string_view bytes);
+
+/// What one file may take in memory, as it is and as what it unfolds to: BATHYAL_MOST_BYTES of the
+/// environment, 4 GiB where that is not set. All readers share it, those in Python too.
+/// \throw Error where the variable holds no whole number.
+std::size_t most_bytes();
+
+/// \throw Error that starts with `what` and names the limit, where `bytes` is above `most_bytes`.
+void check_bytes(const std::string& what, double bytes);
 
 /// Text as it may stand in a message: valid UTF-8 as it is, anything else as \xNN, and no more than
 /// `limit` bytes of it.

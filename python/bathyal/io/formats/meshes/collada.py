@@ -10,7 +10,7 @@ from xml.etree.ElementTree import Element
 import numpy as np
 from numpy.typing import NDArray
 
-from bathyal._core import Error
+from bathyal._core import Error, check_bytes
 from bathyal.io.files import PathLike, opened, reading
 from bathyal.io.formats.meshes.cells import Cells, Integers
 from bathyal.io.formats.meshes.polygons import triangles_of_polygons, triangles_of_strips
@@ -20,7 +20,6 @@ from bathyal.io.formats.xml.safe import parse_xml
 
 # A few nodes that instance one another can stand for more than any machine holds.
 _MOST_NODES = 100_000
-_MOST_POINTS = 50_000_000
 _POLYGONS = ("triangles", "polylist", "polygons", "tristrips", "trifans")
 
 Matrix = NDArray[np.float64]
@@ -80,7 +79,7 @@ class _File:
         self._by_id = {element.get("id"): element for element in root.iter() if element.get("id")}
         self._decoded: dict[int, tuple[NDArray[np.float64], Integers]] = {}
         self._nodes_seen = 0
-        self._points_seen = 0
+        self._bytes_seen = 0
 
     def unit_and_up_axis(self) -> tuple[float, str]:
         asset = next(iter(_children(self._root, "asset")), Element("asset"))
@@ -141,9 +140,8 @@ class _File:
             if id(primitive) not in self._decoded:
                 self._decoded[id(primitive)] = self._primitive(primitive)
             local, triangles = self._decoded[id(primitive)]
-            self._points_seen += len(local)
-            if self._points_seen > _MOST_POINTS:
-                raise Error(f"its scene shows more than {_MOST_POINTS} points")
+            self._bytes_seen += local.nbytes + triangles.nbytes
+            check_bytes("what its scene shows", self._bytes_seen)
             points = local @ world_from_node[:3, :3].T + world_from_node[:3, 3]
             mirrored = np.linalg.det(world_from_node[:3, :3]) < 0
             yield points, triangles[:, ::-1] if mirrored else triangles

@@ -139,8 +139,7 @@ class Text:
         if all(p.count_dtype is None for p in element.properties):
             width = len(element.properties)
             table = self._take(element, element.count * width).reshape(element.count, width)
-            ones = np.ones(element.count, np.int64)
-            return {p.name: _typed(p, table[:, i], ones) for i, p in enumerate(element.properties)}
+            return {p.name: _typed(p, table[:, i]) for i, p in enumerate(element.properties)}
         return self._even_lists(element) or self._uneven_lists(element)
 
     def _even_lists(self, element: Element) -> dict[str, Any] | None:
@@ -194,14 +193,14 @@ class Text:
         return self._values[self._at - count : self._at]
 
 
-def _typed(p: Property, values: NDArray[np.float64], sizes: NDArray[np.int64]) -> Any:
-    """Numbers from text in the type that the header gives them."""
+def _typed(p: Property, values: NDArray[np.float64], sizes: NDArray[np.int64] | None = None) -> Any:
+    """Numbers from text in the type that the header gives them; `sizes` are those of lists."""
     if p.dtype.kind in "iu":
         limits = np.iinfo(p.dtype)
         if np.any((values < limits.min) | (values > limits.max) | (values != np.floor(values))):
             raise Error(f"property {p.name} holds what is no {p.dtype.name}")
     typed = values.astype(p.dtype)
-    return typed if p.count_dtype is None else _cells(typed, sizes)
+    return typed if p.count_dtype is None or sizes is None else _cells(typed, sizes)
 
 
 def _count_name(p: Property) -> str:

@@ -9,7 +9,7 @@ from typing import Any, BinaryIO
 
 import numpy as np
 
-from bathyal._core import Error
+from bathyal._core import Error, check_bytes
 
 _TYPES = {
     "char": "i1", "int8": "i1", "uchar": "u1", "uint8": "u1",
@@ -83,7 +83,9 @@ def _dtype(name: str, order: str) -> np.dtype[Any]:
 def check_size(elements: list[Element], size: int, order: str) -> None:
     """Before memory is taken: does the file hold at least what its header announces?"""
     least = 0
+    numbers = 0
     for element in elements:
+        numbers += element.count * len(element.properties)
         widths = [
             2 if order == "ascii" else (p.count_dtype or p.dtype).itemsize
             for p in element.properties
@@ -91,3 +93,4 @@ def check_size(elements: list[Element], size: int, order: str) -> None:
         least += element.count * sum(widths)
     if least > size + (order == "ascii"):
         raise Error(f"the header announces at least {least} bytes, {size} are there")
+    check_bytes("what the header announces", 8 * numbers)  # each may become a double

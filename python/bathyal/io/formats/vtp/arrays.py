@@ -12,7 +12,7 @@ from xml.etree.ElementTree import Element
 import numpy as np
 from numpy.typing import NDArray
 
-from bathyal._core import Error
+from bathyal._core import Error, check_bytes
 
 TYPES = {
     "Int8": "<i1",
@@ -27,6 +27,7 @@ TYPES = {
     "Float64": "<f8",
 }
 _MOST_PER_BYTE = 1040  # deflate makes at most about 1032 bytes of one
+_DOUBLE = 8  # bytes: every number may become one
 
 
 class ArrayReader:
@@ -45,6 +46,7 @@ class ArrayReader:
             raise Error(f"appended data of encoding {encoding}: raw and base64 are read")
         self._appended_raw = encoding == "raw"
         self._appended = appended if self._appended_raw else appended.rstrip()
+        self._bytes_read = 0  # arrays may share what is stored once
 
     def read(self, element: Element, rows: int | None) -> NDArray[Any]:
         """The numbers or texts of one element: (rows,) or (rows, components); None takes all."""
@@ -67,15 +69,15 @@ class ArrayReader:
         if element.get("format") == "ascii":
             flat = _ascii_numbers(_inline_text(element), dtype)
         else:
-            most = None if expected is None else expected * dtype.itemsize
-            flat = _numbers(self._bytes(element, most), dtype)
+            flat = _numbers(self._bytes(element, expected, dtype.itemsize), dtype)
         if expected is not None and len(flat) != expected:
             raise Error(f"expected {expected} values, got {len(flat)}")
         if texts:
-            return _texts(flat, rows)
+            return self._texts(flat, rows)
         return flat.reshape(-1, width) if width > 1 else flat
 
-    def _bytes(self, element: Element, expected: int | None) -> bytes:
+    def _bytes(self, element: Element, expected: int | None, width: int) -> bytes:
+        """What an element stores, of so many expected values of `width` bytes."""
         kind = element.get("format")
         source: _Source
         if kind == "appended":
@@ -86,19 +88,26 @@ class ArrayReader:
         else:
             raise Error(f"format {kind!r} is not known")
         if self._compressed:
-            return self._inflate(source, expected)
+            return self._inflate(source, expected, width)
         size = int(self._sizes(source, 1)[0])
+        self._reserve(size, width)
         return source.take(size)
 
-    def _inflate(self, source: _Source, expected: int | None) -> bytes:
+    def _reserve(self, size: int, width: int) -> None:
+        """Raise `Error` where all arrays up to this one take too much, before it is unpacked."""
+        self._bytes_read += size // width * max(width, _DOUBLE)
+        check_bytes("what its arrays unpack to", self._bytes_read)
+
+    def _inflate(self, source: _Source, expected: int | None, width: int) -> bytes:
         blocks, size, last = (int(n) for n in self._sizes(source, 3))
         if blocks == 0:
             return b""
         packed = [int(n) for n in self._sizes(source, blocks)]
         source.end_part()
         sizes = [size] * (blocks - 1) + [last or size]
-        if expected is not None and sum(sizes) != expected:
-            raise Error(f"expected {expected} bytes, its header says {sum(sizes)}")
+        if expected is not None and sum(sizes) != expected * width:
+            raise Error(f"expected {expected * width} bytes, its header says {sum(sizes)}")
+        self._reserve(sum(sizes), width)
         parts = []
         for packed_size, full_size in zip(packed, sizes, strict=True):
             if full_size > _MOST_PER_BYTE * packed_size:
@@ -107,6 +116,15 @@ class ArrayReader:
             if len(parts[-1]) != full_size:
                 raise Error(f"a block holds {len(parts[-1])} bytes, its header says {full_size}")
         return b"".join(parts)
+
+    def _texts(self, codes: NDArray[Any], rows: int | None) -> NDArray[Any]:
+        texts = codes.tobytes().decode("utf-8", "replace").split("\0")
+        if texts[-1] == "":
+            texts.pop()
+        if rows is not None and len(texts) != rows:
+            raise Error(f"expected {rows} texts, got {len(texts)}")
+        self._reserve(len(texts) * max(map(len, texts), default=0), 1)  # all as wide as the widest
+        return np.array(texts, dtype=np.str_)
 
     def _sizes(self, source: _Source, count: int) -> NDArray[Any]:
         return np.frombuffer(source.take(count * self._header.itemsize), self._header)
@@ -179,15 +197,6 @@ def _ascii_numbers(text: str, dtype: np.dtype[Any]) -> NDArray[Any]:
         return np.array(text.split(), dtype.newbyteorder("="))
     except (ValueError, OverflowError) as error:
         raise Error(f"not numbers of {dtype.name}: {error}") from error
-
-
-def _texts(codes: NDArray[Any], rows: int | None) -> NDArray[Any]:
-    texts = codes.tobytes().decode("utf-8", "replace").split("\0")
-    if texts[-1] == "":
-        texts.pop()
-    if rows is not None and len(texts) != rows:
-        raise Error(f"expected {rows} texts, got {len(texts)}")
-    return np.array(texts, dtype=np.str_)
 
 
 def _choice(element: Element, key: str, known: dict[str, Any], default: str) -> Any:

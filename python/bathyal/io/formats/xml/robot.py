@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bathyal._core import Error, Shape
-from bathyal.io.files import PathLike, opened, reading
+from bathyal.io.files import PathLike, read_document, reading
 from bathyal.io.formats.xml.robot_shapes import shapes_of
 from bathyal.io.formats.xml.robot_values import (
     name_of,
@@ -30,8 +30,6 @@ from bathyal.io.formats.xml.robot_values import (
 from bathyal.io.formats.xml.safe import parse_xml
 
 Array = NDArray[np.float64]
-
-_MOST_BYTES = 64 << 20  # a robot of 10 000 links takes about 5 MB
 
 
 @dataclass(frozen=True)
@@ -106,10 +104,9 @@ def read_robot(path: PathLike) -> Robot:
         For what is no URDF: other or broken XML, a document type, xacro that is not expanded, a
         joint without parent or child, numbers that are none.
     """
-    with opened(path) as (stream, size), reading(path, "URDF"):
-        if size > _MOST_BYTES:
-            raise Error(f"expected at most {_MOST_BYTES >> 20} MB, got {size / 2**20:.0f} MB")
-        root = parse_xml(stream.read())
+    content = read_document(path)
+    with reading(path, "URDF"):
+        root = parse_xml(content)
         if tag_of(root) != "robot":
             raise Error(f"its root element is {tag_of(root)}, not robot")
         folder = os.path.dirname(os.path.abspath(path))

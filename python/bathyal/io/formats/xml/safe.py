@@ -3,11 +3,15 @@
 
 from __future__ import annotations
 
+from itertools import count
 from typing import NoReturn
 from xml.etree.ElementTree import Element, TreeBuilder
 from xml.parsers import expat
 
-from bathyal._core import Error
+from bathyal._core import Error, check_bytes
+
+_ELEMENT = 200  # bytes that an element takes at least, with its tag and list of children
+_CHECKED_EVERY = 1 << 16
 
 
 def parse_xml(text: bytes) -> Element:
@@ -21,15 +25,21 @@ def parse_xml(text: bytes) -> Element:
     Raises
     ------
     Error
-        For a document type and for text that is not well-formed XML, with the line.
+        For a document type, for text that is not well-formed XML, with the line, and for more
+        elements than one file may take in memory.
     """
     tree = TreeBuilder()
     parser = expat.ParserCreate(namespace_separator="}")
     parser.buffer_text = True
     parser.StartDoctypeDeclHandler = _refuse_document_type
-    parser.StartElementHandler = lambda tag, attributes: tree.start(
-        _braced(tag), {_braced(name): value for name, value in attributes.items()}
-    )
+    elements = count(1)
+
+    def start(tag: str, attributes: dict[str, str]) -> None:
+        if (number := next(elements)) % _CHECKED_EVERY == 0:
+            check_bytes("its elements", _ELEMENT * number)
+        tree.start(_braced(tag), {_braced(name): value for name, value in attributes.items()})
+
+    parser.StartElementHandler = start
     parser.EndElementHandler = lambda tag: tree.end(_braced(tag))
     parser.CharacterDataHandler = tree.data
     try:
