@@ -9,14 +9,14 @@ from contextlib import AbstractContextManager
 from pathlib import Path
 from typing import Any
 
-from bathyal.io.files import PathLike, shown
+from bathyal.io.files import PathLike, opened, shown
 
 Step = Callable[[str], AbstractContextManager[Any]]
 
 
 def file_facts(path: PathLike) -> dict[str, Any]:
     digest = hashlib.sha256()
-    with open(path, "rb") as stream:
+    with opened(path) as (stream, _):
         while block := stream.read(1 << 20):
             digest.update(block)
         size = stream.tell()

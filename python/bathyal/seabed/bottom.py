@@ -21,6 +21,7 @@ from bathyal._core import (
 )
 from bathyal.errors import argument_error
 from bathyal.io.files import PathLike, shown
+from bathyal.io.formats.crs import check_metric
 from bathyal.io.provenance import Step, file_facts
 from bathyal.seabed.clouds import read_cloud
 from bathyal.seabed.meshes import read_mesh
@@ -170,6 +171,8 @@ def _mesh_with_datum(source: PathLike, read: Mapping[str, Any]) -> TriangleMesh:
     rest = {key: value for key, value in read.items() if key not in ("crs", "vertical_datum")}
     if unknown := sorted(set(rest) - {"scale", "up"}):
         raise argument_error(unknown[0], "with soundings only", f"it with the mesh {source}")
+    if read.get("crs"):
+        check_metric("crs", read["crs"])
     mesh = read_mesh(source, **rest)
     if len(rest) == len(read):
         return mesh

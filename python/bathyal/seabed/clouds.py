@@ -15,6 +15,7 @@ from bathyal.arrays import unmasked
 from bathyal.errors import argument_error
 from bathyal.io.files import PathLike, known_suffix, opened, reading
 from bathyal.io.formats.attributes import canonical_attributes, columns_of
+from bathyal.io.formats.crs import check_metric, check_scale, units_of
 from bathyal.io.formats.meshes.ply import read_ply, write_ply
 from bathyal.io.formats.notes import notes_of, notes_of_fields
 from bathyal.io.formats.points.bag import read_bag
@@ -22,8 +23,7 @@ from bathyal.io.formats.points.geotiff import read_geotiff
 from bathyal.io.formats.points.las import read_las
 from bathyal.io.formats.points.soundings import Soundings
 from bathyal.io.formats.points.text import Columns, read_text, write_text
-from bathyal.io.formats.vtp.reader import read_vtp
-from bathyal.io.formats.vtp.writer import write_vtp
+from bathyal.io.formats.vtp import read_vtp, write_vtp
 
 _TEXT = (".asc", ".csv", ".txt", ".xyz")
 _GRIDS = (".tif", ".tiff")
@@ -54,14 +54,15 @@ def read_cloud(
         all further columns ride along.
     scale : float or three of them, optional
         Metres in one unit of the file, of all coordinates or of x, y and z; `uncertainty` is
-        scaled as z is. To be said where the file names a unit other than the metre.
+        scaled as z is. To be said where the file, or its reference system, names a unit other
+        than the metre.
     z : {"up", "down"}, optional
         Which way z grows in the file. Up by default, but a file that calls it a depth must be
         told: "down" turns the sign, "up" says that its depths are negative already.
     band : int, optional
         For GeoTIFF: the band of heights, counted from 1; the first by default.
     crs, vertical_datum : str, optional
-        Coordinate reference system and vertical datum, in place of what the file says.
+        Coordinate reference system, in metres, and vertical datum, in place of what the file says.
     **text
         For text: ``separator``, ``decimal``, ``comments``, ``header_lines``, ``skip_lines``,
         ``empty_is_nan``, ``num_threads``.
@@ -70,7 +71,8 @@ def read_cloud(
     -------
     PointCloud
         [m], z up, in double, in the order of the file (grids row by row from the north). Cells
-        without data are left out. Attributes ride along: ``uncertainty`` [m], ``intensity``,
+        without data are left out. A reference system in another unit than the metre is not kept:
+        the points are no longer in it. Attributes ride along: ``uncertainty`` [m], ``intensity``,
         ``classification``, ``red``, ``green``, ``blue`` (0 to 255), others by the file's name.
         Points that are not finite are kept for `clean_cloud` to count.
 
@@ -78,7 +80,8 @@ def read_cloud(
     ------
     ValueError
         For a suffix that is not read, a keyword of another format, columns that the file lacks, a
-        depth whose direction is not said, or a unit that is not the metre and no `scale`.
+        depth whose direction is not said, a unit that is not the metre and no `scale`, or a `crs`
+        that is not in metres.
     OSError
         Where there is no such file, or it may not be read.
     Error
@@ -98,6 +101,8 @@ def read_cloud(
     if z not in (None, "up", "down"):
         raise argument_error("z", '"up" or "down"', repr(z))
     factors = _factors(scale)
+    if crs is not None:
+        check_metric("crs", crs)
     if suffix in _TEXT:
         with opened(path):
             soundings = read_text(path, columns, text)
@@ -117,10 +122,14 @@ def read_cloud(
             "scale", f"metres in one unit of the file, for it names {soundings.unit!r}", scale
         )
     with reading(path, "point"):
+        units = soundings.units or units_of(soundings.crs, soundings.vertical_datum)
+    check_scale(units, scale)
+    file_crs = soundings.crs if units.metric else ""
+    with reading(path, "point"):
         return PointCloud(
             _in_metres(soundings.points, factors, z),
             attributes=_attributes(soundings, factors[2]),
-            crs=soundings.crs if crs is None else crs,
+            crs=file_crs if crs is None else crs,
             vertical_datum=soundings.vertical_datum if vertical_datum is None else vertical_datum,
         )
 
@@ -203,7 +212,8 @@ def _attributes(soundings: Soundings, z_factor: float) -> dict[str, NDArray[np.f
 
 def _read_ply(path: PathLike) -> Soundings:
     ply = read_ply(path)
-    return Soundings(ply.points, dict(ply.attributes), **notes_of_fields(ply.notes))
+    notes = notes_of_fields(ply.notes)
+    return Soundings(ply.points, dict(ply.attributes), notes["crs"], notes["vertical_datum"])
 
 
 def _read_pcd(path: PathLike) -> Soundings:
@@ -214,7 +224,9 @@ def _read_pcd(path: PathLike) -> Soundings:
 
 def _read_vtp(path: PathLike) -> Soundings:
     data = read_vtp(path)
-    return Soundings(data.points, columns_of(data.point_data), **notes_of_fields(data.field_data))
+    notes = notes_of_fields(data.field_data)
+    attributes = columns_of(data.point_data)
+    return Soundings(data.points, attributes, notes["crs"], notes["vertical_datum"])
 
 
 def _write_ply(cloud: PointCloud, path: PathLike) -> None:

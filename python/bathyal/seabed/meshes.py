@@ -14,13 +14,13 @@ from bathyal._core import Error, TriangleMesh
 from bathyal.errors import argument_error
 from bathyal.io.files import PathLike, known_suffix, reading
 from bathyal.io.formats.attributes import canonical_attributes, columns_of
+from bathyal.io.formats.crs import check_scale, units_of
 from bathyal.io.formats.meshes.collada import read_collada
 from bathyal.io.formats.meshes.obj import read_obj, write_obj
 from bathyal.io.formats.meshes.ply import read_ply, write_ply
 from bathyal.io.formats.meshes.stl import read_stl, write_stl
 from bathyal.io.formats.notes import notes_of, notes_of_fields
-from bathyal.io.formats.vtp.reader import read_vtp
-from bathyal.io.formats.vtp.writer import write_vtp
+from bathyal.io.formats.vtp import read_vtp, write_vtp
 
 # The first axis of the file's right-handed frame that points up, turned to z.
 _Z_UP_FROM = {
@@ -50,7 +50,8 @@ def read_mesh(path: PathLike, *, scale: float | None = None, up: str | None = No
     path : path
         ``.ply``, ``.stl``, ``.obj``, ``.dae`` (COLLADA) or ``.vtp``.
     scale : float, optional
-        Metres in one unit of the file. COLLADA says its unit; the others are taken as metres.
+        Metres in one unit of the file. COLLADA says its unit; the others are taken as metres. To be
+        said where the file's reference system has another unit, and that system is not kept then.
     up : {"x", "y", "z"}, optional
         The axis of the file that points up. COLLADA says it; the others are taken as z up.
 
@@ -65,11 +66,13 @@ def read_mesh(path: PathLike, *, scale: float | None = None, up: str | None = No
     Raises
     ------
     ValueError
-        For a suffix that is not read, or a `scale` or `up` that is none.
+        For a suffix that is not read, a `scale` or `up` that is none, or a reference system that
+        is not in metres and no `scale`.
     OSError
         Where there is no such file, or it may not be read.
     Error
-        For a file that is broken, empty, of another format than its suffix says, or without faces.
+        For a file that is broken, empty, of another format than its suffix says, or without faces,
+        and for positions in longitude and latitude.
 
     Examples
     --------
@@ -86,6 +89,10 @@ def read_mesh(path: PathLike, *, scale: float | None = None, up: str | None = No
     if up is not None and up not in _Z_UP_FROM:
         raise argument_error("up", '"x", "y" or "z"', repr(up))
     surface = read(path)
+    crs, vertical_datum = (surface.notes.get(name, "") for name in ("crs", "vertical_datum"))
+    with reading(path, "mesh"):
+        units = units_of(crs, vertical_datum)
+    check_scale(units, scale)
     unit = surface.unit if scale is None else scale
     turn = _Z_UP_FROM[surface.up if up is None else up]
     with reading(path, "mesh"):
@@ -100,8 +107,8 @@ def read_mesh(path: PathLike, *, scale: float | None = None, up: str | None = No
             vertices,
             np.ascontiguousarray(surface.triangles, np.int32),
             attributes=attributes,
-            crs=surface.notes.get("crs", ""),
-            vertical_datum=surface.notes.get("vertical_datum", ""),
+            crs=crs if units.metric else "",
+            vertical_datum=vertical_datum,
         )
 
 

@@ -15,13 +15,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from support.alone import MEMORY, Case, check, refused, works
-from support.bad_input import written
 
 import bathyal
 from bathyal import Error
 from bathyal.io.formats.vtp import read_vtp
 from bathyal.seabed.bottom import file_facts
+from tests.support.alone import MEMORY, Case, check, refused, works
+from tests.support.bad_input import written
 
 READERS: dict[str, Callable[[Path], object]] = {
     **{

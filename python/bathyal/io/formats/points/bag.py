@@ -3,22 +3,21 @@
 
 from __future__ import annotations
 
+import math
 import os
 import warnings
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 from xml.etree.ElementTree import Element
 
 import numpy as np
+from numpy.typing import NDArray
 
-from bathyal._core import Error
+from bathyal._core import Error, check_bytes
 from bathyal.io.files import PathLike, need, opened, reading
-from bathyal.io.formats.points.soundings import (
-    Soundings,
-    check_cells,
-    check_projected,
-    vertical_datum_of_wkt,
-)
+from bathyal.io.formats.crs import Units, refuse_degrees, units_of, vertical_datum_of_wkt
+from bathyal.io.formats.points.soundings import Soundings, check_cells, joined_rows
 from bathyal.io.formats.xml.safe import parse_xml
 
 _NO_DATA = 1e6  # of the format, in every layer
@@ -39,6 +38,7 @@ class _Frame:
     dy: float
     crs: str
     vertical_datum: str
+    units: Units
 
 
 def read_bag(path: PathLike) -> Soundings:
@@ -53,7 +53,8 @@ def read_bag(path: PathLike) -> Soundings:
     with opened(path) as (stream, size), reading(path, "BAG"):
         if stream.read(8) != b"\x89HDF\r\n\x1a\n":
             raise Error("it is not an HDF5 file")
-        with h5py.File(os.fspath(path), "r") as file:
+        # The file that was looked at, not what may stand under its name by now.
+        with h5py.File(stream, "r") as file:
             root = _member(file, "BAG_root")
             if "varres_refinements" in root:
                 raise Error(
@@ -84,31 +85,44 @@ def _layer(root: Any, name: str, size: int) -> Any:
     layer = _member(root, name)
     if len(layer.shape) != 2 or layer.dtype.kind != "f":
         raise Error(f"{name} is no grid of real numbers")
-    check_cells(layer.shape[0] * layer.shape[1], size, _MOST_CELLS_PER_BYTE)
+    cells = layer.shape[0] * layer.shape[1]
+    check_cells(cells, layer.dtype.itemsize, size, _MOST_CELLS_PER_BYTE)
+    # A chunk is unpacked as a whole.
+    check_bytes("a chunk of its grid", layer.dtype.itemsize * math.prod(layer.chunks or (0,)))
     return layer
 
 
 def _nodes(elevation: Any, uncertainty: Any, frame: _Frame) -> Soundings:
+    width = 3 if uncertainty is None else 4
+    table = joined_rows(_blocks(elevation, uncertainty, frame), width)
+    attributes = {}
+    if uncertainty is not None:
+        spread = table[:, 3].copy()
+        spread[spread == _NO_DATA] = np.nan
+        attributes["uncertainty"] = spread
+    return Soundings(
+        np.ascontiguousarray(table[:, :3]),
+        attributes,
+        frame.crs,
+        frame.vertical_datum,
+        units=frame.units,
+    )
+
+
+def _blocks(elevation: Any, uncertainty: Any, frame: _Frame) -> Iterator[NDArray[np.float64]]:
+    """x y z and uncertainty of the nodes that have a value, from the north."""
     rows, columns = elevation.shape
     step = max(1, _CELLS_AT_A_TIME // max(1, columns))
-    points, spreads = [np.empty((0, 3))], [np.empty(0)]
     for end in range(rows, 0, -step):  # the file's first row is the southernmost
         start = max(0, end - step)
         z = elevation[start:end][::-1]
         row, column = np.nonzero((z != _NO_DATA) & np.isfinite(z))
-        block = np.empty((len(row), 3))
-        block[:, 0] = frame.west + frame.dx * column
-        block[:, 1] = frame.south + frame.dy * (end - 1 - row)
-        block[:, 2] = z[row, column]
-        points.append(block)
+        x = frame.west + frame.dx * column
+        y = frame.south + frame.dy * (end - 1 - row)
+        found = [x, y, z[row, column]]
         if uncertainty is not None:
-            spreads.append(uncertainty[start:end][::-1][row, column].astype(np.float64))
-    attributes = {}
-    if uncertainty is not None:
-        spread = np.concatenate(spreads)
-        spread[spread == _NO_DATA] = np.nan
-        attributes["uncertainty"] = spread
-    return Soundings(np.concatenate(points), attributes, frame.crs, frame.vertical_datum)
+            found.append(uncertainty[start:end][::-1][row, column])
+        yield np.column_stack(found).astype(np.float64, copy=False)
 
 
 def _metadata(root: Any) -> Element:
@@ -144,27 +158,29 @@ def _frame(metadata: Element, shape: tuple[int, int], path: PathLike) -> _Frame:
     return _Frame(west, south, dx, dy, *_reference(metadata))
 
 
-def _reference(metadata: Element) -> tuple[str, str]:
-    """The coordinate reference system and the vertical datum, each "" where it is not known."""
+def _reference(metadata: Element) -> tuple[str, str, Units]:
+    """The coordinate reference system and the vertical datum, each "" where it is not known, and
+    the units of both."""
     codes = [
         " ".join(e.itertext()).strip()
         for info in _all(metadata, "referenceSystemInfo")
         for e in _all(info, "code")
     ]
     crs = next((c for c in codes if c.upper().startswith(("PROJ", "GEOG", "COMPD", "COMPO"))), "")
-    check_projected(crs)
-    vertical = next((vertical_datum_of_wkt(c) for c in codes if vertical_datum_of_wkt(c)), "")
+    upright = next((code for code in codes if vertical_datum_of_wkt(code)), "")
+    vertical = vertical_datum_of_wkt(upright)
+    units = units_of(crs, upright)
     if crs:
-        return crs, vertical
+        return crs, vertical, units
     projection = _text(metadata, "projection").lower()
     if projection.startswith("geo"):
-        check_projected("GEOGCS")
+        refuse_degrees(projection)
     datum = _text(metadata, "datum").lower().replace(" ", "")
     zone, north = _text(metadata, "zone"), _text(metadata, "falseNorthing")
     epsg = _UTM_EPSG.get((datum, float(north or "nan") == 0.0))
     if projection == "utm" and epsg and zone.isdigit() and 1 <= int(zone) <= 60:
         crs = f"EPSG:{epsg + int(zone)}"
-    return crs, vertical or _text(metadata, "verticalDatum")
+    return crs, vertical or _text(metadata, "verticalDatum"), units
 
 
 def _all(element: Element, name: str) -> list[Element]:

@@ -3,23 +3,33 @@
 
 from __future__ import annotations
 
+import math
 import struct
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from bathyal._core import Error
+from bathyal._core import Error, check_bytes
 from bathyal.io.files import PathLike, need, opened, reading
+from bathyal.io.formats.crs import Unit, Units, refuse_degrees, units_of, vertical_datum_of_wkt
 from bathyal.io.formats.points.laz import check_chunks
-from bathyal.io.formats.points.soundings import Soundings, check_projected, vertical_datum_of_wkt
+from bathyal.io.formats.points.soundings import Soundings
 
 _BYTES_AT_A_TIME = 1 << 25
 _KEPT = ("intensity", "classification", "gps_time")
 _COLOURS = ("red", "green", "blue")
 _USER_DEFINED = 32767  # a reference system without a number
 _COMPRESSED = 0x80  # in the number of the point format
-_PROJECTED_KEY, _GEOGRAPHIC_KEY, _VERTICAL_KEY = 3072, 2048, 4096  # of the GeoTIFF directory
+# Of the GeoTIFF directory.
+_MODEL_KEY, _GEOGRAPHIC_MODELS = 1024, (2, 3)
+_PROJECTED_KEY, _GEOGRAPHIC_KEY, _VERTICAL_KEY = 3072, 2048, 4096
+_PROJECTED_UNIT_KEY, _VERTICAL_UNIT_KEY = 3076, 4099
+_UNITS = {
+    9001: Unit("metre", 1.0), 9002: Unit("foot", 0.3048), 9003: Unit("US survey foot", 1200 / 3937),
+    9036: Unit("kilometre", 1000.0),
+}  # fmt: skip
+_EXTENDED_RECORD = 60  # bytes of its header
 
 
 def read_las(path: PathLike) -> Soundings:
@@ -38,12 +48,13 @@ def read_las(path: PathLike) -> Soundings:
         backend = laspy.LazBackend.Lazrs
         with laspy.open(stream, closefd=False, laz_backend=backend) as reader:
             names = _names(reader.header.point_format)
+            check_bytes(f"its {count} points", 8 * (3 + len(names)) * count)
             at_a_time = max(1, _BYTES_AT_A_TIME // record)
             chunks = [
                 [np.asarray(chunk[name], np.float64) for name in ("x", "y", "z", *names)]
                 for chunk in reader.chunk_iterator(at_a_time)
             ]
-            crs, vertical = _reference(reader.header.vlrs)
+            reference = _reference([*reader.header.vlrs, *(reader.header.evlrs or [])])
         columns = [np.concatenate(parts) for parts in zip(*chunks, strict=True)]
         if len(columns[0] if columns else []) != count:
             raise Error(
@@ -52,7 +63,8 @@ def read_las(path: PathLike) -> Soundings:
             )
         points = np.column_stack(columns[:3]) if columns else np.empty((0, 3))
         attributes = dict(zip(names, columns[3:], strict=True)) if columns else {}
-        return Soundings(points, _with_byte_colours(attributes), crs, vertical)
+        crs, vertical, units = reference
+        return Soundings(points, _with_byte_colours(attributes), crs, vertical, units=units)
 
 
 def _check_header(head: bytes, size: int) -> tuple[int, int, int]:
@@ -63,7 +75,9 @@ def _check_header(head: bytes, size: int) -> tuple[int, int, int]:
         "<IIBHI", head, 96
     )
     if head[24:26] >= b"\x01\x04" and len(head) >= 255:
-        count = struct.unpack_from("<Q", head, 247)[0]
+        extended_at, extended, count = struct.unpack_from("<QIQ", head, 235)
+        if extended and extended_at + _EXTENDED_RECORD * extended > size:
+            raise Error(f"its header announces {extended} extended records beyond its end")
     compressed = point_format & _COMPRESSED
     # LAZ makes at best some hundred points of a byte (equal points, an adaptive range coder)
     least = count // 1000 if compressed else count * record
@@ -91,8 +105,8 @@ def _with_byte_colours(attributes: dict[str, NDArray[Any]]) -> dict[str, NDArray
     return attributes
 
 
-def _reference(records: Any) -> tuple[str, str]:
-    """WKT where the file has it, else "EPSG:…" from its GeoTIFF keys."""
+def _reference(records: Any) -> tuple[str, str, Units]:
+    """WKT where the file has it, else "EPSG:…" from its GeoTIFF keys; and their units."""
     projection = {
         r.record_id: r.record_data_bytes()
         for r in records
@@ -100,15 +114,28 @@ def _reference(records: Any) -> tuple[str, str]:
     }
     if 2112 in projection:
         wkt = projection[2112].rstrip(b"\0").decode("utf-8", "replace")
-        check_projected(wkt)
-        return wkt, vertical_datum_of_wkt(wkt)
+        return wkt, vertical_datum_of_wkt(wkt), units_of(wkt)
     directory = projection.get(34735, b"")
     shorts = np.frombuffer(directory[: len(directory) // 8 * 8], "<u2").reshape(-1, 4)[1:]
     keys = {int(key): int(value) for key, where, _, value in shorts if where == 0}
-    if keys.get(_GEOGRAPHIC_KEY) and not keys.get(_PROJECTED_KEY):
-        check_projected("GEOGCS")
+    geographic = keys.get(_GEOGRAPHIC_KEY) and not keys.get(_PROJECTED_KEY)
+    if geographic or keys.get(_MODEL_KEY) in _GEOGRAPHIC_MODELS:
+        refuse_degrees(f"EPSG:{keys.get(_GEOGRAPHIC_KEY, 0)}")
     codes = [keys.get(key, 0) for key in (_PROJECTED_KEY, _VERTICAL_KEY)]
     horizontal, vertical = (
         f"EPSG:{code}" if 1024 <= code < _USER_DEFINED else "" for code in codes
     )
-    return horizontal, vertical
+    units = units_of(horizontal, vertical)
+    return (
+        horizontal,
+        vertical,
+        Units(
+            _unit(keys.get(_PROJECTED_UNIT_KEY), units.horizontal),
+            _unit(keys.get(_VERTICAL_UNIT_KEY), units.vertical),
+        ),
+    )
+
+
+def _unit(key: int | None, of_code: Unit | None) -> Unit | None:
+    """The unit that a key names, else that of the system's code."""
+    return of_code if not key else _UNITS.get(key, Unit(f"the unit EPSG:{key}", math.nan))

@@ -3,14 +3,15 @@
 
 from __future__ import annotations
 
-import re
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from bathyal._core import Error
+from bathyal._core import Error, check_bytes
+from bathyal.io.formats.crs import Units
 
 _METRES = {"m", "metre", "metres", "meter", "meters"}
 
@@ -20,7 +21,8 @@ class Soundings:
     """Points as a file has them.
 
     `depth` is how the file calls its third coordinate where it calls it a depth; `unit` is the unit
-    it names where that is not the metre.
+    it names for a column or band where that is not the metre; `units` are those of its reference
+    system, where more is known of them than `crs` and `vertical_datum` tell.
     """
 
     points: NDArray[np.float64]
@@ -29,28 +31,27 @@ class Soundings:
     vertical_datum: str = ""
     depth: str = ""
     unit: str = ""
+    units: Units | None = None
 
 
 def is_metre(unit: str) -> bool:
     return unit.strip().lower() in _METRES
 
 
-def check_projected(crs: str) -> None:
-    """Degrees are no metres, and which projection suits is the surveyor's to say."""
-    if re.match(r"\s*(GEOGCS|GEOGCRS|GEODCRS|GEOGRAPHICCRS|GEODETICCRS|GEOCCS)\b", crs, re.I):
-        raise Error(
-            f"its positions are longitude and latitude ({crs[:60]}…): project them first, "
-            "for instance to UTM"
-        )
-
-
-def vertical_datum_of_wkt(crs: str) -> str:
-    """The name of the vertical part of a compound reference system, "" where it has none."""
-    found = re.search(r'(?:VERT_CS|VERTCS|VERTCRS|VERTICALCRS)\s*\[\s*"([^"]*)"', crs, re.I)
-    return found[1] if found else ""
-
-
-def check_cells(cells: int, size: int, most_per_byte: int) -> None:
-    """Refuse a grid that a file of `size` bytes cannot hold, before memory is taken for it."""
+def check_cells(cells: int, width: int, size: int, most_per_byte: int) -> None:
+    """Refuse a grid before memory is taken for it: one that a file of `size` bytes cannot hold, or
+    whose cells of `width` bytes are more than one file may take."""
     if cells > size * most_per_byte:
         raise Error(f"its header announces {cells} cells, too many for {size} bytes")
+    check_bytes(f"its grid of {cells} cells", cells * width)
+
+
+def joined_rows(blocks: Iterable[NDArray[np.float64]], width: int) -> NDArray[np.float64]:
+    """Tables of `width` columns one below the other, their sum checked as they come."""
+    kept = [np.empty((0, width))]
+    taken = 0
+    for block in blocks:
+        taken += block.nbytes
+        check_bytes("its cells with a value", taken)
+        kept.append(block)
+    return np.concatenate(kept)
