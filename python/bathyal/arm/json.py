@@ -11,10 +11,10 @@ import numpy as np
 
 from bathyal._core import Arm, Error, Shape, arm_from_parts, arm_parts
 from bathyal.io.files import PathLike, replacing
+from bathyal.io.formats.numbers import refuse_truth_values
 
 FORMAT = "bathyal arm"
 VERSION = 1
-MOST_BYTES = 64 << 20
 _FRAMING = ("format", "version", "run")
 
 # The file's keys are the engine's with their unit; `{}` is rad or m, as the joint turns or slides.
@@ -130,6 +130,7 @@ def read_json(text: bytes) -> dict[str, Any]:
     told = json.loads(text, parse_constant=_refuse_constant)
     if not isinstance(told, dict) or told.get("format") != FORMAT:
         raise Error(f'it does not say "format": "{FORMAT}"')
+    refuse_truth_values(told)
     if told.get("version") != VERSION:
         raise Error(f"expected version {VERSION}, got {told.get('version')!r}")
     return {key: value for key, value in told.items() if key not in _FRAMING}

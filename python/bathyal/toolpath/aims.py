@@ -19,7 +19,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from bathyal._core import Error
 from bathyal.errors import argument_error
-from bathyal.io.files import PathLike
+from bathyal.io.files import PathLike, read_document_text
+from bathyal.io.formats.numbers import refuse_truth_values
 
 _LENGTHS = {"m": 1.0, "cm": 0.01, "mm": 0.001, "km": 1000.0}
 _ANGLES = {"deg": math.pi / 180.0, "rad": 1.0}
@@ -92,10 +93,7 @@ def read_axes(path: PathLike, *, world_from_vehicle: ArrayLike | None = None) ->
     pose = None if world_from_vehicle is None else _pose("world_from_vehicle", world_from_vehicle)
     if file.suffix.lower() not in {".csv", ".txt", ".tsv", ".json"}:
         raise argument_error("path", "a .csv, .txt, .tsv or .json file", repr(os.fspath(path)))
-    try:
-        text = file.read_text(encoding="utf-8-sig")
-    except UnicodeDecodeError as error:
-        raise Error(f"{file}: expected text, got bytes that are not UTF-8") from error
+    text = read_document_text(file)
     if file.suffix.lower() == ".json":
         return _from_json(file, text, pose)
     aims = _from_text(file, text)
@@ -199,8 +197,9 @@ def _from_json(file: Path, text: str, pose: NDArray[np.float64] | None) -> Axes:
         raise Error(f"{file}: `unit`: expected one of {', '.join(_LENGTHS)}, got {unit!r}")
     if pose is None and "world_from_vehicle" in settings:
         try:
+            refuse_truth_values(settings["world_from_vehicle"], "world_from_vehicle")
             pose = _pose("world_from_vehicle", settings["world_from_vehicle"])
-        except ValueError as error:
+        except (Error, ValueError) as error:
             raise Error(f"{file}: {error}") from error
     frame = settings.get("frame", "world" if pose is None else "vehicle")
     if frame not in ("world", "vehicle"):
@@ -213,6 +212,10 @@ def _from_json(file: Path, text: str, pose: NDArray[np.float64] | None) -> Axes:
     rows = settings.get("aims")
     if not isinstance(rows, list):
         raise Error(f"{file}: `aims`: expected a list, got {type(rows).__name__}")
+    try:
+        refuse_truth_values(rows, "aims")
+    except Error as error:
+        raise Error(f"{file}: {error}") from None
     table = np.array([_json_row(file, i, row) for i, row in enumerate(rows)], dtype=float)
     table = table.reshape(-1, 6)
     table[:, :3] *= _LENGTHS[unit]
@@ -226,7 +229,7 @@ def _json_row(file: Path, index: int, row: Any) -> list[float]:
         if all(isinstance(part, list) and len(part) == 3 for part in parts):
             row = [*row["point"], *row["direction"]]
     numbers = isinstance(row, list) and len(row) == 6
-    if not numbers or not all(isinstance(v, int | float) and not isinstance(v, bool) for v in row):
+    if not numbers or not all(isinstance(value, int | float) for value in row):
         raise Error(
             f"{file}, aim {index}: expected six numbers, or a point and a direction of three "
             f"each, got {json.dumps(row)[:80]}"

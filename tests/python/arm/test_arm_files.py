@@ -5,6 +5,7 @@ import configparser
 import copy
 import json
 import pickle
+import re
 from pathlib import Path
 from typing import Any
 
@@ -298,3 +299,40 @@ def test_calibration_files_are_refused_where_they_would_not_be_true(tmp_path: Pa
     with pytest.raises(ValueError, match=r"axes 2 and 3 that are parallel but for 1\.0e-09 rad"):
         hair.write(tmp_path / "c.conf", nominal=ur)
     assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize(
+    ("where", "old", "new"),
+    [
+        ("joints[0].a_m", '"a_m": 0.0', '"a_m": true'),
+        ("links[1].mass_kg", '"mass_kg": 0.0', '"mass_kg": false'),
+        ("world_from_base_m[0][0]", "[1.0, 0.0, 0.0, 0.0]", "[true, 0.0, 0.0, 0.0]"),
+    ],
+)
+def test_true_is_no_number(tmp_path: Path, where: str, old: str, new: str) -> None:
+    path = tmp_path / "arm.json"
+    bathyal.Arm.from_dh(a=[0.0, 0.5], alpha=[0, 0], d=[0, 0], theta=[0, 0]).save(path)
+    text = path.read_text()
+    places = [i for i in range(len(text)) if text.startswith(old, i)]
+    assert places, text
+    at = places[1] if where == "links[1].mass_kg" else places[0]
+    path.write_text(text[:at] + new + text[at + len(old) :])
+    word = "false" if "false" in new else "true"
+    with pytest.raises(
+        bathyal.Error, match=re.escape(f"`{where}`: expected a number") + f".*{word}"
+    ):
+        bathyal.read_arm(path)
+
+
+def test_true_is_no_number_of_an_effect_either(tmp_path: Path) -> None:
+    path = tmp_path / "model.json"
+    arm = bathyal.Arm.from_dh(a=[0.5], alpha=[0], d=[0], theta=[0])
+    arm.save(path)
+    told = json.loads(path.read_text())
+    told["effects"] = [{"name": "joint_scale", "joint": 0, "parameters": [
+        {"name": "scale", "unit": "", "scale": 1e-3, "value": True}]}]  # fmt: skip
+    told["support"] = {"joints": {"low": [0], "high": [1]}, "gravity_m_s2": {"low": [0, 0, 0],
+                       "high": [0, 0, 0]}, "sessions": []}  # fmt: skip
+    path.write_text(json.dumps(told))
+    with pytest.raises(bathyal.Error, match=r"`effects\[0\]\.parameters\[0\]\.value`: expected"):
+        bathyal.read_arm(path)

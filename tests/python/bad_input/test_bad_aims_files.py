@@ -55,6 +55,28 @@ CASES: list[Case] = [
         BROKEN,
     ),
     refused(
+        "read_aims: true as a number",
+        r"a.json: `aims\[0\]\[2\]`: expected a number",
+        lambda: bathyal.read_aims(written("a.json", "[[0, 0, true, 0, 0, -1]]")),
+        BROKEN,
+    ),
+    refused(
+        "read_aims: true in a pose",
+        r"`world_from_vehicle\[0\]\[0\]`: expected a number",
+        lambda: bathyal.read_aims(
+            written(
+                "a.json",
+                json.dumps(
+                    {
+                        "aims": [down(0, 0)],
+                        "world_from_vehicle": [[True, 0, 0, 0], *np.eye(4)[1:].tolist()],
+                    }
+                ),
+            )
+        ),
+        BROKEN,
+    ),
+    refused(
         "read_aims: no direction",
         "line 2|direction",
         lambda: bathyal.read_aims(written("a.csv", "px_m,py_m,pz_m,dx,dy,dz\n1,2,3,0,0,0\n")),

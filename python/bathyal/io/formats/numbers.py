@@ -44,6 +44,25 @@ def _first_word_that_is_none(text: bytes | str) -> str:
     return ""
 
 
+def refuse_truth_values(value: Any, where: str = "") -> None:
+    """Raise `Error` for true and false anywhere in what JSON told: Python counts them as 1 and 0.
+
+    No file of numbers that is read here has a key for one.
+    """
+    waiting: list[tuple[Any, str]] = [(value, where)]  # not a recursion: JSON may nest deeply
+    while waiting:
+        item, name = waiting.pop()
+        if isinstance(item, bool):
+            raise Error(f"`{name}`: expected a number or a text, got {str(item).lower()}")
+        if isinstance(item, dict):
+            waiting += [(part, f"{name}.{key}" if name else key) for key, part in item.items()]
+        elif isinstance(item, list):
+            nested = (list, dict, bool)
+            waiting += [
+                (part, f"{name}[{i}]") for i, part in enumerate(item) if isinstance(part, nested)
+            ]
+
+
 def lines_of_rows(table: NDArray[Any], *, prefix: str = "", separator: str = " ") -> Iterator[str]:
     """Whole lines in chunks, each number as the shortest text that reads back equal."""
     for start in range(0, len(table), _ROWS_AT_A_TIME):
