@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import csv
 import math
 from collections.abc import Callable, Mapping
 from importlib.metadata import version
@@ -16,6 +15,7 @@ from bathyal.diagnosis.report.advice import next_steps
 from bathyal.diagnosis.report.text import summary
 from bathyal.io.files import PathLike, known_suffix, replacing
 from bathyal.io.json import json_text
+from bathyal.io.tables import write_table
 
 if TYPE_CHECKING:
     from bathyal._core import Diagnosis
@@ -135,11 +135,11 @@ def write_residuals(report: Diagnosis, path: PathLike) -> None:
     ]  # fmt: skip
     titles = ("row", "before_m", "after_m", "held_out_before_m", "held_out_after_m", "x_m", "y_m",
               "z_m")  # fmt: skip
-    with replacing(path) as aside, open(aside, "w", encoding="utf-8", newline="") as stream:
-        table = csv.writer(stream, lineterminator="\n")
-        table.writerow(titles)
-        for row, numbers in enumerate(zip(*(c.tolist() for c in columns), strict=True)):
-            table.writerow([row, *(x if math.isfinite(x) else "" for x in numbers)])
+    rows = (
+        [row, *(x if math.isfinite(x) else "" for x in numbers)]
+        for row, numbers in enumerate(zip(*(c.tolist() for c in columns), strict=True))
+    )
+    write_table(path, titles, rows)
 
 
 def _by_row(values: Any, rows: int) -> NDArray[np.float64]:

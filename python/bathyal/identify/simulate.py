@@ -12,7 +12,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from bathyal._core import Arm, Error, Touches
 from bathyal.errors import argument_error
-from bathyal.io.files import PathLike, replacing
+from bathyal.io.files import PathLike
+from bathyal.io.tables import write_table
 
 Floats = NDArray[np.float64]
 
@@ -121,14 +122,16 @@ def write_touches(touches: Touches, path: PathLike, *, comment: str = "") -> Non
     comment : str
         Lines to stand above the table.
     """
-    with replacing(path) as aside, open(aside, "w", encoding="utf-8") as stream:
-        for line in comment.splitlines():
-            stream.write(f"# {line}\n")
-        joints = ",".join(f"q{k + 1}_deg" for k in range(touches.q.shape[1]))
-        stream.write(f"point,{joints}\n")
-        for label, row in zip(touches.point.tolist(), np.degrees(touches.q).tolist(), strict=True):
-            name = touches.names.get(label, str(label))
-            stream.write(f"{name},{','.join(f'{angle:.4f}' for angle in row)}\n")
+    names = [touches.names.get(label, str(label)) for label in touches.point.tolist()]
+    for name in dict.fromkeys(names):
+        if name and name.splitlines() != [name]:
+            raise argument_error("touches", "names of points of one line each", repr(name))
+    titles = ["point", *(f"q{k + 1}_deg" for k in range(touches.q.shape[1]))]
+    angles = np.degrees(touches.q).tolist()
+    rows = (
+        [name, *(f"{angle:.4f}" for angle in row)] for name, row in zip(names, angles, strict=True)
+    )
+    write_table(path, titles, rows, comments=comment.splitlines())
 
 
 def _reach(arm: Arm) -> float:

@@ -88,7 +88,7 @@ def read_touches(
     if not tables:
         raise ValueError("`path`: expected a file or one a point, got an empty dict")
     numbers = _numbered(labels)
-    rows = np.array([numbers[str(label).strip()] for label in labels], dtype=np.int32)
+    rows = np.array([numbers[_label_text(label)] for label in labels], dtype=np.int32)
     columns = [touch_columns(table, joints, unit, covariates or {}) for _, table in tables]
     return Touches(
         np.vstack([column.pop("q") for column in columns]),
@@ -199,10 +199,15 @@ def read_tracked(
 
 def _numbered(labels: Sequence[Any]) -> dict[str, int]:
     """Label → number: itself for a whole number, its rank of appearance for all when one is not."""
-    texts = list(dict.fromkeys(str(label).strip() for label in labels))
+    texts = list(dict.fromkeys(_label_text(label) for label in labels))
     if all(re.fullmatch(r"\d{1,9}", text) for text in texts):
         return {text: int(text) for text in texts}
     return {text: number for number, text in enumerate(texts)}
+
+
+def _label_text(label: Any) -> str:
+    """Blanks around it do not count; a tab is part of a name that was written with it."""
+    return str(label).strip(" ")
 
 
 def _known(touches: Mapping[str, Any], numbers: Mapping[str, int]) -> dict[str, Any]:
@@ -228,7 +233,7 @@ def _planes(
 
 
 def _number(name: str, numbers: Mapping[str, int], label: Any) -> int:
-    text = str(label).strip()
+    text = _label_text(label)
     if text not in numbers:
         raise argument_error(name, f"labels among {', '.join(numbers)}", repr(label))
     return numbers[text]

@@ -6,15 +6,17 @@ from __future__ import annotations
 import csv
 import io
 import math
-import os
 import re
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from bathyal._core import Error
+from bathyal.io.files import PathLike, read_document_text, replacing
 
 LENGTHS = {"m": 1.0, "mm": 1e-3, "cm": 1e-2, "km": 1e3, "um": 1e-6, "µm": 1e-6}
 ANGLES = {"rad": 1.0, "deg": math.pi / 180.0, "°": math.pi / 180.0, "mrad": 1e-3}
@@ -25,6 +27,8 @@ TEMPERATURES = {"c": 1.0, "degc": 1.0, "°c": 1.0}
 _SUFFIXES = {"m", "mm", "cm", "km", "um", "rad", "deg", "mrad", "s", "ms", "min", "kg", "g", "degc",
              "c"}  # fmt: skip
 _BRACKETED = re.compile(r"^(?P<name>.*?)\s*[\[(](?P<unit>[^\])]*)[\])]$")
+# Apostrophes before it count as part: a text that has one already gets one more.
+_FORMULA = re.compile(r"'*[=+\-@\t\r#]")
 _NUMBER = re.compile(r"^[+-]?(\d+[.,]?\d*|[.,]\d+)([eE][+-]?\d+)?$|^[+-]?(nan|inf|infinity)$", re.I)
 
 
@@ -111,12 +115,14 @@ def split_unit(title: str) -> tuple[str, str]:
     return (name, suffix) if name and suffix in _SUFFIXES else (title, "")
 
 
-def read_table(path: str | os.PathLike[str]) -> Table:
+def read_table(path: PathLike) -> Table:
     """Read a table of text, with or without a header.
 
     Columns are parted by semicolon, tab, comma or blanks, whichever the first line shows in this
     order; a comma between digits is the decimal sign where something else parts the columns. Lines
     that begin with ``#`` are comments; lines of empty cells, as spreadsheets append them, are none.
+    An apostrophe before what a spreadsheet would take for a formula (`write_table` puts it there)
+    is taken away.
 
     Raises
     ------
@@ -124,13 +130,7 @@ def read_table(path: str | os.PathLike[str]) -> Table:
         For a file that is no text, is empty, or has a row with more or fewer cells than the first.
     """
     file = Path(path)
-    try:
-        text = file.read_text(encoding="utf-8-sig")
-    except UnicodeDecodeError as error:
-        raise Error(
-            f"{file}: expected text, got bytes that are not UTF-8 (a spreadsheet program "
-            "saves it as CSV UTF-8)"
-        ) from error
+    text = read_document_text(file)
     kept = [(number, line) for number, line in enumerate(text.splitlines(), 1)
             if line.strip(" \t;,") and not line.lstrip().startswith("#")]  # fmt: skip
     if not kept:
@@ -156,7 +156,37 @@ def _split(lines: list[str]) -> list[list[str]]:
         # "q1 [deg]" is one title
         return [re.sub(r"\s+([\[(])", r"\1", line).split() for line in lines]
     rows = csv.reader(io.StringIO("\n".join(lines), newline=""), delimiter=delimiter)
-    return [[cell.strip() for cell in row] for row in rows]
+    return [[_plain_text(cell.strip()) for cell in row] for row in rows]
+
+
+def write_table(
+    path: PathLike,
+    titles: Iterable[str],
+    rows: Iterable[Sequence[Any]],
+    comments: Sequence[str] = (),
+) -> None:
+    """Write a table as .csv; the file appears whole or not at all.
+
+    A text that a spreadsheet would run as a formula (it begins with ``= + - @``, tab or carriage
+    return), and one that `read_table` would take for a comment (``#``), gets an apostrophe before
+    it, which `read_table` takes away. Numbers, also as text, are written as they are.
+    """
+    with replacing(path) as aside, open(aside, "w", encoding="utf-8", newline="") as stream:
+        stream.writelines(f"# {line}\n" for line in comments)
+        table = csv.writer(stream, lineterminator="\n")
+        table.writerow([_harmless(title) for title in titles])
+        table.writerows([_harmless(cell) for cell in row] for row in rows)
+
+
+def _harmless(cell: Any) -> Any:
+    if not isinstance(cell, str) or not _FORMULA.match(cell) or _NUMBER.match(cell):
+        return cell
+    return "'" + cell
+
+
+def _plain_text(cell: str) -> str:
+    """What `_harmless` made harmless, as it was."""
+    return cell[1:] if cell.startswith("'") and _FORMULA.match(cell) else cell
 
 
 def check_unit(name: str, unit: str | None, units: dict[str, float]) -> None:

@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import csv
 import os
 from collections.abc import Mapping
 from importlib.metadata import version
@@ -17,6 +16,7 @@ from bathyal.errors import argument_error
 from bathyal.io.files import replacing
 from bathyal.io.formats.vtp.writer import write_vtp
 from bathyal.io.json import json_text
+from bathyal.io.tables import write_table
 
 if TYPE_CHECKING:
     from bathyal._core import Targets, ToolPath
@@ -120,15 +120,11 @@ def _write_csv(
 ) -> None:
     columns = path_columns(path)
     notes = ["tool path in metres, z up", *_datum_notes(provenance)]
-    with replacing(filename) as aside, open(aside, "w", encoding="utf-8", newline="") as stream:
-        stream.writelines(f"# {note}\n" for note in notes)
-        writer = csv.writer(stream, lineterminator="\n")
-        writer.writerow(columns)
-        as_numbers = (
-            values.astype(np.int8) if values.dtype == bool else values
-            for values in columns.values()
-        )
-        writer.writerows(zip(*(values.tolist() for values in as_numbers), strict=True))
+    as_numbers = (
+        values.astype(np.int8) if values.dtype == bool else values for values in columns.values()
+    )
+    rows = zip(*(values.tolist() for values in as_numbers), strict=True)
+    write_table(filename, columns, rows, comments=notes)
 
 
 def _write_json(

@@ -3,17 +3,16 @@
 
 from __future__ import annotations
 
-import csv
 import math
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from bathyal._core import ArmFit, FitParameter, Touches, Tracked
 from bathyal.errors import argument_error
-from bathyal.io.files import PathLike, replacing
+from bathyal.io.files import PathLike
+from bathyal.io.tables import write_table
 from bathyal.view.text import number
 
 Floats = NDArray[np.float64]
@@ -170,7 +169,7 @@ def write_parameters(fit: ArmFit, path: PathLike) -> None:
          " ".join(f"{trade.name}:{trade.factor:.6g}" for trade in p.trades))
         for p in fit.parameters
     ]  # fmt: skip
-    _write_csv(path, titles, rows)
+    write_table(path, titles, rows)
 
 
 def write_residuals(fit: ArmFit, data: Touches | Tracked, path: PathLike) -> None:
@@ -184,7 +183,7 @@ def write_residuals(fit: ArmFit, data: Touches | Tracked, path: PathLike) -> Non
         (row, name[row], before[row], after[row], *rest)
         for row, rest in enumerate(fit.residuals.tolist())
     ]
-    _write_csv(path, titles, rows)
+    write_table(path, titles, rows)
 
 
 def _need_own(fit: ArmFit, data: Touches | Tracked) -> None:
@@ -218,10 +217,3 @@ def _trades(p: FitParameter) -> str:
     told = [f"{trade.name} {trade.factor:+.2g}".replace("-", "−") for trade in p.trades]
     rest = len(told) - _MOST_TRADES
     return ", ".join(told[:_MOST_TRADES]) + (f" and {rest} more" if rest > 0 else "")
-
-
-def _write_csv(path: PathLike, titles: tuple[str, ...], rows: list[tuple[Any, ...]]) -> None:
-    with replacing(path) as aside, open(aside, "w", encoding="utf-8", newline="") as stream:
-        table = csv.writer(stream, lineterminator="\n")
-        table.writerow(titles)
-        table.writerows(rows)

@@ -202,7 +202,7 @@ def write_text(
     if clash := {"x", "y", "z"} & set(cloud.attributes):
         name = min(clash)
         raise argument_error("attributes", "names other than those of coordinates", repr(name))
-    names = ["x", "y", "z", *(quote(name, safe="/()[]+:") for name in cloud.attributes)]
+    names = ["x", "y", "z", *map(_title, cloud.attributes)]
     lines = ["# metres, z up", *(f"# {k} {' '.join(text.split())}" for k, text in notes.items())]
     lines.append(("# " if separator == " " else "") + separator.join(names))
     preamble = "\n".join([*lines, ""])
@@ -210,3 +210,10 @@ def write_text(
         _core.write_xyz(
             aside, cloud, separator=separator, preamble=preamble, attributes=list(cloud.attributes)
         )
+
+
+def _title(name: str) -> str:
+    """A name as the header can hold it, percent-encoded where need be; never one that a spreadsheet
+    would run as a formula."""
+    title = quote(name, safe="/()[]+:")
+    return f"%{ord(title[0]):02X}{title[1:]}" if title.startswith(("+", "-")) else title
