@@ -74,8 +74,8 @@ def read_bag(path: PathLike) -> Soundings:
 def _member(group: Any, name: str) -> Any:
     """What stands under a name in this very file: HDF5 can also point into others."""
     link = group.get(name, getlink=True)
-    member = group[name]
-    elsewhere = type(link).__name__ != "HardLink"
+    elsewhere = link is not None and type(link).__name__ != "HardLink"
+    member = None if elsewhere else group[name]  # a link is not followed even to look at it
     if elsewhere or getattr(member, "external", None) or getattr(member, "is_virtual", False):
         raise Error(f"{name} is a link to another place, which is not followed")
     return member

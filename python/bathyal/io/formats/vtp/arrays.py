@@ -90,8 +90,9 @@ class ArrayReader:
         if self._compressed:
             return self._inflate(source, expected, width)
         size = int(self._sizes(source, 1)[0])
+        stored = source.take(size)
         self._reserve(size, width)
-        return source.take(size)
+        return stored
 
     def _reserve(self, size: int, width: int) -> None:
         """Raise `Error` where all arrays up to this one take too much, before it is unpacked."""
@@ -107,11 +108,12 @@ class ArrayReader:
         sizes = [size] * (blocks - 1) + [last or size]
         if expected is not None and sum(sizes) != expected * width:
             raise Error(f"expected {expected * width} bytes, its header says {sum(sizes)}")
-        self._reserve(sum(sizes), width)
-        parts = []
         for packed_size, full_size in zip(packed, sizes, strict=True):
             if full_size > _MOST_PER_BYTE * packed_size:
                 raise Error(f"a block of {packed_size} bytes cannot hold {full_size}")
+        self._reserve(sum(sizes), width)
+        parts = []
+        for packed_size, full_size in zip(packed, sizes, strict=True):
             parts.append(zlib.decompressobj().decompress(source.take(packed_size), full_size))
             if len(parts[-1]) != full_size:
                 raise Error(f"a block holds {len(parts[-1])} bytes, its header says {full_size}")
