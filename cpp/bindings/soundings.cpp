@@ -11,8 +11,8 @@
 
 #include "arrays.hpp"
 #include "bathyal/base/error.hpp"
-#include "bathyal/soundings/byte_source.hpp"
 #include "bathyal/soundings/clean_cloud.hpp"
+#include "bathyal/soundings/file_limit.hpp"
 #include "bathyal/soundings/pcd.hpp"
 #include "bathyal/soundings/text_table.hpp"
 #include "bathyal/soundings/write_xyz.hpp"

@@ -13,6 +13,7 @@
 
 #include "bathyal/base/error.hpp"
 #include "bathyal/base/parallel.hpp"
+#include "bathyal/soundings/file_limit.hpp"
 #include "bathyal/soundings/internal/byte_source.hpp"
 #include "bathyal/soundings/internal/growing_array.hpp"
 #include "bathyal/soundings/internal/lzf.hpp"

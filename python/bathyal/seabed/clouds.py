@@ -23,7 +23,8 @@ from bathyal.io.formats.points.geotiff import read_geotiff
 from bathyal.io.formats.points.las import read_las
 from bathyal.io.formats.points.soundings import Soundings
 from bathyal.io.formats.points.text import Columns, read_text, write_text
-from bathyal.io.formats.vtp import read_vtp, write_vtp
+from bathyal.io.formats.vtp.reader import read_vtp
+from bathyal.io.formats.vtp.writer import write_vtp
 
 _TEXT = (".asc", ".csv", ".txt", ".xyz")
 _GRIDS = (".tif", ".tiff")

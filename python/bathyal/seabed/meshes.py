@@ -20,7 +20,8 @@ from bathyal.io.formats.meshes.obj import read_obj, write_obj
 from bathyal.io.formats.meshes.ply import read_ply, write_ply
 from bathyal.io.formats.meshes.stl import read_stl, write_stl
 from bathyal.io.formats.notes import notes_of, notes_of_fields
-from bathyal.io.formats.vtp import read_vtp, write_vtp
+from bathyal.io.formats.vtp.reader import read_vtp
+from bathyal.io.formats.vtp.writer import write_vtp
 
 # The first axis of the file's right-handed frame that points up, turned to z.
 _Z_UP_FROM = {

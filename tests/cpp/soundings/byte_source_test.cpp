@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "bathyal/soundings/byte_source.hpp"
+#include "bathyal/soundings/internal/byte_source.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -11,6 +11,7 @@
 #include <string>
 
 #include "bathyal/base/error.hpp"
+#include "bathyal/soundings/file_limit.hpp"
 
 namespace bathyal {
 namespace {

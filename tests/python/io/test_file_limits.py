@@ -18,7 +18,7 @@ import pytest
 
 import bathyal
 from bathyal import Error
-from bathyal.io.formats.vtp import read_vtp
+from bathyal.io.formats.vtp.reader import read_vtp
 from bathyal.seabed.bottom import file_facts
 from tests.support.alone import MEMORY, Case, check, refused, works
 from tests.support.bad_input import written

@@ -31,14 +31,6 @@ std::unique_ptr<ByteSource> open_file(const std::filesystem::path& path);
 /// `bytes` must outlive the source.
 std::unique_ptr<ByteSource> open_memory(std::string_view bytes);
 
-/// What one file may take in memory, as it is and as what it unfolds to: BATHYAL_MOST_BYTES of the
-/// environment, 4 GiB where that is not set. All readers share it, those in Python too.
-/// \throw Error where the variable holds no whole number.
-std::size_t most_bytes();
-
-/// \throw Error that starts with `what` and names the limit, where `bytes` is above `most_bytes`.
-void check_bytes(const std::string& what, double bytes);
-
 /// Text as it may stand in a message: valid UTF-8 as it is, anything else as \xNN, and no more than
 /// `limit` bytes of it.
 std::string printable(std::string_view text, std::size_t limit = 60);
