@@ -39,7 +39,7 @@ RowMatrix covariate_argument(const std::string& name, const py::object& object, 
   return table_argument(argument, array, array.ndim() == 2 ? array.shape(1) : 1);
 }
 
-Covariates asked_covariates(const CorrectedArm& model, const py::object& object) {
+Covariates covariates_argument(const CorrectedArm& model, const py::object& object) {
   Covariates covariates;
   if (object.is_none()) return covariates;
   if (!py::isinstance<py::dict>(object)) {
@@ -48,10 +48,10 @@ Covariates asked_covariates(const CorrectedArm& model, const py::object& object)
   }
   for (const auto& [key, value] : object.cast<py::dict>()) {
     const std::string name = py::str(key);
-    const auto taught = model.support().covariates.find(name);
-    const Index columns = name == "gravity"                            ? 3
-                          : taught == model.support().covariates.end() ? 1
-                                                                       : taught->second.low.size();
+    const auto range = model.support().covariates.find(name);
+    const Index columns = name == "gravity"                           ? 3
+                          : range == model.support().covariates.end() ? 1
+                                                                      : range->second.low.size();
     covariates[name] = covariate_argument(name, py::reinterpret_borrow<py::object>(value), columns);
   }
   return covariates;
@@ -72,17 +72,17 @@ Support::Range range_argument(const std::string& name, const py::object& object,
 }
 
 std::vector<std::vector<Support::Gap>> gaps_argument(const py::sequence& gaps) {
-  std::vector<std::vector<Support::Gap>> told;
+  std::vector<std::vector<Support::Gap>> out;
   for (const py::handle& of_joint : gaps) {
-    told.emplace_back();
-    const std::string name = "gaps of joint " + std::to_string(told.size());
+    out.emplace_back();
+    const std::string name = "gaps of joint " + std::to_string(out.size());
     const py::array array = array_argument(name, py::reinterpret_borrow<py::object>(of_joint),
                                            "real numbers of shape (N, 2)");
     if (array.size() == 0) continue;
     const RowMatrix table = table_argument(name, array, 2);
-    for (const auto& row : table.rowwise()) told.back().push_back({row[0], row[1]});
+    for (const auto& row : table.rowwise()) out.back().push_back({row[0], row[1]});
   }
-  return told;
+  return out;
 }
 
 Support make_support(const py::object& joints, const py::sequence& gaps, const py::object& gravity,
@@ -129,25 +129,25 @@ py::array to_numpy(const SupportMask& mask, bool single) {
 }
 
 py::list to_python(const std::vector<std::vector<Support::Gap>>& gaps) {
-  py::list told;
+  py::list out;
   for (const std::vector<Support::Gap>& of_joint : gaps) {
     RowMatrix table(static_cast<Index>(of_joint.size()), 2);
     for (std::size_t i = 0; i < of_joint.size(); ++i) {
       table.row(static_cast<Index>(i)) << of_joint[i].low, of_joint[i].high;
     }
-    told.append(python::to_numpy(table));
+    out.append(python::to_numpy(table));
   }
-  return told;
+  return out;
 }
 
-/// One warning of a call that held effects or left them out, told from where it was called.
+/// One warning for a call in which effects were held or omitted, reported at the line of the call.
 void warn_of_support(const CorrectedArm& model, const RowMatrix& q, const Covariates& covariates,
                      const SupportMask& mask) {
   if (mask.all()) return;
-  py::dict told;
-  for (const auto& [name, values] : covariates) told[py::str(name)] = python::to_numpy(values);
+  py::dict out;
+  for (const auto& [name, values] : covariates) out[py::str(name)] = python::to_numpy(values);
   py::module_::import("bathyal.arm.support_warning")
-      .attr("warn")(py::cast(&model, py::return_value_policy::reference), python::to_numpy(q), told,
+      .attr("warn")(py::cast(&model, py::return_value_policy::reference), python::to_numpy(q), out,
                     to_numpy(mask, false));
 }
 
@@ -156,14 +156,14 @@ void warn_of_support(const CorrectedArm& model, const RowMatrix& q, const Covari
 py::array forward_python(const CorrectedArm& model, const py::object& q,
                          const py::object& covariates, bool links, int num_threads) {
   const Rows rows = rows_argument("q", q, model.size());
-  const Covariates asked = asked_covariates(model, covariates);
+  const Covariates given = covariates_argument(model, covariates);
   CorrectedPoses found;
   {
     const py::gil_scoped_release release;
-    found = links ? model.forward_links(view_of(rows), asked, num_threads)
-                  : model.forward(view_of(rows), asked, num_threads);
+    found = links ? model.forward_links(view_of(rows), given, num_threads)
+                  : model.forward(view_of(rows), given, num_threads);
   }
-  warn_of_support(model, rows.table, asked, found.in_support);
+  warn_of_support(model, rows.table, given, found.in_support);
   std::vector<py::ssize_t> tail{4, 4};
   if (links) tail.insert(tail.begin(), static_cast<py::ssize_t>(model.arm().links().size()));
   return python::to_numpy(std::move(found.poses), rows.single, std::move(tail));
@@ -172,14 +172,14 @@ py::array forward_python(const CorrectedArm& model, const py::object& q,
 py::array jacobian_python(const CorrectedArm& model, const py::object& q,
                           const py::object& covariates, const std::string& frame, int num_threads) {
   const Rows rows = rows_argument("q", q, model.size());
-  const Covariates asked = asked_covariates(model, covariates);
+  const Covariates given = covariates_argument(model, covariates);
   const TipFrame axes = word_argument("frame", frame, frame_words());
   CorrectedJacobians found;
   {
     const py::gil_scoped_release release;
-    found = model.jacobian(view_of(rows), asked, axes, num_threads);
+    found = model.jacobian(view_of(rows), given, axes, num_threads);
   }
-  warn_of_support(model, rows.table, asked, found.in_support);
+  warn_of_support(model, rows.table, given, found.in_support);
   return python::to_numpy(std::move(found.jacobians), rows.single, {6, model.size()});
 }
 
@@ -188,26 +188,26 @@ InverseAnswer inverse_python(const CorrectedArm& model, const py::object& poses,
                              const InverseOptions& options) {
   const Targets targets = targets_argument(poses, options.task);
   const Rows starts = start.is_none() ? Rows{} : rows_argument("start", start, model.size());
-  const Covariates asked = asked_covariates(model, covariates);
+  const Covariates given = covariates_argument(model, covariates);
   CorrectedInverse found;
   {
     const py::gil_scoped_release release;
     const JointView view(starts.table.data(), start.is_none() ? 0 : starts.table.rows(),
                          model.size());
-    found = model.inverse(targets.poses, view, asked, options);
+    found = model.inverse(targets.poses, view, given, options);
   }
-  warn_of_support(model, found.result.q, asked, found.in_support);
+  warn_of_support(model, found.result.q, given, found.in_support);
   return {std::move(found.result), targets.single};
 }
 
 py::array in_support_python(const CorrectedArm& model, const py::object& q,
                             const py::object& covariates) {
   const Rows rows = rows_argument("q", q, model.size());
-  const Covariates asked = asked_covariates(model, covariates);
+  const Covariates given = covariates_argument(model, covariates);
   SupportMask mask;
   {
     const py::gil_scoped_release release;
-    mask = model.in_support(view_of(rows), asked);
+    mask = model.in_support(view_of(rows), given);
   }
   return to_numpy(mask, rows.single);
 }
@@ -216,7 +216,7 @@ std::string repr_of(const CorrectedArm& model) {
   const Arm& arm = model.arm();
   std::string text = "CorrectedArm(" + (arm.name().empty() ? "" : "\"" + arm.name() + "\", ");
   text += std::to_string(arm.size()) + (arm.size() == 1 ? " joint" : " joints");
-  for (const FoundEffect& found : model.effects()) text += ", " + words_of(found);
+  for (const FoundEffect& found : model.effects()) text += ", " + describe(found);
   return text + ")";
 }
 
@@ -233,7 +233,7 @@ void bind_support(py::module_& module) {
       .def_property_readonly(
           "gaps", [](const Support& s) { return to_python(s.gaps); },
           "Of each coordinate (g, 2) from and to: stretches within its range without data, wider "
-          "than a 200th of it; an empty list where nobody told.")
+          "than a 200th of it; an empty list where unknown.")
       .def_property_readonly(
           "gravity", [](const Support& s) { return to_numpy(s.gravity); }, "(2, 3) [m/s²]")
       .def_property_readonly(
@@ -246,7 +246,7 @@ void bind_support(py::module_& module) {
           "Name to (2, k): all but `session` and `gravity`.")
       .def_property_readonly(
           "sessions", [](const Support& s) { return python::to_numpy(s.sessions); },
-          "(s,) that were seen.")
+          "(s,) of the training data.")
       .def("__repr__", [](const Support& s) {
         return "Support(" + std::to_string(s.joints.low.size()) + " joints, " +
                std::to_string(s.covariates.size()) + " covariates, " +
@@ -258,7 +258,7 @@ void bind_support(py::module_& module) {
 void add_rigid_part(py::class_<CorrectedArm>& cls) {
   cls.def_property_readonly(
          "arm", [](const CorrectedArm& m) { return m.arm(); },
-         "Arm: a copy of the rigid part, for what knows no effects (.to_urdf() of it).")
+         "Arm: a copy of the rigid part, for uses without effects (its .to_urdf()).")
       .def_property_readonly("name", [](const CorrectedArm& m) { return m.arm().name(); })
       .def_property_readonly(
           "source", [](const CorrectedArm& m) { return m.arm().source(); },
@@ -334,8 +334,8 @@ void bind_corrected_arm(py::module_& module) {
             return CorrectedArm(arm, std::move(effects), support_argument(data));
           }),
           py::arg("arm"), py::arg("effects"), py::arg("data"))
-      .def_property_readonly("effects", &CorrectedArm::effects, "The FoundEffects: a list.")
-      .def_property_readonly("support", &CorrectedArm::support, "What the data covered.")
+      .def_property_readonly("effects", &CorrectedArm::effects, "List of FoundEffect.")
+      .def_property_readonly("support", &CorrectedArm::support, "The region that the data cover.")
       .def_property_readonly(
           "gaps", [](const CorrectedArm& m) { return to_python(m.gaps()); },
           "Of each coordinate (g, 2) from and to: gaps of the support in which a wave or curve "
@@ -351,7 +351,8 @@ void bind_corrected_arm(py::module_& module) {
       .def("in_support", &in_support_python, py::arg("q"), py::kw_only(),
            py::arg("covariates") = py::none(), kInSupportDoc)
       .def(
-          "copy", [](const CorrectedArm& m) { return m; }, "One of its own, base and tool too.")
+          "copy", [](const CorrectedArm& m) { return m; },
+          "An independent copy, with its own base and tool.")
       .def("__copy__", [](const CorrectedArm& m) { return m; })
       .def(
           "__deepcopy__", [](const CorrectedArm& m, const py::dict&) { return m; }, py::arg("memo"))

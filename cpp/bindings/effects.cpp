@@ -18,7 +18,7 @@ namespace {
 
 namespace py = pybind11;
 
-constexpr double kOrdinarySize = 1e-3;  ///< of a parameter of which nobody said more
+constexpr double kTypicalSize = 1e-3;  ///< of a parameter without a given scale
 
 const Words<UserSite>& site_words() {
   static const Words<UserSite> words{{"joint", UserSite::kJoint},
@@ -30,9 +30,10 @@ const Words<UserSite>& site_words() {
 
 /// Value by name; `otherwise` where the dict does not have it.
 template <class Value>
-Value told_or(const std::map<std::string, Value>& told, const std::string& name, Value otherwise) {
-  const auto found = told.find(name);
-  return found == told.end() ? std::move(otherwise) : found->second;
+Value value_or_default(const std::map<std::string, Value>& given, const std::string& name,
+                       Value otherwise) {
+  const auto found = given.find(name);
+  return found == given.end() ? std::move(otherwise) : found->second;
 }
 
 /// Names of a dict in its own order, with what it says of them.
@@ -57,48 +58,48 @@ std::shared_ptr<Effect> make_effect(std::string name, py::function function,
                                     std::string words, std::string formula, std::string source,
                                     const std::map<std::string, double>& scales, bool by_difference,
                                     double period) {
-  UserEffect told;
-  told.info.name = std::move(name);
-  told.info.words = std::move(words);
-  told.info.formula = std::move(formula);
-  told.info.source = std::move(source);
-  told.info.needs = std::move(needs);
-  told.info.by_difference = by_difference;
+  UserEffect user;
+  user.info.name = std::move(name);
+  user.info.description = std::move(words);
+  user.info.formula = std::move(formula);
+  user.info.source = std::move(source);
+  user.info.needs = std::move(needs);
+  user.info.by_difference = by_difference;
   if (!(period > 0.0)) throw_argument("period", "a length above 0", to_text(period));
-  told.period = period;
-  told.site = word_argument("site", site, site_words());
+  user.period = period;
+  user.site = word_argument("site", site, site_words());
   for (auto& [parameter, unit] :
        items_argument<std::string>("parameters", parameters, "a dict of name to unit")) {
-    const double scale = told_or(scales, parameter, kOrdinarySize);
-    told.info.ranges.push_back({parameter, unit, 0.0, std::numeric_limits<double>::infinity()});
-    told.parameters.push_back({std::move(parameter), std::move(unit), scale});
+    const double scale = value_or_default(scales, parameter, kTypicalSize);
+    user.info.ranges.push_back({parameter, unit, 0.0, std::numeric_limits<double>::infinity()});
+    user.parameters.push_back({std::move(parameter), std::move(unit), scale});
   }
   for (const auto& [parameter, scale] : scales) {
-    const bool known = std::any_of(told.parameters.begin(), told.parameters.end(),
+    const bool known = std::any_of(user.parameters.begin(), user.parameters.end(),
                                    [&](const EffectParameter& p) { return p.name == parameter; });
     if (!known) throw_argument("scales", "names of parameters", "\"" + parameter + "\"");
   }
   if (py::isinstance<py::str>(joints)) {
     const auto word = joints.cast<std::string>();
     if (word != "each") throw_argument("joints", "\"each\" or a list", "\"" + word + "\"");
-    told.each_joint = true;
+    user.each_joint = true;
   } else if (!joints.is_none()) {
     try {
-      told.joints = joints.cast<std::vector<int>>();
+      user.joints = joints.cast<std::vector<int>>();
     } catch (const py::cast_error&) {
       throw_argument("joints", "\"each\" or a list of whole numbers",
                      py::repr(joints).cast<std::string>());
     }
   }
-  return make_python_effect(std::move(told), std::move(function));
+  return make_python_effect(std::move(user), std::move(function));
 }
 
 std::string text_of(const EffectInfo& info) {
   std::string text = info.name;
-  const auto line = [&text](const char* what, const std::string& told) {
-    if (!told.empty()) text += "\n  " + std::string(what) + told;
+  const auto line = [&text](const char* what, const std::string& value) {
+    if (!value.empty()) text += "\n  " + std::string(what) + value;
   };
-  line("", info.words);
+  line("", info.description);
   line("formula: ", info.formula);
   for (const EffectInfo::Range& range : info.ranges) {
     line("", range.parameter + ": " + to_text(range.low) + " to " + to_text(range.high) + " " +
@@ -140,14 +141,14 @@ FoundEffect make_found(const py::object& effect, const py::dict& parameters,
   found.variant.effect = info.name;
   found.variant.joint = joint.value_or(-1);
   found.variant.settings = std::move(settings);
-  found.variant.cause = std::move(cause);
+  found.variant.alias_group = std::move(cause);
   const auto values = items_argument<double>("parameters", parameters, "a dict of name to number");
   found.values.resize(static_cast<Eigen::Index>(values.size()));
   for (std::size_t i = 0; i < values.size(); ++i) {
     const std::string& name = values[i].first;
     found.values[static_cast<Eigen::Index>(i)] = values[i].second;
-    found.variant.parameters.push_back(
-        {name, told_or(units, name, unit_of(info, name)), told_or(scales, name, kOrdinarySize)});
+    found.variant.parameters.push_back({name, value_or_default(units, name, unit_of(info, name)),
+                                        value_or_default(scales, name, kTypicalSize)});
   }
   return found;
 }
@@ -190,19 +191,19 @@ void bind_effect(py::module_& module) {
            py::arg("period") = std::numeric_limits<double>::infinity())
       .def_property_readonly("name", [](const Effect& e) { return e.info().name; })
       .def_property_readonly(
-          "words", [](const Effect& e) { return e.info().words; }, "What it is, for people.")
+          "words", [](const Effect& e) { return e.info().description; }, "Description.")
       .def_property_readonly("formula", [](const Effect& e) { return e.info().formula; })
       .def_property_readonly(
           "source", [](const Effect& e) { return e.info().source; }, "Paper or textbook.")
       .def_property_readonly(
           "needs", [](const Effect& e) { return e.info().needs; },
-          "Covariates without which it cannot be seen.")
+          "Covariates without which it is not observable.")
       .def_property_readonly(
           "ranges", [](const Effect& e) { return e.info().ranges; },
           "EffectRange of each parameter.")
       .def_property_readonly(
           "by_difference", [](const Effect& e) { return e.info().by_difference; },
-          "Whether it looks at how rows differ from their neighbours.")
+          "Whether it depends on how rows differ from their neighbours.")
       .def("__str__", [](const Effect& e) { return text_of(e.info()); })
       .def("__repr__", [](const Effect& e) { return "Effect(\"" + e.info().name + "\")"; });
 }
@@ -225,7 +226,7 @@ void bind_found_effect(py::module_& module) {
           "Counted from 0, or None.")
       .def_property_readonly(
           "settings", [](const FoundEffect& f) { return f.variant.settings; },
-          "What tells this form of the effect from others.")
+          "What distinguishes this variant of the effect from others.")
       .def_property_readonly(
           "parameters",
           [](const FoundEffect& f) {
@@ -247,8 +248,8 @@ void bind_found_effect(py::module_& module) {
             return by_parameter(
                 f, [&](std::size_t i) { return py::float_(f.variant.parameters[i].scale); });
           },
-          "Name to an ordinary size.")
-      .def_property_readonly("cause", [](const FoundEffect& f) { return f.variant.cause; })
+          "Name to a typical size.")
+      .def_property_readonly("cause", [](const FoundEffect& f) { return f.variant.alias_group; })
       .def("__repr__", &repr_of);
 }
 

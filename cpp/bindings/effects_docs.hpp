@@ -5,18 +5,19 @@
 
 namespace bathyal::python {
 
-inline constexpr const char* kEffectRowsDoc = R"(The rows that an effect's function is asked for.
+inline constexpr const char* kEffectRowsDoc =
+    R"(The rows at which the function of an effect is evaluated.
 
 Its numbers must follow from each row alone (or, with ``by_difference=True``, from how rows differ
 from their neighbours), so that an effect found in one recording means the same in the next.
 )";
 
 inline constexpr const char* kEffectDoc =
-    R"(Something that may be wrong with an arm beside its geometry.
+    R"(An error of an arm that its geometric parameters cannot represent.
 
 Those of the library come from `bathyal.effects.list`; this makes one of your own. It is linear in
 its parameters: each moves its site by itself times the numbers that the function gives for it.
-Python functions are slow beside the library's; write one in C++ to make it fast.
+Python functions are slow compared with the library's; write one in C++ to make it fast.
 
 Parameters
 ----------
@@ -34,17 +35,17 @@ joints : "each" or list of int, optional
 site : str
     What it moves: "joint", "base", "tool" or "lengths" (all a and d of the arm).
 needs : list of str
-    Covariates without which it cannot be seen.
+    Covariates without which it is not observable.
 words, formula, source : str
     For people.
 scales : dict of str to float, optional
-    An ordinary size of each parameter, in its unit; 1e-3 unless given.
+    A typical size of each parameter, in its unit; 1e-3 unless given.
 by_difference : bool
-    Whether it looks at how rows differ from their neighbours, not at where they lie: the ranges of
-    the data that taught it are no bounds to it.
+    Whether it depends on how rows differ from their neighbours and not on the rows themselves: the
+    ranges of the training data do not bound it.
 period : float
-    The shortest stretch of joint values over which what it does comes and goes [rad] or [m]: in a
-    wider gap of the data a corrected arm holds it at the edge. Infinite unless given.
+    The shortest length scale of its dependence on joint values [rad] or [m]: in a wider gap of the
+    data a corrected arm holds it at its value at the edge. Infinite unless given.
 
 Raises
 ------
@@ -65,7 +66,7 @@ Effect("cable")
 )";
 
 inline constexpr const char* kFoundEffectDoc =
-    R"(An effect with its values: what a corrected arm carries.
+    R"(An effect with its values, as part of a corrected arm.
 
 Parameters
 ----------
@@ -76,13 +77,13 @@ parameters : dict of str to float
 joint : int, optional
     Counted from 0.
 settings : dict of str to float, optional
-    What tells this form of the effect from others, such as ``{"order": 2}``.
+    What distinguishes this variant of the effect from others, such as ``{"order": 2}``.
 units : dict of str to str, optional
     Of the parameters; the effect's own unless given.
 scales : dict of str to float, optional
-    Ordinary sizes of the parameters, above 0; 1e-3 unless given.
+    Typical sizes of the parameters, above 0; 1e-3 unless given.
 cause : str
-    Effects of one cause are words for the same thing.
+    Effects of one cause are descriptions of the same thing.
 
 Raises
 ------
@@ -96,44 +97,44 @@ Examples
 FoundEffect("joint_harmonic", joint=2, cos=0.001, sin=0)
 )";
 
-inline constexpr const char* kSupportDoc = R"(What the data that taught a corrected arm covered.
+inline constexpr const char* kSupportDoc =
+    R"(The region that the training data of a corrected arm cover.
 
 Parameters
 ----------
 joints : (2, n) array
-    Least and greatest of each coordinate [rad] or [m].
+    Minimum and maximum of each coordinate [rad] or [m].
 gaps : list of (g, 2) arrays, optional
-    Of each coordinate, from and to: stretches within its range without data, rising.
+    Of each coordinate, from and to: intervals within its range without data, ascending.
 gravity : (2, 3) array, optional
     [m/s²] in the arm's base frame; straight down unless given.
 covariates : dict of str to (2, k) array, optional
     Of all others but `session`.
 sessions : (s,) array, optional
-    That were seen, rising.
+    Of the training data, ascending.
 )";
 
-inline constexpr const char* kCorrectedArmDoc = R"(An arm with what a diagnosis found inside.
+inline constexpr const char* kCorrectedArmDoc = R"(An arm with the result of a diagnosis.
 
-Rigid geometry, effects with their values, and the support of the data that taught them; what
-``report.model`` is. `q` is what the controller records; the effects move joints, frames and
-lengths from there.
+Rigid geometry, effects with their values, and the support of the training data: the type of
+``report.model``. `q` is what the controller records; the effects perturb joints, frames and lengths
+from there.
 
-An effect counts in a row where its own arguments lie within the support: in the ranges that taught
-it, and in no gap between joint values wider than its period (of waves and curves along one joint,
-which were found together, the shortest).
-Where one lies beyond (a joint, a temperature, a load) and would change what the effect does, the
-effect is held: a wave or curve along its joint at its average over what was taught, for beyond that
-it may do anything; what is smooth at what it does in the nearest row within. An effect that needs
-what is not known (a NaN covariate, a session that nobody saw) is left out, and where all are the
-answer is the rigid arm's. That is never silent: each call warns once with a `SupportWarning`, and
-`in_support` gives the rows.
+An effect applies in a row where its own arguments lie within the support: within the ranges of the
+training data, and in no gap between joint values wider than its period (of harmonics and curves
+along one joint, which were fitted together, the shortest). Where an argument lies beyond (a joint,
+a temperature, a load) and would change the effect, the effect is held constant: a harmonic or curve
+along its joint at its average over the training data, because its extrapolation is undetermined; a
+smooth effect at its value in the nearest row within. An effect whose argument is unknown (a NaN
+covariate, a session without training data) is omitted, and where all are the result is that of the
+rigid arm. Each such call warns once with a `SupportWarning`, and `in_support` gives the rows.
 
-Every method that computes takes ``covariates``, a dict of name to a number, (N,) or (N, k) array. An
-effect that needs one that is missing is left out with the warning where no covariates are told at
-all, and refused where some are. `payload` counts 0 kg and `gravity` (0, 0, −9.80665) m/s² in the
-arm's base frame unless told. A base that moved and a tool that was changed follow `session`; a tool
-that slipped follows `time`, and without it has slipped; joints that are late follow the speed that
-`time` tells between rows, and without it stand still.
+Every method that computes takes ``covariates``, a dict of name to a number, (N,) or (N, k) array.
+An effect that needs a missing one is omitted with the warning where no covariates are given at all,
+and refused where some are. `payload` defaults to 0 kg and `gravity` to (0, 0, −9.80665) m/s² in the
+base frame of the arm. A base that moved and a tool that was changed follow `session`; a tool that
+slipped follows `time`, and without it has slipped; a clock shift follows the speeds between rows by
+`time`, and without it joints are at rest.
 
 Parameters
 ----------
@@ -141,13 +142,13 @@ arm : Arm
     The rigid part, with base and tool.
 effects : list of FoundEffect
 data : Touches, Tracked or Support
-    What taught them.
+    The training data.
 
 Raises
 ------
 ValueError
-    For an effect whose values or settings do not fit the arm, or that needs a covariate of which
-    `data` say nothing.
+    For an effect whose values or settings do not fit the arm, or that needs a covariate that `data`
+    does not have.
 
 Examples
 --------
@@ -189,19 +190,20 @@ Returns
 Raises
 ------
 ValueError
-    For other shapes, and for a covariate that an effect needs and that is missing among others.
+    For other shapes, and for an incomplete set of covariates.
 
 Warns
 -----
 SupportWarning
-    Where effects were held or left out.
+    Where effects were held or omitted.
 )";
 
 inline constexpr const char* kCorrectedJacobianDoc =
     R"(Geometric Jacobians at the tool centre point.
 
-The derivative of `forward`: of the chain as it stands, of the effects by central differences of what they move (1e-6 rad or m apart). Arguments, errors and warnings are
-those of `forward`, and the axes of `Arm.jacobian`.
+The derivative of `forward`: analytic for the perturbed chain, with central differences of the
+perturbations (step 1e-6 rad or m). Arguments, errors and warnings are those of `forward`, and the
+axes of `Arm.jacobian`.
 
 Returns
 -------
@@ -210,16 +212,16 @@ Returns
 )";
 
 inline constexpr const char* kCorrectedInverseDoc =
-    R"(What the controller is to be told to bring the tool to poses.
+    R"(The joint values to command so that the tool reaches poses.
 
-The rigid arm (`Arm.inverse`, method "damped") is sent where the target lies less what the effects
-do, until the corrected tip agrees to the tolerances, 1e-9 m and rad unless given. Arguments and
-statuses are those of `Arm.inverse`, with `covariates` as `forward` takes them; errors are those of
-the corrected arm.
+The rigid arm (`Arm.inverse`, method "damped") is sent to the target minus the effects, until the
+corrected tip agrees to the tolerances, 1e-9 m and rad unless given. Arguments and statuses are
+those of `Arm.inverse`, with `covariates` as `forward` takes them; errors are those of the corrected
+arm.
 
 A pose in the middle of a gap, where an effect held at one edge brings it nearer to the other, is
-"singular", with the error that is left. On the edge of what the rigid arm reaches a pose may be
-called out of reach by as little as the effects amount to.
+"singular", with the remaining error. At the edge of the workspace of the rigid arm a pose may be
+reported out of reach within the size of the effects.
 
 Returns
 -------
@@ -234,10 +236,10 @@ ValueError
 Warns
 -----
 SupportWarning
-    Where effects were held or left out at the q that was found.
+    Where effects were held or omitted at the solution q.
 )";
 
-inline constexpr const char* kInSupportDoc = R"(Which effects count in which row.
+inline constexpr const char* kInSupportDoc = R"(Which effects apply in which row.
 
 Parameters
 ----------

@@ -9,14 +9,14 @@
 
 #include "bathyal/effects/effect.hpp"
 
-// Effects at the border: what Python sees of them, and those that Python brings.
+// Bindings of effects, and effects defined in Python.
 
 namespace bathyal::python {
 
 /// Where an effect of a user acts.
 enum class UserSite { kJoint, kBase, kTool, kLengths };
 
-/// What a user tells of an effect of their own.
+/// The description of a user-defined effect.
 struct UserEffect {
   EffectInfo info;
   std::vector<EffectParameter> parameters;
@@ -26,12 +26,12 @@ struct UserEffect {
   double period = std::numeric_limits<double>::infinity();
 };
 
-/// An effect whose numbers come from a Python function. It takes the GIL for each call, and tells
-/// whatever goes wrong in there by the effect's name.
-/// \throw std::invalid_argument for what is told amiss.
-std::shared_ptr<Effect> make_python_effect(UserEffect told, pybind11::function function);
+/// An effect whose numbers come from a Python function. It takes the GIL for each call, and reports
+/// errors of the function with the name of the effect.
+/// \throw std::invalid_argument for an invalid description.
+std::shared_ptr<Effect> make_python_effect(UserEffect description, pybind11::function function);
 
-/// What the function is given; before the class Effect.
+/// The argument of the function; to be bound before the class Effect.
 void bind_effect_rows(pybind11::module_& module);
 
 }  // namespace bathyal::python

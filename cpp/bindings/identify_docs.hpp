@@ -18,8 +18,8 @@ point : (N,) int array
 q_deg : (N, n) array
     In place of `q`, in degrees (every column: for arms that only turn).
 known_distances : dict
-    {(label, label): distance} between touched points [m]. Touches cannot tell an arm from a smaller
-    one; one such distance can.
+    {(label, label): distance} between touched points [m]. Touches alone do not determine the scale
+    of the arm; one such distance does.
 distance_std : float
     Standard deviation of those distances [m].
 known_points : dict
@@ -31,20 +31,20 @@ planes : dict
 weights : (N,) array
     1 / variance of a row, up to a factor. Equal when not given.
 tool, station : (N,) int array
-    Which tool touched, and where the base stood, each counted from 0.
+    Tool of the touch and position of the base, each counted from 0.
 covariates : dict
-    {name: (N,) or (N, k) array} recorded beside: temperature, time, payload, direction, gravity …
+    {name: (N,) or (N, k) array} recorded in addition: temperature, time, payload, direction, gravity …
     nan in rows where it was not recorded.
 session : (N,) int array
     Short for the covariate ``session``.
 names : dict
-    {label: name} of touched points, for people to read; a label may have none.
+    {label: name} of touched points, for reports; a label may have none.
 
 Raises
 ------
 ValueError
     For lengths that differ, numbers that are not finite, values that can only be degrees (give them
-    as ``q_deg``), poses that are all equal, one pose for each point, labels that nobody touched.
+    as ``q_deg``), poses that are all equal, one pose for each point, labels without a touch.
 
 Examples
 --------
@@ -54,7 +54,7 @@ Touches(2 poses, 3 joints)
 )";
 
 inline constexpr const char* kTrackedDoc =
-    R"(Joint values beside the measured place of the tool's tip.
+    R"(Joint values and measured positions of the tool's tip.
 
 Parameters
 ----------
@@ -69,9 +69,9 @@ q_deg : (N, n) array
 weights : (N,) array
     1 / variance of a row, up to a factor. Equal when not given.
 tool, station : (N,) int array
-    Which target on the tool was seen, and where base and instrument stood, each counted from 0.
+    Target on the tool, and position of base and instrument, each counted from 0.
 covariates : dict
-    {name: (N,) or (N, k) array} recorded beside: temperature, time, payload, direction, gravity …
+    {name: (N,) or (N, k) array} recorded in addition: temperature, time, payload, direction, gravity …
     nan in rows where it was not recorded.
 session : (N,) int array
     Short for the covariate ``session``.
@@ -88,24 +88,24 @@ Examples
 Tracked(2 poses, 2 joints)
 )";
 
-inline constexpr const char* kFitParameterDoc = R"(One unknown, as found by `identify_arm`.
+inline constexpr const char* kFitParameterDoc = R"(One parameter as estimated by `identify_arm`.
 
-``status`` is "identified"; "gauge" (held: base or tool can do all that it could do); "prior" (a
-prior tells it, the data do not); "not_identifiable"; "fixed" (held on request); "pruned" (put back
-to nominal on request). ``trades`` lists what it moves with, unseen by the data.
+``status`` is "identified"; "gauge" (fixed: base or tool can represent it); "prior" (determined by a
+prior, not by the data); "not_identifiable"; "fixed" (on request); "pruned" (reset to nominal on
+request). ``trades`` lists the parameters that take part in an unobservable change of it.
 )";
 
 inline constexpr const char* kArmFitDoc =
-    R"(The arm found by `identify_arm` and how far to trust it.
+    R"(Result of `identify_arm`: the arm with its uncertainty.
 
-``str(fit)`` and ``fit.summary()`` tell it in one paragraph.
+``str(fit)`` and ``fit.summary()`` describe it in one paragraph.
 )";
 
 inline constexpr const char* kTipCovarianceDoc =
-    R"(Covariance of the tip that ``fit.arm`` foretells, in the frame of its base.
+    R"(Covariance of the tip predicted by ``fit.arm``, in the frame of its base.
 
-Gauge counts nothing, the arm's size counts. Infinite on the diagonal where something that neither
-data nor priors tell moves the tip.
+Gauge freedom does not count, the scale of the arm counts. Infinite on the diagonal where a
+direction that neither data nor priors determine moves the tip.
 
 Parameters
 ----------
@@ -119,7 +119,7 @@ Returns
 )";
 
 inline constexpr const char* kTipStdDoc =
-    R"(Standard deviation of the foretold tip: √trace of `tip_covariance`, all three axes together.
+    R"(Standard deviation of the predicted tip: √trace of `tip_covariance`, all three axes together.
 
 Parameters
 ----------
@@ -133,17 +133,17 @@ Returns
 )";
 
 inline constexpr const char* kIdentifyArmDoc =
-    R"(Find the true geometry of an arm from measured poses.
+    R"(Estimate the geometry of an arm from measured poses.
 
 After Yukhimets, Gubankov (2023). Unknown are each moving joint's row, the tool and, for tracked
-poses, the base; what the data cannot tell stays at nominal, and is named.
+poses, the base; what the data do not determine stays at nominal, and is reported.
 
 Parameters
 ----------
 arm : Arm or CorrectedArm
     Nominal. Its tool, where it has one, is where the search for the tool starts. The effects of a
-    corrected arm act as they were found, each in the rows that lie in its support, and stand among
-    the parameters, "fixed"; the fit's arm is the rigid part.
+    corrected arm keep their values, each in the rows within its support, and are reported as
+    "fixed" parameters; the arm of the fit is the rigid part.
 data : Touches or Tracked
 parametrization : {"hayati", "dh"}
     "hayati": beta (Hayati, Mirmirani 1985) in place of d where the next axis is nearly parallel.
@@ -170,17 +170,17 @@ length_prior, angle_prior : float
 priors : dict
     {name: std} for single parameters, in their unit.
 size_prior : float
-    The length prior that stands in where nothing tells the arm's size (touches without a known
-    distance or point) and none is given [m].
+    The length prior where the data do not determine the scale (touches without a known distance or
+    point) and none is given [m].
 noise, rotation_noise : float
     Standard deviation of a touch or a position per axis [m], and of a rotation [rad]. None: from
     the residuals.
 loss : {"square", "huber", "cauchy"}
-    The last two take outliers lightly.
+    The last two bound the influence of outliers.
 loss_width : float
     Distance from which they do [m]. None: 3 times the robust standard deviation.
 prune_sigma : float
-    Put parameters within so many standard deviations of nominal back there, the least first.
+    Reset parameters within so many standard deviations of nominal, the least significant first.
 num_threads : int
     0 = all. The same result for any.
 
@@ -197,13 +197,14 @@ ValueError
 Notes
 -----
 Rank and covariance come from QR and singular values of the Jacobian with its columns in mm and
-mrad; a singular value below 1e-7 of the largest is none. Noise is estimated with 3 Σ(m_i − 1) −
-rank degrees of freedom.
+mrad; singular values below 1e-7 of the largest count as zero. Noise is estimated with 3 Σ(m_i − 1)
+− rank degrees of freedom.
 
-Touches scatter less on a smaller arm, and least squares lean that way: by (degrees of freedom) ·
-(relative std of the size)². Where known distances or points, or a sliding joint, tell the size, this
-is taken away (the derivatives of exact touches decide, not those of scattered ones). Where only a
-prior tells it, the paper's criterion stands as it is: read ``scale_source``, and trust no small rms.
+Least squares underestimates the scale of the arm, because touches scatter less on a smaller one: by
+(degrees of freedom) · (relative std of the scale)². Where known distances or points, or a prismatic
+joint, determine the scale, this bias is removed (by the derivatives of consistent touches instead
+of scattered ones). Where only a prior determines it, the criterion of the paper is used unchanged:
+read ``scale_source``, and do not rely on a small rms.
 
 Examples
 --------

@@ -19,16 +19,18 @@ py::list poses_to_list(const std::vector<Pose>& poses) {
 }
 
 void bind_parts(py::module_& module) {
-  py::class_<Trade>(module, "Trade", "A parameter that moves along, unseen, with another one.")
-      .def_readonly("name", &Trade::name)
-      .def_readonly("words", &Trade::words)
-      .def_readonly("factor", &Trade::factor,
-                    "How far it goes per unit of the other one, each in its own unit.")
-      .def("__repr__",
-           [](const Trade& t) { return "Trade(" + t.name + ", " + to_text(t.factor) + ")"; });
+  py::class_<NullSpacePartner>(
+      module, "Trade", "A parameter that takes part in an unobservable change of another one.")
+      .def_readonly("name", &NullSpacePartner::name)
+      .def_readonly("words", &NullSpacePartner::description)
+      .def_readonly("factor", &NullSpacePartner::factor,
+                    "Its change per unit of the other one, each in its own unit.")
+      .def("__repr__", [](const NullSpacePartner& t) {
+        return "Trade(" + t.name + ", " + to_text(t.factor) + ")";
+      });
   py::class_<FitParameter>(module, "FitParameter", kFitParameterDoc)
       .def_readonly("name", &FitParameter::name)
-      .def_readonly("words", &FitParameter::words)
+      .def_readonly("words", &FitParameter::description)
       .def_readonly("unit", &FitParameter::unit)
       .def_readonly("group", &FitParameter::group)
       .def_readonly("nominal", &FitParameter::nominal)
@@ -36,17 +38,18 @@ void bind_parts(py::module_& module) {
       .def_readonly("std", &FitParameter::std)
       .def_property_readonly("status",
                              [](const FitParameter& p) { return std::string(to_text(p.status)); })
-      .def_readonly("trades", &FitParameter::trades)
+      .def_readonly("trades", &FitParameter::partners)
       .def("__repr__", [](const FitParameter& p) {
         return "FitParameter(" + p.name + "=" + to_text(p.value) + ", std=" + to_text(p.std) +
                ", " + std::string(to_text(p.status)) + ")";
       });
-  py::class_<Outlier>(module, "Outlier", "A row that lies far from where the others want it.")
+  py::class_<Outlier>(module, "Outlier", "A row that contradicts the others.")
       .def_readonly("row", &Outlier::row)
       .def_readonly("point", &Outlier::label, "Label of its point; -1 where there is none.")
-      .def_readonly("distance", &Outlier::distance, "From where it should be [m].")
-      .def_readonly("fits", &Outlier::fits,
-                    "Label of the point where it would fit, or None: labels look swapped.")
+      .def_readonly("distance", &Outlier::distance, "From its expected position [m].")
+      .def_readonly(
+          "fits", &Outlier::fits,
+          "Label of the point that it agrees with, or None: labels were probably swapped.")
       .def("__repr__", [](const Outlier& o) {
         return "Outlier(row=" + std::to_string(o.row) + ", point=" + std::to_string(o.label) +
                ", distance=" + to_text(o.distance) +
@@ -71,15 +74,15 @@ void bind_fit(py::module_& module) {
             for (const FitParameter& p : f.parameters) std.push_back(p.std);
             return to_numpy(std::move(std));
           },
-          "(P,) of each parameter: 0 when held, inf when nothing tells it.")
+          "(P,) of each parameter: 0 when fixed, inf when undetermined.")
       .def_property_readonly(
           "covariance", [](const ArmFit& f) { return to_numpy(RowMatrix(f.covariance)); },
-          "(P, P) in the parameters' units; what nothing tells counts 0.")
+          "(P, P) in the units of the parameters; 0 for undetermined ones.")
       .def_readonly("rms_before", &ArmFit::rms_before,
                     "Nominal rows with the best start of tool and base: √mean‖e‖² [m].")
       .def_readonly("rms_after", &ArmFit::rms_after, "√mean‖e‖² [m].")
       .def_readonly("rms_after_scaled", &ArmFit::rms_after_scaled,
-                    "rms_after times told by found lengths: had the arm kept its size [m].")
+                    "rms_after times given by estimated lengths: its value at the true scale [m].")
       .def_property_readonly(
           "point_rms_before", [](const ArmFit& f) { return to_numpy(f.point_rms_before); },
           "(n,) of each point, or station when tracked [m].")
@@ -94,43 +97,43 @@ void bind_fit(py::module_& module) {
       .def_property_readonly(
           "history", [](const ArmFit& f) { return to_numpy(f.history); },
           "Sum of squares of the criterion at the start and after each step [m²].")
-      .def_readonly("iterations", &ArmFit::iterations, "Steps that were accepted.")
+      .def_readonly("iterations", &ArmFit::iterations, "Accepted steps.")
       .def_readonly("converged", &ArmFit::converged)
-      .def_readonly("rank", &ArmFit::rank, "Of the data, by all parameters, without priors.")
+      .def_readonly("rank", &ArmFit::rank, "Of the data by all parameters, without priors.")
       .def_property_readonly(
           "singular_values", [](const ArmFit& f) { return to_numpy(f.singular_values); },
-          "(P,) falling: millimetres at the tip per mm and mrad of a direction.")
-      .def_readonly("unseen", &ArmFit::unseen, "The directions that the data do not see, in words.")
-      .def_readonly("noise", &ArmFit::noise, "Standard deviation per axis, found or told [m].")
+          "(P,) descending: millimetres at the tip per mm and mrad of a direction.")
+      .def_readonly("unseen", &ArmFit::null_space, "Descriptions of the unobservable directions.")
+      .def_readonly("noise", &ArmFit::noise, "Standard deviation per axis, estimated or given [m].")
       .def_readonly("rotation_noise", &ArmFit::rotation_noise, "[rad]")
       .def_readonly("degrees_of_freedom", &ArmFit::degrees_of_freedom)
-      .def_readonly("scale_source", &ArmFit::scale_source, "What the arm's size rests on.")
-      .def_readonly("scale", &ArmFit::scale, "Lengths found by nominal lengths.")
+      .def_readonly("scale_source", &ArmFit::scale_source, "What determines the scale of the arm.")
+      .def_readonly("scale", &ArmFit::scale, "Estimated by nominal lengths.")
       .def_readonly("scale_std", &ArmFit::scale_std)
       .def_readonly("point_labels", &ArmFit::point_labels)
       .def_property_readonly(
           "points", [](const ArmFit& f) { return to_numpy(RowMatrix(f.points.transpose())); },
-          "(n, 3) touched points as found, world [m].")
+          "(n, 3) estimated positions of the touched points, world [m].")
       .def_property_readonly(
           "distances",
           [](const ArmFit& f) {
             py::dict dict;
-            for (const FoundDistance& d : f.distances) {
-              dict[py::make_tuple(d.first, d.second)] = d.found;
+            for (const DistanceComparison& d : f.distances) {
+              dict[py::make_tuple(d.first, d.second)] = d.estimated;
             }
             return dict;
           },
-          "Known distances as found: {(label, label): m}.")
+          "Estimates of the known distances: {(label, label): m}.")
       .def_property_readonly(
           "residuals", [](const ArmFit& f) { return to_numpy(RowMatrix(f.residuals.transpose())); },
-          "(N, 3) tip minus centroid, or minus the measured place, world [m].")
+          "(N, 3) tip minus centroid, or minus the measured position, world [m].")
       .def_property_readonly(
           "residuals_before",
           [](const ArmFit& f) { return to_numpy(RowMatrix(f.residuals_before.transpose())); },
-          "(N, 3) the same of what `rms_before` tells [m].")
+          "(N, 3) the same for `rms_before` [m].")
       .def_readonly("outliers", &ArmFit::outliers)
       .def_readonly("structure_p", &ArmFit::structure_p,
-                    "Probability of residuals that depend on the joints so much by chance.")
+                    "Probability of residuals that depend on the joints this much by chance.")
       .def_readonly("warnings", &ArmFit::warnings, "Sentences; empty when all is well.")
       .def(
           "tip_covariance",
@@ -157,7 +160,7 @@ void bind_fit(py::module_& module) {
           py::arg("q"), py::kw_only(), py::arg("num_threads") = 0, kTipStdDoc)
       .def("summary", py::overload_cast<const ArmFit&, bool>(&summarize), py::kw_only(),
            py::arg("warnings") = true,
-           "One paragraph in plain words; ``warnings=False`` leaves the warnings to the caller.")
+           "One paragraph; ``warnings=False`` leaves the warnings to the caller.")
       .def("__str__", [](const ArmFit& f) { return summarize(f); })
       .def("__repr__", [](const ArmFit& f) {
         return "ArmFit(rms_before=" + to_text(f.rms_before) +

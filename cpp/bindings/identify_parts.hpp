@@ -8,7 +8,7 @@
 #include "arrays.hpp"
 #include "bathyal/effects/measurements.hpp"
 
-// The parts of the room identify: what goes in, what comes out.
+// Bindings of the room identify: its data and its results.
 
 namespace bathyal::python {
 

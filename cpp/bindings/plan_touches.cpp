@@ -101,7 +101,7 @@ void bind_forecast(py::module_& module) {
   py::class_<TouchForecast>(module, "TouchForecast", kTouchForecastDoc)
       .def_property_readonly(
           "workspace", [](const TouchForecast& f) { return rows_to_numpy(f.workspace); },
-          "(S, n) poses that the deviation is foretold for.")
+          "(S, n) poses for which the deviation is predicted.")
       .def_property_readonly(
           "tip_std", [](const TouchForecast& f) { return to_numpy(f.tip_std); },
           "(S,) root of the trace of the tip's covariance there [m].")
@@ -109,17 +109,17 @@ void bind_forecast(py::module_& module) {
       .def_readonly("median_tip_std", &TouchForecast::median_tip_std, "[m]")
       .def_readonly("parameters", &TouchForecast::parameters, "As many as ArmFit.parameters.")
       .def_readonly("free", &TouchForecast::free,
-                    "Of them, those that base and tool cannot do as well.")
-      .def_readonly("rank", &TouchForecast::rank, "Of the data by them, without priors.")
+                    "Of them, those that base and tool cannot represent.")
+      .def_readonly("rank", &TouchForecast::rank, "Of the data by the free ones, without priors.")
       .def_property_readonly(
           "singular_values",
           [](const TouchForecast& f) {
             return to_numpy(
                 std::vector<double>(f.singular_values.begin(), f.singular_values.end()));
           },
-          "(free,) falling: millimetres at the tip per mm and mrad of a direction.")
-      .def_readonly("unseen", &TouchForecast::unseen,
-                    "Directions among the free parameters that the data do not see, in words.")
+          "(free,) descending: millimetres at the tip per mm and mrad of a direction.")
+      .def_readonly("unseen", &TouchForecast::null_space,
+                    "Descriptions of the undetermined directions of the free parameters.")
       .def_readonly("o1", &TouchForecast::o1, "Observability index of Borm and Menq (1989).")
       .def_readonly("log_det", &TouchForecast::log_det,
                     "ln det of the free parameters' information per mm and mrad, with priors.")
@@ -134,7 +134,7 @@ void bind_plan(py::module_& module) {
     return py::module_::import("bathyal.identify.touch_plans").attr(function)(plan, path);
   };
   py::class_<TouchPlan>(module, "TouchPlan", kTouchPlanDoc)
-      .def_readonly("arm", &TouchPlan::arm, "Arm: the one that was planned for.")
+      .def_readonly("arm", &TouchPlan::arm, "Arm for which the plan is.")
       .def_property_readonly(
           "q", [](const TouchPlan& p) { return rows_to_numpy(p.q); },
           "(N, n) poses, point by point, each near the one before [rad] or [m].")
@@ -143,7 +143,7 @@ void bind_plan(py::module_& module) {
           "(N,) number of the point that each pose touches.")
       .def_property_readonly(
           "points", [](const TouchPlan& p) { return rows_to_numpy(p.points.transpose()); },
-          "(k, 3) where the points stand, world [m].")
+          "(k, 3) positions of the points, world [m].")
       .def_readonly("known_distances", &TouchPlan::known_distances,
                     "Pairs of points whose distance is to be measured.")
       .def_property_readonly("criterion",
@@ -156,7 +156,7 @@ void bind_plan(py::module_& module) {
       .def_property_readonly(
           "median_tip_std", [](const TouchPlan& p) { return p.forecast.median_tip_std; },
           "Of the forecast [m].")
-      .def_readonly("candidates", &TouchPlan::candidates, "Poses that were chosen from.")
+      .def_readonly("candidates", &TouchPlan::candidates, "Number of candidate poses.")
       .def_readonly("warnings", &TouchPlan::warnings, "Sentences.")
       .def(
           "write",
@@ -174,7 +174,7 @@ void bind_plan(py::module_& module) {
           py::arg("path") = py::none(),
           "A picture, written to `path` too (bathyal.identify.touch_plans.plot_plan).")
       .def("summary", py::overload_cast<const TouchPlan&, bool>(&summarize), py::kw_only(),
-           py::arg("warnings") = true, "One paragraph in plain words.")
+           py::arg("warnings") = true, "One paragraph.")
       .def("__str__", [](const TouchPlan& p) { return summarize(p); })
       .def("__len__", [](const TouchPlan& p) { return p.point.size(); })
       .def("__repr__", [](const TouchPlan& p) {

@@ -12,7 +12,7 @@
 namespace bathyal::python {
 namespace {
 
-/// What a user's function looks at. It owns all of it: the function may keep it.
+/// The argument of a user's function. It owns its data: the function may keep it.
 struct EffectRows {
   explicit EffectRows(const EffectData& data)
       : arm(py::cast(*data.arm)),
@@ -35,7 +35,7 @@ struct EffectRows {
   bool has_rotation, recording;
 };
 
-/// A function that may be let go of by any thread.
+/// A function that may be released by any thread.
 class Function {
  public:
   explicit Function(py::function function) : function_(std::move(function)) {}
@@ -55,18 +55,18 @@ class Function {
   py::function function_;
 };
 
-/// "KeyError: 'depth' (line 12 of mine.py)": what was raised, and where, without the way there.
-std::string words_of(const py::error_already_set& error) {
+/// "KeyError: 'depth' (line 12 of mine.py)": what was raised, and where.
+std::string describe(const py::error_already_set& error) {
   const auto text = [](const py::handle& object) { return py::str(object).cast<std::string>(); };
-  std::string words = text(error.type().attr("__name__")) + ": " + text(error.value());
+  std::string text_out = text(error.type().attr("__name__")) + ": " + text(error.value());
   py::object place = error.trace();
-  if (!place || place.is_none()) return words;
+  if (!place || place.is_none()) return text_out;
   while (!place.attr("tb_next").is_none()) place = place.attr("tb_next");
   const std::string file = text(place.attr("tb_frame").attr("f_code").attr("co_filename"));
-  return words + " (line " + text(place.attr("tb_lineno")) + " of " + file + ")";
+  return text_out + " (line " + text(place.attr("tb_lineno")) + " of " + file + ")";
 }
 
-/// Whether a covariate was told in every row and differs from row to row.
+/// Whether a covariate was recorded in every row and differs from row to row.
 bool changes(const EffectData& data, const std::string& name) {
   const auto found = data.covariates.find(name);
   if (found == data.covariates.end()) return false;
@@ -77,23 +77,23 @@ bool changes(const EffectData& data, const std::string& name) {
 
 class PythonEffect final : public Effect {
  public:
-  PythonEffect(UserEffect told, py::function function)
-      : told_(std::move(told)), function_(std::move(function)) {}
+  PythonEffect(UserEffect user, py::function function)
+      : user_(std::move(user)), function_(std::move(function)) {}
 
-  EffectInfo info() const override { return told_.info; }
-  double period(const EffectVariant&) const override { return told_.period; }
+  EffectInfo info() const override { return user_.info; }
+  double period(const EffectVariant&) const override { return user_.period; }
 
   std::vector<EffectVariant> variants(const EffectData& data) const override {
-    const bool seen = std::all_of(told_.info.needs.begin(), told_.info.needs.end(),
+    const bool seen = std::all_of(user_.info.needs.begin(), user_.info.needs.end(),
                                   [&](const std::string& name) { return changes(data, name); });
     std::vector<EffectVariant> variants;
     if (!seen) return variants;
-    if (told_.site != UserSite::kJoint) {
+    if (user_.site != UserSite::kJoint) {
       variants.push_back(variant_of(-1));
-    } else if (told_.each_joint) {
+    } else if (user_.each_joint) {
       for (int j = 0; j < static_cast<int>(data.q.cols()); ++j) variants.push_back(variant_of(j));
     } else {
-      for (const int joint : told_.joints) {
+      for (const int joint : user_.joints) {
         if (joint >= static_cast<int>(data.q.cols())) {
           throw_argument(name(), "joints from 0 to " + std::to_string(data.q.cols() - 1),
                          std::to_string(joint));
@@ -104,64 +104,65 @@ class PythonEffect final : public Effect {
     return variants;
   }
 
-  std::vector<std::vector<Action>> actions(const EffectVariant& variant,
-                                           const EffectData& data) const override {
+  std::vector<std::vector<Perturbation>> perturbations(const EffectVariant& variant,
+                                                       const EffectData& data) const override {
     const py::gil_scoped_acquire gil;
-    const Index parameters = static_cast<Index>(told_.parameters.size());
+    const Index parameters = static_cast<Index>(user_.parameters.size());
     const Index width = is_frame() ? 6 : 1;
     const RowMatrix numbers = call(variant, data, parameters, width);
-    if (!asked_twice_) {
-      asked_twice_ = true;
+    if (!checked_repeatable_) {
+      checked_repeatable_ = true;
       if (call(variant, data, parameters, width) != numbers) {
         throw_argument(name(), "the same numbers whenever it is asked", "others the second time");
       }
     }
-    std::vector<std::vector<Action>> actions;
+    std::vector<std::vector<Perturbation>> perturbations;
     for (Index p = 0; p < parameters; ++p) {
-      actions.push_back({site_of(variant, *data.arm)});
-      actions.back().front().values = numbers.middleCols(p * width, width);
+      perturbations.push_back({site_of(variant, *data.arm)});
+      perturbations.back().front().values = numbers.middleCols(p * width, width);
     }
-    return actions;
+    return perturbations;
   }
 
  private:
-  std::string name() const { return "effect " + told_.info.name; }
-  bool is_frame() const { return told_.site == UserSite::kBase || told_.site == UserSite::kTool; }
+  std::string name() const { return "effect " + user_.info.name; }
+  bool is_frame() const { return user_.site == UserSite::kBase || user_.site == UserSite::kTool; }
 
   EffectVariant variant_of(int joint) const {
     EffectVariant variant;
-    variant.effect = told_.info.name;
+    variant.effect = user_.info.name;
     variant.joint = joint;
-    variant.parameters = told_.parameters;
-    variant.cause = joint < 0 ? told_.info.name : told_.info.name + " " + std::to_string(joint);
+    variant.parameters = user_.parameters;
+    variant.alias_group =
+        joint < 0 ? user_.info.name : user_.info.name + " " + std::to_string(joint);
     return variant;
   }
 
-  Action site_of(const EffectVariant& variant, const Arm& arm) const {
-    switch (told_.site) {
+  Perturbation site_of(const EffectVariant& variant, const Arm& arm) const {
+    switch (user_.site) {
       case UserSite::kJoint:
-        return {Site::kJoint, variant.joint, {}};
+        return {PerturbationSite::kJoint, variant.joint, {}};
       case UserSite::kBase:
-        return {Site::kFrame, 0, {}};
+        return {PerturbationSite::kFrame, 0, {}};
       case UserSite::kTool:
-        return {Site::kFrame, static_cast<int>(arm.joints().size()) + 1, {}};
+        return {PerturbationSite::kFrame, static_cast<int>(arm.joints().size()) + 1, {}};
       case UserSite::kLengths:
         break;
     }
-    return {Site::kLength, 0, {}};
+    return {PerturbationSite::kLength, 0, {}};
   }
 
-  /// (N, parameters · width), the numbers of one parameter beside each other.
+  /// (N, parameters · width), the numbers of one parameter next to each other.
   RowMatrix call(const EffectVariant& variant, const EffectData& data, Index parameters,
                  Index width) const {
     py::object result;
     try {
       const py::object rows = py::cast(EffectRows(data));
-      result = told_.site == UserSite::kJoint ? function_.get()(rows, variant.joint)
+      result = user_.site == UserSite::kJoint ? function_.get()(rows, variant.joint)
                                               : function_.get()(rows);
     } catch (const py::error_already_set& error) {
       if (!error.matches(PyExc_Exception)) throw;  // an interrupt is the caller's own
-      throw Error(name() + ": its function raised " + words_of(error));
+      throw Error(name() + ": its function raised " + describe(error));
     }
     return numbers_of(result, data.rows(), parameters, width);
   }
@@ -187,35 +188,35 @@ class PythonEffect final : public Effect {
     RowMatrix table = Eigen::Map<const RowMatrix>(numbers.data(), rows, parameters * width);
     for (Index i = 0; i < table.size(); ++i) {
       const double value = table.data()[i];
-      if (std::abs(value) <= kMostAction) continue;
-      throw_argument(name(), "finite numbers within " + to_text(kMostAction),
+      if (std::abs(value) <= kMaxPerturbation) continue;
+      throw_argument(name(), "finite numbers within " + to_text(kMaxPerturbation),
                      to_text(value) + " in row " + std::to_string(i / table.cols()));
     }
     return table;
   }
 
-  UserEffect told_;
+  UserEffect user_;
   Function function_;
-  mutable bool asked_twice_ = false;  ///< under the GIL
+  mutable bool checked_repeatable_ = false;  ///< under the GIL
 };
 
-void check(const UserEffect& told) {
-  if (told.info.name.empty()) throw_argument("name", "a name", "none");
-  const std::string name = "effect " + told.info.name;
-  if (told.parameters.empty()) throw_argument(name, "one parameter or more", "none");
-  for (const EffectParameter& parameter : told.parameters) {
+void check(const UserEffect& user) {
+  if (user.info.name.empty()) throw_argument("name", "a name", "none");
+  const std::string name = "effect " + user.info.name;
+  if (user.parameters.empty()) throw_argument(name, "one parameter or more", "none");
+  for (const EffectParameter& parameter : user.parameters) {
     check_positive(name + " scale of " + parameter.name, parameter.scale);
   }
-  const bool joints = told.each_joint || !told.joints.empty();
-  if (joints != (told.site == UserSite::kJoint)) {
+  const bool joints = user.each_joint || !user.joints.empty();
+  if (joints != (user.site == UserSite::kJoint)) {
     throw_argument(name, "`joints` where its site is \"joint\", and there alone",
                    joints ? "joints of another site" : "none");
   }
-  for (std::size_t i = 0; i < told.joints.size(); ++i) {
-    const int joint = told.joints[i];
+  for (std::size_t i = 0; i < user.joints.size(); ++i) {
+    const int joint = user.joints[i];
     if (joint < 0) throw_argument(name, "joints from 0", std::to_string(joint));
-    const auto end = told.joints.begin() + static_cast<std::ptrdiff_t>(i);
-    if (std::find(told.joints.begin(), end, joint) != end) {
+    const auto end = user.joints.begin() + static_cast<std::ptrdiff_t>(i);
+    if (std::find(user.joints.begin(), end, joint) != end) {
       throw_argument(name, "each joint once", std::to_string(joint) + " twice");
     }
   }
@@ -223,9 +224,9 @@ void check(const UserEffect& told) {
 
 }  // namespace
 
-std::shared_ptr<Effect> make_python_effect(UserEffect told, py::function function) {
-  check(told);
-  return std::make_shared<PythonEffect>(std::move(told), std::move(function));
+std::shared_ptr<Effect> make_python_effect(UserEffect user, py::function function) {
+  check(user);
+  return std::make_shared<PythonEffect>(std::move(user), std::move(function));
 }
 
 void bind_effect_rows(py::module_& module) {

@@ -19,21 +19,21 @@ constexpr double kStep = 1e-6;       ///< of differences [rad] or [m]
 
 void write_pose(const Pose& pose, double* out) { Eigen::Map<RowMajor4>{out} = pose.matrix(); }
 
-/// Calls `body` with each action and the one at its place in `other`.
-/// \throw std::invalid_argument where `other` acts elsewhere
+/// Calls `body` with each perturbation and its counterpart in `other`.
+/// \throw std::invalid_argument where `other` has other sites
 template <class Body>
-void for_each_pair(const FoundEffect& found, std::vector<std::vector<Action>>& actions,
-                   const std::vector<std::vector<Action>>& other, const Body& body) {
-  const auto same_site = [](const Action& a, const Action& b) {
+void for_each_pair(const FoundEffect& found, std::vector<std::vector<Perturbation>>& perturbations,
+                   const std::vector<std::vector<Perturbation>>& other, const Body& body) {
+  const auto same_site = [](const Perturbation& a, const Perturbation& b) {
     return a.site == b.site && a.index == b.index;
   };
-  for (std::size_t p = 0; p < actions.size(); ++p) {
-    if (!std::equal(actions[p].begin(), actions[p].end(), other[p].begin(), other[p].end(),
-                    same_site)) {
+  for (std::size_t p = 0; p < perturbations.size(); ++p) {
+    if (!std::equal(perturbations[p].begin(), perturbations[p].end(), other[p].begin(),
+                    other[p].end(), same_site)) {
       throw_argument("effect " + found.variant.effect, "the same sites in all rows", "others");
     }
-    for (std::size_t i = 0; i < actions[p].size(); ++i) {
-      body(actions[p][i].values, other[p][i].values);
+    for (std::size_t i = 0; i < perturbations[p].size(); ++i) {
+      body(perturbations[p][i].values, other[p][i].values);
     }
   }
 }
@@ -41,8 +41,8 @@ void for_each_pair(const FoundEffect& found, std::vector<std::vector<Action>>& a
 using RowMask = Eigen::Array<bool, Eigen::Dynamic, 1>;
 
 /// Rows in which an effect does the same in two evaluations.
-RowMask same_rows(const FoundEffect& found, std::vector<std::vector<Action>>& one,
-                  const std::vector<std::vector<Action>>& other, Index rows) {
+RowMask same_rows(const FoundEffect& found, std::vector<std::vector<Perturbation>>& one,
+                  const std::vector<std::vector<Perturbation>>& other, Index rows) {
   RowMask same = RowMask::Constant(rows, true);
   for_each_pair(found, one, other, [&](const RowMatrix& a, const RowMatrix& b) {
     for (Index i = 0; i < rows; ++i) same[i] = same[i] && a.row(i) == b.row(i);
@@ -50,7 +50,7 @@ RowMask same_rows(const FoundEffect& found, std::vector<std::vector<Action>>& on
   return same;
 }
 
-/// What one side of a difference does not move stands still there.
+/// An empty table is zero.
 template <class Table>
 void subtract(const Table& other, Table& table) {
   if (table.size() == 0) table.setZero(other.rows(), other.cols());
@@ -58,7 +58,7 @@ void subtract(const Table& other, Table& table) {
 }
 
 /// (up - down) · factor, in the memory of `up`.
-Correction difference(Correction up, const Correction& down, double factor) {
+EffectSum difference(EffectSum up, const EffectSum& down, double factor) {
   up.q = factor * (up.q - down.q);
   subtract(down.lengths, up.lengths);
   up.lengths *= factor;
@@ -77,20 +77,20 @@ std::string list_of(const Covariates& covariates) {
 
 }  // namespace
 
-struct CorrectedArm::Part {
-  Actions actions;  ///< [p] of parameter p, held and left out where `counts` is false
-  RowMask counts;
+struct CorrectedArm::Contribution {
+  Perturbations perturbations;  ///< [p] of parameter p, held or omitted where `applies` is false
+  RowMask applies;
 };
 
 struct CorrectedArm::Rows {
   EffectData data;
   SupportMask mask;
-  Correction correction;
+  EffectSum sum;
 
-  JointMatrix moved() const { return data.q + correction.q; }
+  JointMatrix moved() const { return data.q + sum.q; }
 };
 
-std::string words_of(const FoundEffect& found) {
+std::string describe(const FoundEffect& found) {
   const int joint = found.variant.joint;
   return found.variant.effect + (joint < 0 ? "" : " of joint " + std::to_string(joint + 1));
 }
@@ -119,7 +119,7 @@ CorrectedArm::CorrectedArm(Arm arm, std::vector<FoundEffect> effects, Support su
              other.variant.settings == found.variant.settings;
     };
     if (std::count_if(effects_.begin(), effects_.end(), alike) > 1) {
-      throw_argument("effects", "each once", words_of(found) + " twice, with the same settings");
+      throw_argument("effects", "each once", describe(found) + " twice, with the same settings");
     }
   }
   for (const FoundEffect& found : effects_) {
@@ -131,7 +131,7 @@ CorrectedArm::CorrectedArm(Arm arm, std::vector<FoundEffect> effects, Support su
     periods_.push_back(period);
   }
   support_.check(arm_.size());
-  try_effects();
+  check_effects();
 }
 
 /// One row of all covariates, within the support.
@@ -145,13 +145,13 @@ Covariates CorrectedArm::known_covariates() const {
   return covariates;
 }
 
-/// One pose in the support shows at once what would else wait for the first use.
-void CorrectedArm::try_effects() const {
+/// Evaluates the effects at one pose of the support: errors then occur here and not at first use.
+void CorrectedArm::check_effects() const {
   const Covariates covariates = known_covariates();
   for (const FoundEffect& found : effects_) {
     for (const std::string& name : found.effect->info().needs) {
       if (!covariates.contains(name)) {
-        throw_argument("support", name + ", which " + words_of(found) + " needs",
+        throw_argument("support", name + ", which " + describe(found) + " needs",
                        list_of(covariates));
       }
     }
@@ -177,9 +177,9 @@ CorrectedPoses CorrectedArm::poses_of(const Rows& rows, int num_threads) const {
   parallel_for(count, kGrain, num_threads, [&](std::size_t begin, std::size_t end) {
     CorrectedFrames frames;
     for (std::size_t i = begin; i < end; ++i) {
-      if (!rows.correction.chained[i]) continue;
+      if (!rows.sum.chained[i]) continue;
       const auto row = static_cast<Index>(i);
-      compute_corrected_frames(arm_, rows.data.q.row(row).data(), rows.correction, row, frames);
+      compute_corrected_frames(arm_, rows.data.q.row(row).data(), rows.sum, row, frames);
       write_pose(frames.world_from_tool, &result.poses[16 * i]);
     }
   });
@@ -196,9 +196,9 @@ CorrectedPoses CorrectedArm::forward_links(JointView q, const Covariates& covari
   parallel_for(count, kGrain, num_threads, [&](std::size_t begin, std::size_t end) {
     CorrectedFrames frames;
     for (std::size_t i = begin; i < end; ++i) {
-      if (!rows.correction.chained[i]) continue;
+      if (!rows.sum.chained[i]) continue;
       const auto row = static_cast<Index>(i);
-      compute_corrected_frames(arm_, rows.data.q.row(row).data(), rows.correction, row, frames);
+      compute_corrected_frames(arm_, rows.data.q.row(row).data(), rows.sum, row, frames);
       for (std::size_t k = 0; k < arm_.links().size(); ++k) {
         write_pose(frames.start_of_row(arm_, k) * arm_.links()[k].row_from_link,
                    &result.poses[width * i + 16 * k]);
@@ -211,7 +211,7 @@ CorrectedPoses CorrectedArm::forward_links(JointView q, const Covariates& covari
 CorrectedJacobians CorrectedArm::jacobian(JointView q, const Covariates& covariates, TipFrame frame,
                                           int num_threads) const {
   const Rows rows = prepare(q, covariates);
-  const std::vector<Correction> by_joint = correction_by_joint(rows.data.q, covariates);
+  const std::vector<EffectSum> by_joint = derivative_by_joint(rows.data.q, covariates);
   const auto count = static_cast<std::size_t>(q.rows());
   const std::size_t width = 6 * static_cast<std::size_t>(size());
   CorrectedJacobians result{std::vector<double>(count * width), rows.mask};
@@ -219,8 +219,8 @@ CorrectedJacobians CorrectedArm::jacobian(JointView q, const Covariates& covaria
     CorrectedFrames frames;
     for (std::size_t i = begin; i < end; ++i) {
       const auto row = static_cast<Index>(i);
-      compute_corrected_frames(arm_, rows.data.q.row(row).data(), rows.correction, row, frames);
-      Eigen::MatrixXd numbers = corrected_jacobian(arm_, frames, rows.correction, by_joint, row);
+      compute_corrected_frames(arm_, rows.data.q.row(row).data(), rows.sum, row, frames);
+      Eigen::MatrixXd numbers = corrected_jacobian(arm_, frames, rows.sum, by_joint, row);
       if (frame == TipFrame::kTool) {
         const Eigen::Matrix3d tool_from_world = frames.world_from_tool.linear().transpose();
         numbers.topRows(3) = (tool_from_world * numbers.topRows(3)).eval();
@@ -249,107 +249,113 @@ SupportMask CorrectedArm::in_support(JointView q, const Covariates& covariates) 
   return prepare(q, covariates).mask;
 }
 
-std::vector<HeldEffect> CorrectedArm::held(JointView q, const Covariates& covariates) const {
+std::vector<FixedEffect> CorrectedArm::fixed_effects(JointView q,
+                                                     const Covariates& covariates) const {
   check_joint_values(arm_, q);
-  const AskedRows rows = ask(arm_, support_, q, covariates);
-  const std::vector<char> told = this->told(covariates);
-  std::vector<HeldEffect> held;
+  const QueryRows rows = clamp_to_support(arm_, support_, q, covariates);
+  const std::vector<char> usable = usable_effects(covariates);
+  std::vector<FixedEffect> fixed;
   for (std::size_t e = 0; e < effects_.size(); ++e) {
-    if (!told[e]) continue;
-    held.push_back({effects_[e].variant, effects_[e].values, part(e, rows, true).actions});
+    if (!usable[e]) continue;
+    fixed.push_back(
+        {effects_[e].variant, effects_[e].values, contribution(e, rows, true).perturbations});
   }
-  return held;
+  return fixed;
 }
 
-/// Of a wave or curve along a joint: one row of what it does over all that the joint was taught.
-CorrectedArm::Actions CorrectedArm::average(std::size_t effect) const {
+/// Of a harmonic or curve along a joint: its average over the training values of that joint.
+CorrectedArm::Perturbations CorrectedArm::average(std::size_t effect) const {
   constexpr Index kPlaces = 256;
   const FoundEffect& found = effects_[effect];
   JointMatrix q = support_.joints.low.transpose().replicate(kPlaces, 1);
-  q.col(found.variant.joint) = support_.taught(found.variant.joint, periods_[effect], kPlaces);
-  Actions actions =
-      actions_of(*found.effect, found.variant, ask(arm_, support_, q, known_covariates()).asked);
-  for (std::vector<Action>& of_parameter : actions) {
-    for (Action& action : of_parameter) action.values = action.values.colwise().mean().eval();
+  q.col(found.variant.joint) =
+      support_.training_values(found.variant.joint, periods_[effect], kPlaces);
+  Perturbations perturbations = perturbations_of(
+      *found.effect, found.variant, clamp_to_support(arm_, support_, q, known_covariates()).query);
+  for (std::vector<Perturbation>& of_parameter : perturbations) {
+    for (Perturbation& perturbation : of_parameter)
+      perturbation.values = perturbation.values.colwise().mean().eval();
   }
-  return actions;
+  return perturbations;
 }
 
-CorrectedArm::Part CorrectedArm::part(std::size_t effect, const AskedRows& rows, bool told) const {
+CorrectedArm::Contribution CorrectedArm::contribution(std::size_t effect, const QueryRows& rows,
+                                                      bool usable) const {
   const FoundEffect& found = effects_[effect];
-  const Index count = rows.asked.rows();
-  Part part{{}, RowMask::Constant(count, told)};
-  if (!told) return part;
-  part.actions = actions_of(*found.effect, found.variant, rows.asked);
-  if (found.effect->info().by_difference) return part;
+  const Index count = rows.query.rows();
+  Contribution out{{}, RowMask::Constant(count, usable)};
+  if (!usable) return out;
+  out.perturbations = perturbations_of(*found.effect, found.variant, rows.query);
+  if (found.effect->info().by_difference) return out;
   RowMatrix near = rows.low.q;
   const bool in_gap = support_.leave_gaps(periods_[effect], near);
-  if (!rows.beyond && !in_gap) return part;
-  const auto actions_at = [&](EffectData data) {
+  if (!rows.beyond && !in_gap) return out;
+  const auto perturbations_at = [&](EffectData data) {
     data.q = near;
-    return actions_of(*found.effect, found.variant, data);
+    return perturbations_of(*found.effect, found.variant, data);
   };
-  Actions low = actions_at(rows.low);
-  const Actions high = actions_at(rows.high);
-  part.counts =
-      same_rows(found, part.actions, low, count) && same_rows(found, part.actions, high, count);
-  if (part.counts.all()) return part;
+  Perturbations low = perturbations_at(rows.low);
+  const Perturbations high = perturbations_at(rows.high);
+  out.applies = same_rows(found, out.perturbations, low, count) &&
+                same_rows(found, out.perturbations, high, count);
+  if (out.applies.all()) return out;
   const RowMask known = same_rows(found, low, high, count);
   const bool curve = found.variant.joint >= 0 && std::isfinite(periods_[effect]);
-  const Actions held = curve ? average(effect) : std::move(low);
-  for_each_pair(found, part.actions, held, [&](RowMatrix& values, const RowMatrix& instead) {
-    for (Index i = 0; i < count; ++i) {
-      if (part.counts[i]) continue;
-      if (known[i]) {
-        values.row(i) = instead.row(curve ? 0 : i);
-      } else {
-        values.row(i).setZero();
-      }
-    }
-  });
-  return part;
+  const Perturbations held = curve ? average(effect) : std::move(low);
+  for_each_pair(found, out.perturbations, held,
+                [&](RowMatrix& values, const RowMatrix& replacement) {
+                  for (Index i = 0; i < count; ++i) {
+                    if (out.applies[i]) continue;
+                    if (known[i]) {
+                      values.row(i) = replacement.row(curve ? 0 : i);
+                    } else {
+                      values.row(i).setZero();
+                    }
+                  }
+                });
+  return out;
 }
 
 CorrectedArm::Rows CorrectedArm::prepare(JointView q, const Covariates& covariates,
                                          bool recording) const {
   check_joint_values(arm_, q);
-  AskedRows rows = ask(arm_, support_, q, covariates);
-  rows.asked.recording = rows.low.recording = rows.high.recording = recording;
-  const std::vector<char> told = this->told(covariates);
+  QueryRows rows = clamp_to_support(arm_, support_, q, covariates);
+  rows.query.recording = rows.low.recording = rows.high.recording = recording;
+  const std::vector<char> usable = usable_effects(covariates);
   SupportMask mask(q.rows(), static_cast<Index>(effects_.size()));
-  Correction sum(arm_, q.rows());
+  EffectSum sum(arm_, q.rows());
   for (std::size_t e = 0; e < effects_.size(); ++e) {
-    const Part part = this->part(e, rows, told[e] != 0);
-    mask.col(static_cast<Index>(e)) = part.counts;
-    sum.add(part.actions, effects_[e].values);
+    const Contribution own = contribution(e, rows, usable[e] != 0);
+    mask.col(static_cast<Index>(e)) = own.applies;
+    sum.add(own.perturbations, effects_[e].values);
   }
-  return {std::move(rows.asked), std::move(mask), std::move(sum)};
+  return {std::move(rows.query), std::move(mask), std::move(sum)};
 }
 
-std::vector<char> CorrectedArm::told(const Covariates& covariates) const {
-  std::vector<char> told(effects_.size(), 1);
+std::vector<char> CorrectedArm::usable_effects(const Covariates& covariates) const {
+  std::vector<char> usable(effects_.size(), 1);
   for (std::size_t e = 0; e < effects_.size(); ++e) {
     for (const std::string& name : effects_[e].effect->info().needs) {
       if (covariates.contains(name)) continue;
       if (!covariates.empty()) {
-        throw_argument("covariates", name + ", which " + words_of(effects_[e]) + " needs",
+        throw_argument("covariates", name + ", which " + describe(effects_[e]) + " needs",
                        list_of(covariates));
       }
-      told[e] = 0;
+      usable[e] = 0;
     }
   }
-  return told;
+  return usable;
 }
 
-std::vector<Correction> CorrectedArm::correction_by_joint(const JointMatrix& q,
-                                                          const Covariates& covariates) const {
-  std::vector<Correction> by_joint;
+std::vector<EffectSum> CorrectedArm::derivative_by_joint(const JointMatrix& q,
+                                                         const Covariates& covariates) const {
+  std::vector<EffectSum> by_joint;
   JointMatrix stepped = q;
   for (Index j = 0; j < size(); ++j) {
     stepped.col(j) = q.col(j).array() + kStep;
-    Correction up = prepare(view_of(stepped), covariates).correction;
+    EffectSum up = prepare(view_of(stepped), covariates).sum;
     stepped.col(j) = q.col(j).array() - kStep;
-    const Correction down = prepare(view_of(stepped), covariates).correction;
+    const EffectSum down = prepare(view_of(stepped), covariates).sum;
     by_joint.push_back(difference(std::move(up), down, 1.0 / (2.0 * kStep)));
     stepped.col(j) = q.col(j);
   }

@@ -12,12 +12,12 @@
 
 namespace bathyal {
 
-/// Which effect counts in which row, (N, effects).
+/// Which effect applies in which row, (N, effects).
 using SupportMask = Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 struct CorrectedPoses {
   std::vector<double> poses;  ///< world_from_tool, (N, 4, 4); of links (N, L, 4, 4)
-  SupportMask in_support;     ///< which effects counted, neither held nor left out
+  SupportMask in_support;     ///< which effects applied, neither held constant nor omitted
 };
 
 struct CorrectedJacobians {
@@ -27,34 +27,35 @@ struct CorrectedJacobians {
 
 struct CorrectedInverse {
   InverseResult result;    ///< its errors are those of the corrected arm
-  SupportMask in_support;  ///< at the q that was found
+  SupportMask in_support;  ///< at the solution q
 };
 
-/// An arm with what a diagnosis found inside: rigid geometry, effects with their values, and the
-/// support of the data that taught them.
+/// An arm with the result of a diagnosis: rigid geometry, effects with their values, and the
+/// support of the training data.
 ///
-/// Poses are foretold one by one: q is what the controller would record, and the effects move
-/// joints, frames and lengths from there (correction.hpp). An effect counts in a row where its own
-/// arguments lie within the support: within the ranges that taught it, and in no gap between joint
-/// values that is wider than its period (of waves and curves along one joint, which were found
-/// together, the shortest). Where one lies beyond and the effect looks at it (it would
-/// move something else at the nearest row within), the effect is held: a wave or curve along its
-/// joint at its average over what was taught, for beyond that it may do anything; what is smooth at
-/// what it does in the nearest row. Its geometry was found beside the effects, so that without them
-/// the arm would be further off than either. An effect that looks at what is not known (NaN, a
-/// session that nobody saw) is left out, as if the arm did not have it. Where all effects are left
-/// out the answer is the rigid arm's, to the last bit. Every answer says which effects counted. An
-/// effect that looks at what changes from row to row (EffectInfo::by_difference) has no bounds.
+/// Each pose is predicted independently: q is what the controller would record, and the effects
+/// perturb joints, frames and lengths from there (effect_sum.hpp). An effect applies in a row where
+/// its own arguments lie within the support: within the ranges of the training data, and in no gap
+/// between joint values that is wider than its period (of harmonics and curves along one joint,
+/// which were fitted together, the shortest). Where an argument that the effect depends on lies
+/// beyond (the perturbation would differ at the nearest row within), the effect is held constant: a
+/// harmonic or curve along its joint at its average over the training data, because its
+/// extrapolation is undetermined; a smooth effect at its value in the nearest row. The geometry was
+/// estimated together with the effects, so that omitting them would give larger errors. An effect
+/// whose argument is unknown (NaN, a session without training data) is omitted, as if the arm did
+/// not have it. Where all effects are omitted the result is that of the rigid arm, to the last bit.
+/// Every result reports which effects applied. An effect that depends on changes from row to row
+/// (EffectInfo::by_difference) has no bounds.
 ///
-/// Covariates, each (N, k) or one row for all: where an effect needs one that is not told it is
-/// left out when no covariates are told at all, and refused when some are. `payload` counts 0 kg,
-/// `gravity` the standard's unless told. A base that moved and a tool that was changed follow
-/// `session`; a tool that slipped follows `time`, and without it has slipped.
+/// Covariates, each (N, k) or one row for all: an effect that requires a missing one is omitted
+/// when no covariates are given at all, and is an error when some are. `payload` defaults to 0 kg,
+/// `gravity` to standard gravity. A base that moved and a tool that was changed follow `session`; a
+/// tool that slipped follows `time`, and without it has slipped.
 class CorrectedArm {
  public:
-  /// \throw std::invalid_argument for an effect without values, a joint that the arm has not, a
-  ///        support of another width or without a covariate that an effect needs; whatever an
-  ///        effect throws that is tried on one pose of the support.
+  /// \throw std::invalid_argument for an effect without values, a joint that the arm does not have,
+  ///         a support of another width or without a covariate that an effect requires; and
+  ///         whatever an effect throws when it is evaluated at one pose of the support.
   CorrectedArm(Arm arm, std::vector<FoundEffect> effects, Support support);
 
   const Arm& arm() const { return arm_; }  ///< the rigid part, with base and tool
@@ -65,12 +66,13 @@ class CorrectedArm {
   void set_tool(const Pose& flange_from_tool) { arm_.set_tool(flange_from_tool); }
 
   /// world_from_tool of each pose q (N, n).
-  /// \throw std::invalid_argument as bathyal::forward; covariates of another shape, or one that an
-  ///        effect needs and that is missing among others.
+  /// \throw std::invalid_argument as bathyal::forward; covariates of another shape, or an
+  ///         incomplete set.
   CorrectedPoses forward(JointView q, const Covariates& covariates = {}, int num_threads = 0) const;
 
-  /// The same of the recording that taught the model, all of its rows in the order in which they
-  /// were taken: a tool that slipped at a row, of which no time is known, has not slipped before.
+  /// The same for the recording that the model was estimated from, all of its rows in the order in
+  /// which they were taken: a tool that slipped at a row without a known time has not slipped
+  /// before it.
   CorrectedPoses forward_of_record(JointView q, const Covariates& covariates = {},
                                    int num_threads = 0) const;
 
@@ -78,18 +80,19 @@ class CorrectedArm {
   CorrectedPoses forward_links(JointView q, const Covariates& covariates = {},
                                int num_threads = 0) const;
 
-  /// As bathyal::jacobian. The chain is derived as it stands; how an effect changes with the joints
-  /// comes from central differences of what it moves (not of the pose), 1e-6 rad or m apart: of a
-  /// harmonic of size c and order k they are off by c (k³ 2e-13 + k 1e-9).
+  /// As bathyal::jacobian. The derivative of the perturbed chain is analytic; the derivatives of
+  /// the perturbations by the joints are central differences (of the perturbations, not of the
+  /// pose) with a step of 1e-6 rad or m: for a harmonic of size c and order k their error is c (k³
+  /// 2e-13 + k 1e-9).
   CorrectedJacobians jacobian(JointView q, const Covariates& covariates = {},
                               TipFrame frame = TipFrame::kWorld, int num_threads = 0) const;
 
-  /// As bathyal::inverse by kDampedLeastSquares: the rigid arm is sent where the target lies less
-  /// what the effects do at the pose found before, until the corrected tip agrees to
-  /// position_tolerance and angle_tolerance, 1e-9 m and rad unless given. A pose in the middle of a
-  /// gap, where an effect held at one edge brings it nearer to the other, is kSingular, with the
-  /// error that is left. Statuses else are those of the rigid arm: on the edge of what it
-  /// reaches a pose may be called out of reach by as little as the effects amount to.
+  /// As bathyal::inverse by kDampedLeastSquares: the rigid arm is sent to the target minus the
+  /// effects at the previous solution, until the corrected tip agrees to position_tolerance and
+  /// angle_tolerance, 1e-9 m and rad unless given. A pose in the middle of a gap, where an effect
+  /// held at one edge brings it nearer to the other, is kSingular, with the remaining error. Other
+  /// statuses are those of the rigid arm: at the edge of its workspace a pose may be reported out
+  /// of reach within the size of the effects.
   /// \throw std::invalid_argument as bathyal::inverse, and for kPseudoInverse.
   CorrectedInverse inverse(std::span<const double> targets, JointView starts,
                            const Covariates& covariates = {},
@@ -99,27 +102,27 @@ class CorrectedArm {
   /// period of those along it, and of those that are along no joint.
   std::vector<std::vector<Support::Gap>> gaps() const;
 
-  /// Which effects count in which row, (N, effects).
+  /// Which effects apply in which row, (N, effects).
   SupportMask in_support(JointView q, const Covariates& covariates = {}) const;
 
-  /// What each effect does in recorded rows, held and left out as in every answer.
-  std::vector<HeldEffect> held(JointView q, const Covariates& covariates) const;
+  /// The effects at recorded rows, held constant or omitted as in every result.
+  std::vector<FixedEffect> fixed_effects(JointView q, const Covariates& covariates) const;
 
  private:
-  struct Rows;  ///< poses with what the effects move there
-  struct Part;  ///< what one effect does in rows
+  struct Rows;          ///< poses with the sum of the effects
+  struct Contribution;  ///< of one effect, by row
 
-  using Actions = std::vector<std::vector<Action>>;
+  using Perturbations = std::vector<std::vector<Perturbation>>;
 
   Covariates known_covariates() const;
-  void try_effects() const;
-  Actions average(std::size_t effect) const;
-  Part part(std::size_t effect, const AskedRows& rows, bool told) const;
+  void check_effects() const;
+  Perturbations average(std::size_t effect) const;
+  Contribution contribution(std::size_t effect, const QueryRows& rows, bool usable) const;
   Rows prepare(JointView q, const Covariates& covariates, bool recording = false) const;
   CorrectedPoses poses_of(const Rows& rows, int num_threads) const;
-  std::vector<char> told(const Covariates& covariates) const;
-  std::vector<Correction> correction_by_joint(const JointMatrix& q,
-                                              const Covariates& covariates) const;
+  std::vector<char> usable_effects(const Covariates& covariates) const;
+  std::vector<EffectSum> derivative_by_joint(const JointMatrix& q,
+                                             const Covariates& covariates) const;
 
   Arm arm_;
   std::vector<FoundEffect> effects_;
@@ -128,6 +131,6 @@ class CorrectedArm {
 };
 
 /// "joint_harmonic of joint 3" (counted from 1), for people.
-std::string words_of(const FoundEffect& found);
+std::string describe(const FoundEffect& found);
 
 }  // namespace bathyal

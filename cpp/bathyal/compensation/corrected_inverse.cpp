@@ -7,8 +7,8 @@
 #include "bathyal/compensation/corrected_arm.hpp"
 #include "bathyal/geometry/rotation_vector.hpp"
 
-// What effects move is small and changes slowly with the pose, so that q of "target less what the
-// effects do at q" is a fixed point which a few rounds come to.
+// Perturbations are small and change slowly with the pose, so that q of "target minus the effects
+// at q" is a fixed point that a few iterations reach.
 
 namespace bathyal {
 namespace {
@@ -16,10 +16,10 @@ namespace {
 using RowMajor4 = Eigen::Matrix<double, 4, 4, Eigen::RowMajor>;
 
 constexpr double kTolerance = 1e-9;  ///< [m] and [rad]
-/// The rigid arm is sent to its target closer than the corrected one has to come to its own.
-constexpr double kShare = 0.1;
-constexpr int kMostRounds = 40;
-constexpr int kRoundsOfMiss = 4;  ///< for a target that the rigid arm does not reach
+/// The rigid arm is solved to a tighter tolerance than the corrected one.
+constexpr double kTighter = 0.1;
+constexpr int kMaxRounds = 40;
+constexpr int kMaxRoundsOutOfReach = 4;  ///< for a target out of reach of the rigid arm
 
 Pose pose_at(const double* numbers) {
   Pose pose;
@@ -27,8 +27,9 @@ Pose pose_at(const double* numbers) {
   return pose;
 }
 
-/// The rotation that is left between a tool and its target.
-Eigen::Matrix3d turn_left(const Pose& target, const Pose& tool, const InverseOptions& options) {
+/// The remaining rotation from a tool to its target.
+Eigen::Matrix3d remaining_rotation(const Pose& target, const Pose& tool,
+                                   const InverseOptions& options) {
   switch (options.task) {
     case InverseTask::kPosition:
       return Eigen::Matrix3d::Identity();
@@ -42,11 +43,11 @@ Eigen::Matrix3d turn_left(const Pose& target, const Pose& tool, const InverseOpt
   return target.linear() * tool.linear().transpose();
 }
 
-/// Targets on their way: what the rigid arm is sent to, and what came of it.
-class Rounds {
+/// The state of the iteration: targets of the rigid arm and its solutions.
+class FixedPointIteration {
  public:
-  Rounds(const CorrectedArm& model, std::span<const double> targets, const Covariates& covariates,
-         const InverseOptions& options)
+  FixedPointIteration(const CorrectedArm& model, std::span<const double> targets,
+                      const Covariates& covariates, const InverseOptions& options)
       : model_(model),
         targets_(targets),
         covariates_(covariates),
@@ -56,16 +57,16 @@ class Rounds {
         length_of_radian_(arm::InverseProblem(model.arm(), options).task.length),
         sent_(targets.begin(), targets.end()),
         done_(targets.size() / 16, 0) {
-    options_.position_tolerance = kShare * position_tolerance_;
-    options_.angle_tolerance = kShare * angle_tolerance_;
+    options_.position_tolerance = kTighter * position_tolerance_;
+    options_.angle_tolerance = kTighter * angle_tolerance_;
   }
 
   CorrectedInverse solve(JointView starts) {
     answer_.result = inverse(model_.arm(), sent_, starts, options_);
-    // From here on each target starts where the round before has left it.
+    // From here on each target starts from the previous solution.
     options_.candidates = 1;
     options_.centering_steps = 0;
-    for (int round = 1; compare(round) && round < kMostRounds; ++round) send_again();
+    for (int round = 1; compare(round) && round < kMaxRounds; ++round) solve_again();
     for (std::size_t i = 0; i < done_.size(); ++i) {
       InverseStatus& status = answer_.result.status[i];
       if (!done_[i] && status == InverseStatus::kReached) status = InverseStatus::kSingular;
@@ -74,7 +75,7 @@ class Rounds {
   }
 
  private:
-  /// Where the corrected tip is; corrects what is sent. True while a target is to be sent again.
+  /// Compares the corrected tip with the target and updates `sent_`; true until all have converged.
   bool compare(int round) {
     const JointMatrix& q = answer_.result.q;
     CorrectedPoses corrected = model_.forward(view_of(q), covariates_, options_.num_threads);
@@ -85,13 +86,13 @@ class Rounds {
       if (done_[i]) continue;
       const Pose target = pose_at(&targets_[16 * i]);
       const Pose tool = pose_at(&corrected.poses[16 * i]);
-      const Eigen::Matrix3d turn = turn_left(target, tool, options_);
+      const Eigen::Matrix3d turn = remaining_rotation(target, tool, options_);
       const Vec3 miss = target.translation() - tool.translation();
       note_error(i, miss.norm(), vector_of(turn).norm());
       const bool reached = answer_.result.status[i] == InverseStatus::kReached;
       const bool agrees = answer_.result.position_error[i] <= position_tolerance_ &&
                           answer_.result.angle_error[i] <= angle_tolerance_;
-      done_[i] = (reached && agrees) || (!reached && round > kRoundsOfMiss);
+      done_[i] = (reached && agrees) || (!reached && round > kMaxRoundsOutOfReach);
       if (done_[i]) continue;
       more = true;
       const Pose from = pose_at(&rigid[16 * i]);
@@ -110,7 +111,7 @@ class Rounds {
     result.error[i] = std::hypot(distance, length_of_radian_ * angle);
   }
 
-  void send_again() {
+  void solve_again() {
     InverseResult& result = answer_.result;
     std::vector<std::size_t> rows;
     for (std::size_t i = 0; i < done_.size(); ++i) {
@@ -139,7 +140,7 @@ class Rounds {
   InverseOptions options_;
   double position_tolerance_;
   double angle_tolerance_;
-  double length_of_radian_;  ///< as the errors of bathyal::inverse count it
+  double length_of_radian_;  ///< as in the errors of bathyal::inverse
   std::vector<double> sent_;
   std::vector<char> done_;
   CorrectedInverse answer_;
@@ -154,7 +155,7 @@ CorrectedInverse CorrectedArm::inverse(std::span<const double> targets, JointVie
   if (options.method != InverseMethod::kDampedLeastSquares) {
     throw_argument("method", "damped least squares", "the pseudo-inverse");
   }
-  return Rounds(*this, targets, covariates, options).solve(starts);
+  return FixedPointIteration(*this, targets, covariates, options).solve(starts);
 }
 
 }  // namespace bathyal

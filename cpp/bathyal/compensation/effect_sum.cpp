@@ -9,11 +9,11 @@
 namespace bathyal {
 namespace {
 
-double share_of(const Correction& correction, Index row) {
-  return correction.lengths.size() == 0 ? 0.0 : correction.lengths[row];
+double share_of(const EffectSum& sum, Index row) {
+  return sum.lengths.size() == 0 ? 0.0 : sum.lengths[row];
 }
 
-Pose put_in(const Pose& before, const RowMatrix& twists, Index row) {
+Pose perturbed(const Pose& before, const RowMatrix& twists, Index row) {
   if (twists.rows() == 0) return before;
   const Vec3 shift = twists.row(row).head(3).transpose();
   const Vec3 turn = twists.row(row).tail(3).transpose();
@@ -23,7 +23,7 @@ Pose put_in(const Pose& before, const RowMatrix& twists, Index row) {
   return behind;
 }
 
-/// How the tip moves and turns, gathered over what a coordinate moves.
+/// Motion of the tip, accumulated over everything that a coordinate moves.
 struct TipMotion {
   Vec3 tip;
   Vec3 shift = Vec3::Zero();
@@ -48,67 +48,69 @@ void grow_rows(const Arm& arm, const CorrectedFrames& frames, double share, TipM
 
 }  // namespace
 
-Correction::Correction(const Arm& arm, Index rows)
+EffectSum::EffectSum(const Arm& arm, Index rows)
     : q(JointMatrix::Zero(rows, arm.size())),
       frames(arm.joints().size() + 2),
       chained(static_cast<std::size_t>(rows), 0) {}
 
-void Correction::add(const std::vector<std::vector<Action>>& actions,
-                     const Eigen::VectorXd& values) {
-  for (std::size_t p = 0; p < actions.size(); ++p) {
-    for (const Action& action : actions[p]) add(action, values[static_cast<Index>(p)]);
+void EffectSum::add(const std::vector<std::vector<Perturbation>>& perturbations,
+                    const Eigen::VectorXd& values) {
+  for (std::size_t p = 0; p < perturbations.size(); ++p) {
+    for (const Perturbation& perturbation : perturbations[p])
+      add(perturbation, values[static_cast<Index>(p)]);
   }
 }
 
-void Correction::add(const Action& action, double value) {
-  const Index rows = action.values.rows();
-  switch (action.site) {
-    case Site::kJoint:
-      q.col(action.index) += value * action.values.col(0);
+void EffectSum::add(const Perturbation& perturbation, double value) {
+  const Index rows = perturbation.values.rows();
+  switch (perturbation.site) {
+    case PerturbationSite::kJoint:
+      q.col(perturbation.index) += value * perturbation.values.col(0);
       return;
-    case Site::kFrame:
-      if (frames[action.index].rows() == 0) frames[action.index] = RowMatrix::Zero(rows, 6);
-      frames[action.index] += value * action.values;
+    case PerturbationSite::kFrame:
+      if (frames[perturbation.index].rows() == 0)
+        frames[perturbation.index] = RowMatrix::Zero(rows, 6);
+      frames[perturbation.index] += value * perturbation.values;
       break;
-    case Site::kLength:
+    case PerturbationSite::kLength:
       if (lengths.size() == 0) lengths.setZero(rows);
-      lengths += value * action.values.col(0);
+      lengths += value * perturbation.values.col(0);
       break;
   }
   for (Index i = 0; i < rows; ++i) {
-    if (!action.values.row(i).isZero(0.0)) chained[static_cast<std::size_t>(i)] = 1;
+    if (!perturbation.values.row(i).isZero(0.0)) chained[static_cast<std::size_t>(i)] = 1;
   }
 }
 
-void compute_corrected_frames(const Arm& arm, const double* q, const Correction& correction,
-                              Index row, CorrectedFrames& frames) {
+void compute_corrected_frames(const Arm& arm, const double* q, const EffectSum& sum, Index row,
+                              CorrectedFrames& frames) {
   const std::size_t rows = arm.joints().size();
   frames.before.resize(rows + 2);
   frames.behind.resize(rows + 2);
-  const auto put = [&](std::size_t k, const Pose& pose) {
+  const auto add_frame = [&](std::size_t k, const Pose& pose) {
     frames.before[k] = pose;
-    frames.behind[k] = put_in(pose, correction.frames[k], row);
+    frames.behind[k] = perturbed(pose, sum.frames[k], row);
   };
   const Eigen::VectorXd moved =
-      Eigen::Map<const Eigen::VectorXd>(q, arm.size()) + correction.q.row(row).transpose();
+      Eigen::Map<const Eigen::VectorXd>(q, arm.size()) + sum.q.row(row).transpose();
   const std::span<const double> values(moved.data(), static_cast<std::size_t>(moved.size()));
-  const double grown = 1.0 + share_of(correction, row);
-  put(0, arm.base());
+  const double grown = 1.0 + share_of(sum, row);
+  add_frame(0, arm.base());
   for (std::size_t k = 0; k < rows; ++k) {
     const Joint& joint = arm.joints()[k];
     DhRow table = joint.row;
     table.a *= grown;
     table.d *= grown;
-    put(k + 1,
-        frames.start_of_row(arm, k) * row_pose(table, joint.type, joint_value(joint, values)));
+    add_frame(k + 1, frames.start_of_row(arm, k) *
+                         row_pose(table, joint.type, joint_value(joint, values)));
   }
-  put(rows + 1, frames.behind[rows] * arm.flange());
+  add_frame(rows + 1, frames.behind[rows] * arm.flange());
   frames.world_from_tool = frames.behind[rows + 1] * arm.tool();
 }
 
 Eigen::MatrixXd corrected_jacobian(const Arm& arm, const CorrectedFrames& frames,
-                                   const Correction& correction,
-                                   const std::vector<Correction>& by_joint, Index row) {
+                                   const EffectSum& sum, const std::vector<EffectSum>& by_joint,
+                                   Index row) {
   const Vec3 tip = frames.world_from_tool.translation();
   Eigen::MatrixXd rigid = Eigen::MatrixXd::Zero(6, arm.size());
   for (std::size_t k = 0; k < arm.joints().size(); ++k) {
@@ -125,12 +127,12 @@ Eigen::MatrixXd corrected_jacobian(const Arm& arm, const CorrectedFrames& frames
   }
   Eigen::MatrixXd jacobian = rigid;
   for (Index j = 0; j < arm.size(); ++j) {
-    const Correction& change = by_joint[j];
+    const EffectSum& change = by_joint[j];
     TipMotion motion{tip};
     for (std::size_t k = 0; k < frames.before.size(); ++k) {
       if (change.frames[k].rows() == 0) continue;
       const Eigen::Matrix3d& axes = frames.before[k].linear();
-      const Vec3 turn = correction.frames[k].row(row).tail(3).transpose();
+      const Vec3 turn = sum.frames[k].row(row).tail(3).transpose();
       motion.shift += axes * change.frames[k].row(row).head(3).transpose();
       motion.turn_about(
           axes * (left_jacobian(turn) * change.frames[k].row(row).tail(3).transpose()),

@@ -7,12 +7,12 @@
 
 namespace bathyal {
 
-/// An effect that stands as it was found while the geometry is sought anew. For use inside the
-/// room.
-struct HeldEffect {
+/// An effect with fixed values while the geometry is estimated.
+struct FixedEffect {
   EffectVariant variant;
   Eigen::VectorXd values;
-  std::vector<std::vector<Action>> actions;  ///< at the rows of the measurement, as actions_of
+  std::vector<std::vector<Perturbation>>
+      perturbations;  ///< at the rows of the measurement, as perturbations_of
 };
 
 }  // namespace bathyal

@@ -12,7 +12,7 @@
 namespace bathyal {
 namespace {
 
-/// A pose read back from a file or a target met again is not beyond the data for its last digits.
+/// Rounding of poses in files and of solutions does not place them outside the support.
 constexpr double kRounding = 1e-9;
 
 Support::Range range_of(const RowMatrix& values) {
@@ -29,7 +29,7 @@ Support::Range range_of(const RowMatrix& values) {
   return range;
 }
 
-/// Neighbours further apart than a share of the range; what is nearer no effect can tell.
+/// Neighbours farther apart than a share of the range; smaller gaps matter to no effect.
 std::vector<Support::Gap> gaps_of(const Eigen::VectorXd& values) {
   constexpr double kLeastShare = 1.0 / 200.0;
   std::vector<double> sorted(values.begin(), values.end());
@@ -59,8 +59,8 @@ void check_range_of(const std::string& name, const Support::Range& range, Index 
   }
 }
 
-/// (N, k) numbers of a covariate, one row told for all spread over them.
-RowMatrix spread(const std::string& name, const RowMatrix& values, Index rows, Index columns) {
+/// (N, k) numbers of a covariate, a single row replicated.
+RowMatrix replicated(const std::string& name, const RowMatrix& values, Index rows, Index columns) {
   if (values.rows() != rows && values.rows() != 1) {
     throw_argument("covariates " + name, std::to_string(rows) + " rows, one a pose, or one row",
                    std::to_string(values.rows()));
@@ -75,23 +75,23 @@ RowMatrix spread(const std::string& name, const RowMatrix& values, Index rows, I
   return values.rows() == rows ? values : RowMatrix(values.replicate(rows, 1));
 }
 
-/// Brings one table within its range, in all three.
+/// Clamps one table to its range, in all three.
 class Bounds {
  public:
   explicit Bounds(bool& beyond) : beyond_(beyond) {}
 
-  void within(const Support::Range& range, RowMatrix& asked, RowMatrix& low, RowMatrix& high) {
-    low = high = asked;
-    for (Index j = 0; j < asked.cols(); ++j) {
+  void within(const Support::Range& range, RowMatrix& query, RowMatrix& low, RowMatrix& high) {
+    low = high = query;
+    for (Index j = 0; j < query.cols(); ++j) {
       const double slack = kRounding * (1.0 + range.high[j] - range.low[j]);
-      for (Index i = 0; i < asked.rows(); ++i) {
-        const double value = asked(i, j);
+      for (Index i = 0; i < query.rows(); ++i) {
+        const double value = query(i, j);
         if (value >= range.low[j] - slack && value <= range.high[j] + slack) continue;
         beyond_ = true;
         if (std::isnan(value)) {
-          // A range of one number would hide that it is looked at.
+          // A range of zero width would hide that the effect depends on it.
           const double width = range.high[j] - range.low[j];
-          asked(i, j) = low(i, j) = range.low[j];
+          query(i, j) = low(i, j) = range.low[j];
           high(i, j) = range.low[j] + (width > 0.0 ? width : 1.0);
         } else {
           low(i, j) = high(i, j) = std::clamp(value, range.low[j], range.high[j]);
@@ -100,15 +100,15 @@ class Bounds {
     }
   }
 
-  void within(const std::vector<double>& sessions, RowMatrix& asked, RowMatrix& low,
+  void within(const std::vector<double>& sessions, RowMatrix& query, RowMatrix& low,
               RowMatrix& high) {
-    low = high = asked;
-    for (Index i = 0; i < asked.size(); ++i) {
-      const double value = asked.data()[i];
+    low = high = query;
+    for (Index i = 0; i < query.size(); ++i) {
+      const double value = query.data()[i];
       const bool known = !std::isnan(value);
       if (known && std::binary_search(sessions.begin(), sessions.end(), value)) continue;
       beyond_ = true;
-      if (!known) asked.data()[i] = sessions.front();
+      if (!known) query.data()[i] = sessions.front();
       low.data()[i] = sessions.front();
       high.data()[i] = sessions.back();
     }
@@ -186,7 +186,7 @@ bool Support::leave_gaps(double period, RowMatrix& q) const {
   return moved;
 }
 
-Eigen::VectorXd Support::taught(Index joint, double period, Index count) const {
+Eigen::VectorXd Support::training_values(Index joint, double period, Index count) const {
   const std::vector<Gap> wide = gaps_wider_than(period, joint);
   double width = joints.high[joint] - joints.low[joint];
   for (const Gap& gap : wide) width -= gap.high - gap.low;
@@ -230,41 +230,42 @@ Support support_of(const RowMatrix& q, const Covariates& covariates) {
   return support;
 }
 
-AskedRows ask(const Arm& arm, const Support& support, const RowMatrix& q,
-              const Covariates& covariates) {
-  AskedRows rows;
+QueryRows clamp_to_support(const Arm& arm, const Support& support, const RowMatrix& q,
+                           const Covariates& covariates) {
+  QueryRows rows;
   const Index count = q.rows();
-  Covariates told{{"payload", RowMatrix::Zero(count, 1)}};
+  Covariates given{{"payload", RowMatrix::Zero(count, 1)}};
   for (const auto& [name, values] : covariates) {
-    const auto taught = support.covariates.find(name);
-    const Index columns = name == "gravity"                    ? 3
-                          : name == "session"                  ? 1
-                          : taught == support.covariates.end() ? 0
-                                                               : taught->second.low.size();
-    told[name] = spread(name, values, count, columns);
+    const auto known_range = support.covariates.find(name);
+    const Index columns = name == "gravity"   ? 3
+                          : name == "session" ? 1
+                          : known_range == support.covariates.end()
+                              ? 0
+                              : known_range->second.low.size();
+    given[name] = replicated(name, values, count, columns);
   }
-  EffectData& asked = rows.asked;
-  asked = make_effect_data(arm, q, told, false);
-  asked.recording = false;
-  // Row by row: those in which it is not known are brought within its range below.
-  if (told.contains("gravity")) asked.gravity = told.at("gravity");
+  EffectData& query = rows.query;
+  query = make_effect_data(arm, q, given, false);
+  query.recording = false;
+  // Row by row: rows in which it is unknown are clamped to its range below.
+  if (given.contains("gravity")) query.gravity = given.at("gravity");
 
-  rows.low = rows.high = asked;
+  rows.low = rows.high = query;
   Bounds bounds(rows.beyond);
-  bounds.within(support.joints, asked.q, rows.low.q, rows.high.q);
-  bounds.within(support.gravity, asked.gravity, rows.low.gravity, rows.high.gravity);
-  for (auto& [name, values] : asked.covariates) {
+  bounds.within(support.joints, query.q, rows.low.q, rows.high.q);
+  bounds.within(support.gravity, query.gravity, rows.low.gravity, rows.high.gravity);
+  for (auto& [name, values] : query.covariates) {
     RowMatrix& low = rows.low.covariates[name];
     RowMatrix& high = rows.high.covariates[name];
-    const auto taught = support.covariates.find(name);
+    const auto known_range = support.covariates.find(name);
     if (name == "gravity") {
-      values = asked.gravity;
+      values = query.gravity;
       low = rows.low.gravity;
       high = rows.high.gravity;
     } else if (name == "session" && !support.sessions.empty()) {
       bounds.within(support.sessions, values, low, high);
-    } else if (taught != support.covariates.end()) {
-      bounds.within(taught->second, values, low, high);
+    } else if (known_range != support.covariates.end()) {
+      bounds.within(known_range->second, values, low, high);
     }
   }
   return rows;

@@ -10,64 +10,65 @@
 
 namespace bathyal {
 
-/// Whether the library's effects know a covariate of that name: temperature, time, payload,
+/// Whether effects of the library use a covariate of that name: temperature, time, payload,
 /// direction, gravity, session.
 bool is_library_covariate(std::string_view name);
 
-/// What effects used of recorded rows: of the library's covariates those that no row lacks, for the
-/// others count as not recorded; all of the caller's own.
+/// The covariates of recorded rows that effects use: of the library's those that are known in every
+/// row, since others count as not recorded; all of the caller's own.
 Covariates used_covariates(const EffectData& data);
 
-/// What the data that taught a model covered: beyond it the model is a guess.
+/// The region that the training data of a model cover: beyond it the model extrapolates.
 struct Support {
-  /// Least and greatest of each column.
+  /// Minimum and maximum of each column.
   struct Range {
     Eigen::VectorXd low;
     Eigen::VectorXd high;
   };
-  /// A stretch between two neighbours among what a joint was taught.
+  /// An interval between two neighbouring training values of a joint.
   struct Gap {
     double low;
     double high;
   };
   Range joints;  ///< (n,) [rad] or [m]
-  /// Of each joint, rising, those wider than a 200th of its range; empty where nobody told.
+  /// Of each joint, ascending, those wider than a 200th of its range; empty where unknown.
   std::vector<std::vector<Gap>> gaps;
   Range gravity;  ///< (3,) [m/s²], in the arm's base frame
-  /// Of all others but `session`. `payload` is always there: 0 kg where nobody told it.
+  /// Of all others but `session`. `payload` is always present: 0 kg where it was not recorded.
   std::map<std::string, Range> covariates;
-  std::vector<double> sessions;  ///< that were seen, rising; empty where none were told
+  std::vector<double> sessions;  ///< of the training data, ascending; empty without sessions
 
-  /// \throw std::invalid_argument for ranges and gaps that are crossed, not finite, or of another
-  ///        width; gaps beyond their joint's range.
+  /// \throw std::invalid_argument for ranges and gaps that are inverted, not finite, or of another
+  ///         width; gaps beyond the range of their joint.
   void check(Index coordinates) const;
 
   /// Of `joint`, those wider than `period`.
   std::vector<Gap> gaps_wider_than(double period, Index joint) const;
 
-  /// Brings joint values (N, n) out of gaps wider than `period`, to the nearer edge. True where any
+  /// Moves joint values (N, n) out of gaps wider than `period`, to the nearer edge. True if any
   /// was in one.
   bool leave_gaps(double period, RowMatrix& q) const;
 
-  /// Values spread evenly over what a joint was taught: its range less gaps wider than `period`.
-  Eigen::VectorXd taught(Index joint, double period, Index count) const;
+  /// Values evenly spaced over the training data of a joint: its range without gaps wider than
+  /// `period`.
+  Eigen::VectorXd training_values(Index joint, double period, Index count) const;
 };
 
-/// The support of recorded rows. Values that are NaN (not known in that row) teach nothing.
+/// The support of recorded rows. NaN (unknown in that row) is ignored.
 Support support_of(const RowMatrix& q, const Covariates& covariates);
 
-/// Poses to foretell, and the same poses brought within the ranges of a support.
-struct AskedRows {
-  EffectData asked;  ///< what is not known (NaN, a session that nobody saw) stands at its low end
-  EffectData low;    ///< within the support; what is not known at the low end
-  EffectData high;   ///< within the support; what is not known at the high end
-  bool beyond = false;  ///< whether the three differ at all
+/// Poses to predict, and the same poses clamped to the ranges of a support.
+struct QueryRows {
+  EffectData query;     ///< unknown values (NaN, a session without data) are at the low end
+  EffectData low;       ///< within the support; unknown values at the low end
+  EffectData high;      ///< within the support; unknown values at the high end
+  bool beyond = false;  ///< whether the three differ
 };
 
-/// Covariates have N rows, or one that counts for all. Without `payload` 0 kg, without `gravity`
-/// the standard's, straight down.
+/// Covariates have N rows, or one for all. `payload` defaults to 0 kg, `gravity` to standard
+/// gravity, straight down.
 /// \throw std::invalid_argument for another number of rows or columns, infinite numbers.
-AskedRows ask(const Arm& arm, const Support& support, const RowMatrix& q,
-              const Covariates& covariates);
+QueryRows clamp_to_support(const Arm& arm, const Support& support, const RowMatrix& q,
+                           const Covariates& covariates);
 
 }  // namespace bathyal

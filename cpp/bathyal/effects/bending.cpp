@@ -2,14 +2,14 @@
 #include "bathyal/effects/gravity_load.hpp"
 #include "bathyal/effects/internal/library.hpp"
 
-// Links, and what the arm stands on, that bend under its weight.
+// Links, and the support of the arm, that bend under its weight.
 
-namespace bathyal {
+namespace bathyal::effects {
 namespace {
 
-constexpr double kNothing = 1e-12;  ///< rounding leaves less of a moment or a shift
+constexpr double kNothing = 1e-12;  ///< [N m] or [m], above rounding errors
 
-/// They bend alike, and data hardly tell which of them it is.
+/// They bend alike, and data hardly distinguish them.
 const char* const kBending = "bending";
 
 bool differs(const RowMatrix& values) {
@@ -51,10 +51,10 @@ class LinkCompliance final : public Effect {
     return out;
   }
 
-  Actions actions(const EffectVariant& variant, const EffectData& data) const override {
+  Perturbations perturbations(const EffectVariant& variant, const EffectData& data) const override {
     const auto rows = static_cast<Index>(data.arm->joints().size());
     const int row = index_of(variant, "row", rows);
-    return {{{Site::kFrame, row + 1, bend(data, loads_of(data), row)}}};
+    return {{{PerturbationSite::kFrame, row + 1, bend(data, loads_of(data), row)}}};
   }
 
  private:
@@ -66,7 +66,7 @@ class LinkCompliance final : public Effect {
       const Pose& to = loads.frames(i).world_from_row[row + 1];
       const Vec3 link = to.linear().transpose() * (to.translation() - from.translation());
       const double length = link.norm();
-      // The link itself is link row + 1: what lies beyond its end begins behind it.
+      // The link itself is link row + 1: the load at its end starts with the next one.
       const GravityLoad load = loads.beyond(i, static_cast<std::size_t>(row) + 2, to.translation());
       const Vec3 force = to.linear().transpose() * load.force;
       Vec3 moment = to.linear().transpose() * load.moment;
@@ -84,7 +84,7 @@ class BaseCompliance final : public Effect {
   EffectInfo info() const override {
     return {
         "base_compliance",
-        "a stand that tilts under the arm's weight as the arm leans out",
+        "a support that tilts under the arm's weight as the arm reaches out",
         "base turned by (compliance_x · M_x, compliance_y · M_y, 0), M the moment of the weight "
         "of links and payload about the base",
         "Khalil, Besnard: Geometric calibration of robots with flexible joints and links, 2002 "
@@ -107,9 +107,9 @@ class BaseCompliance final : public Effect {
     return {variant};
   }
 
-  Actions actions(const EffectVariant& variant, const EffectData& data) const override {
+  Perturbations perturbations(const EffectVariant& variant, const EffectData& data) const override {
     const RowMatrix moments = moments_of(data);
-    Actions out;
+    Perturbations out;
     for (const EffectParameter& parameter : variant.parameters) {
       const int axis = parameter.name == "compliance_x" ? 0 : 1;
       out.push_back({move_frame(0, 3 + axis, moments.col(axis))});
@@ -118,7 +118,7 @@ class BaseCompliance final : public Effect {
   }
 
  private:
-  /// (N, 3) about the origin of the base, of all but the foot, which stands on it.
+  /// (N, 3) about the origin of the base, of all links but the first, which rests on it.
   static RowMatrix moments_of(const EffectData& data) {
     const GravityLoads loads = loads_of(data);
     RowMatrix out(data.rows(), 3);
@@ -134,4 +134,4 @@ class BaseCompliance final : public Effect {
 std::shared_ptr<const Effect> link_compliance() { return std::make_shared<LinkCompliance>(); }
 std::shared_ptr<const Effect> base_compliance() { return std::make_shared<BaseCompliance>(); }
 
-}  // namespace bathyal
+}  // namespace bathyal::effects

@@ -4,9 +4,9 @@
 
 #include "bathyal/effects/internal/library.hpp"
 
-// What goes with temperature and time.
+// Effects of temperature and time.
 
-namespace bathyal {
+namespace bathyal::effects {
 namespace {
 
 class Thermal final : public Effect {
@@ -31,10 +31,10 @@ class Thermal final : public Effect {
              "thermal"}};
   }
 
-  Actions actions(const EffectVariant& variant, const EffectData& data) const override {
+  Perturbations perturbations(const EffectVariant& variant, const EffectData& data) const override {
     const Eigen::ArrayXd warmer =
         data.covariate("temperature").col(0).array() - setting_of(variant, "mean_temperature");
-    return {{{Site::kLength, 0, warmer.matrix()}}};
+    return {{{PerturbationSite::kLength, 0, warmer.matrix()}}};
   }
 };
 
@@ -57,15 +57,15 @@ class Drift final : public Effect {
         "drift", -1, {{"first_time", data.covariate("time").minCoeff()}}, {}, "drift"};
     const std::vector<std::string> axes = frame_axes("rate", "turn_rate", true);
     for (std::size_t axis = 0; axis < axes.size(); ++axis) {
-      variant.parameters.push_back({axes[axis], axis < 3 ? "m/s" : "rad/s", kOrdinaryError / span});
+      variant.parameters.push_back({axes[axis], axis < 3 ? "m/s" : "rad/s", kTypicalError / span});
     }
     return {variant};
   }
 
-  Actions actions(const EffectVariant& variant, const EffectData& data) const override {
+  Perturbations perturbations(const EffectVariant& variant, const EffectData& data) const override {
     const Eigen::ArrayXd since =
         data.covariate("time").col(0).array() - setting_of(variant, "first_time");
-    Actions out;
+    Perturbations out;
     for (int axis = 0; axis < 6; ++axis) out.push_back({move_frame(0, axis, since)});
     return out;
   }
@@ -92,12 +92,12 @@ class ClockShift final : public Effect {
 
   std::vector<EffectVariant> variants(const EffectData& data) const override {
     if (!data.has("time") || speeds(data).isZero(0.0)) return {};
-    return {{"clock_shift", -1, {}, {{"delay", "s", kOrdinaryError}}, "clock_shift"}};
+    return {{"clock_shift", -1, {}, {{"delay", "s", kTypicalError}}, "clock_shift"}};
   }
 
-  Actions actions(const EffectVariant&, const EffectData& data) const override {
+  Perturbations perturbations(const EffectVariant&, const EffectData& data) const override {
     const RowMatrix speed = speeds(data);
-    Actions out(1);
+    Perturbations out(1);
     for (int j = 0; j < static_cast<int>(speed.cols()); ++j) {
       out[0].push_back(move_joint(j, speed.col(j)));
     }
@@ -105,8 +105,8 @@ class ClockShift final : public Effect {
   }
 
  private:
-  /// (N, n) by differences of the rows before and after in time, of one session; at its ends, and
-  /// beside rows of the same time, of the one neighbour that there is.
+  /// (N, n) by differences of the previous and next rows in time, of one session; at its ends, and
+  /// next to rows of the same time, of the only neighbour.
   static RowMatrix speeds(const EffectData& data) {
     const RowMatrix& time = data.covariate("time");
     const bool sessions = data.has("session");
@@ -144,4 +144,4 @@ std::shared_ptr<const Effect> thermal() { return std::make_shared<Thermal>(); }
 std::shared_ptr<const Effect> drift() { return std::make_shared<Drift>(); }
 std::shared_ptr<const Effect> clock_shift() { return std::make_shared<ClockShift>(); }
 
-}  // namespace bathyal
+}  // namespace bathyal::effects

@@ -15,13 +15,13 @@ std::string shape_of(const RowMatrix& values) {
   return "shape (" + std::to_string(values.rows()) + ", " + std::to_string(values.cols()) + ")";
 }
 
-/// NaN stands for a number that was not recorded.
-bool is_whole(const RowMatrix& values) { return values.array().isFinite().all(); }
+/// NaN marks a number that was not recorded.
+bool is_complete(const RowMatrix& values) { return values.array().isFinite().all(); }
 
-void check_shape(const std::string& name, const RowMatrix& values, Index rows, Index wide) {
-  if (values.rows() == rows && values.cols() == wide) return;
+void check_shape(const std::string& name, const RowMatrix& values, Index rows, Index width) {
+  if (values.rows() == rows && values.cols() == width) return;
   throw_argument("covariates " + name,
-                 "shape (" + std::to_string(rows) + ", " + std::to_string(wide) + ")",
+                 "shape (" + std::to_string(rows) + ", " + std::to_string(width) + ")",
                  shape_of(values));
 }
 
@@ -61,26 +61,29 @@ void check_known(const Covariates& covariates, const RowMatrix& q) {
 }
 
 std::string place_of(const EffectVariant& variant, std::size_t parameter) {
-  return "actions of " + variant.effect + ", parameter " + variant.parameters[parameter].name;
+  return "perturbations of " + variant.effect + ", parameter " + variant.parameters[parameter].name;
 }
 
-void check_action(const std::string& name, const Action& action, const EffectData& data) {
-  const Index wide = action.site == Site::kFrame ? 6 : 1;
-  if (action.values.rows() != data.rows() || action.values.cols() != wide) {
+void check_perturbation(const std::string& name, const Perturbation& perturbation,
+                        const EffectData& data) {
+  const Index width = perturbation.site == PerturbationSite::kFrame ? 6 : 1;
+  if (perturbation.values.rows() != data.rows() || perturbation.values.cols() != width) {
     throw_argument(
-        name, "values of shape (" + std::to_string(data.rows()) + ", " + std::to_string(wide) + ")",
-        shape_of(action.values));
+        name,
+        "values of shape (" + std::to_string(data.rows()) + ", " + std::to_string(width) + ")",
+        shape_of(perturbation.values));
   }
-  if (!(action.values.array().abs() <= kMostAction).all()) {
-    throw_argument(name, "numbers within " + to_text(kMostAction), "larger ones, nan or inf");
+  if (!(perturbation.values.array().abs() <= kMaxPerturbation).all()) {
+    throw_argument(name, "numbers within " + to_text(kMaxPerturbation), "larger ones, nan or inf");
   }
   const auto rows = static_cast<int>(data.arm->joints().size());
-  const int last = action.site == Site::kJoint   ? static_cast<int>(data.arm->size()) - 1
-                   : action.site == Site::kFrame ? rows + 1
-                                                 : 0;
-  if (action.index < 0 || action.index > last) {
+  const int last = perturbation.site == PerturbationSite::kJoint
+                       ? static_cast<int>(data.arm->size()) - 1
+                   : perturbation.site == PerturbationSite::kFrame ? rows + 1
+                                                                   : 0;
+  if (perturbation.index < 0 || perturbation.index > last) {
     throw_argument(name, "an index from 0 to " + std::to_string(last),
-                   std::to_string(action.index));
+                   std::to_string(perturbation.index));
   }
 }
 
@@ -88,7 +91,7 @@ void check_action(const std::string& name, const Action& action, const EffectDat
 
 bool EffectData::has(std::string_view name) const {
   const auto found = covariates.find(std::string(name));
-  return found != covariates.end() && found->second.rows() == rows() && is_whole(found->second);
+  return found != covariates.end() && found->second.rows() == rows() && is_complete(found->second);
 }
 
 const RowMatrix& EffectData::covariate(std::string_view name) const {
@@ -116,8 +119,8 @@ EffectData make_effect_data(const Arm& arm, const RowMatrix& q, const Covariates
 }
 
 double plausible_size(const EffectInfo& info, const EffectParameter& parameter) {
-  // "rad or m" is the unit of what turns and of what slides.
-  const auto tells = [&](const std::string& units) {
+  // "rad or m" is the unit of revolute and prismatic joints.
+  const auto includes_unit = [&](const std::string& units) {
     const std::size_t at = units.find(parameter.unit);
     if (at == std::string::npos) return false;
     const std::size_t end = at + parameter.unit.size();
@@ -125,23 +128,25 @@ double plausible_size(const EffectInfo& info, const EffectParameter& parameter) 
            (end == units.size() || units[end] == ',' || units.substr(end, 4) == " or ");
   };
   for (const EffectInfo::Range& range : info.ranges) {
-    if (tells(range.unit)) return range.high;
+    if (includes_unit(range.unit)) return range.high;
   }
   return std::numeric_limits<double>::infinity();
 }
 
-std::vector<std::vector<Action>> actions_of(const Effect& effect, const EffectVariant& variant,
-                                            const EffectData& data) {
-  std::vector<std::vector<Action>> actions = effect.actions(variant, data);
-  if (actions.size() != variant.parameters.size()) {
-    throw_argument("actions of " + variant.effect,
+std::vector<std::vector<Perturbation>> perturbations_of(const Effect& effect,
+                                                        const EffectVariant& variant,
+                                                        const EffectData& data) {
+  std::vector<std::vector<Perturbation>> perturbations = effect.perturbations(variant, data);
+  if (perturbations.size() != variant.parameters.size()) {
+    throw_argument("perturbations of " + variant.effect,
                    std::to_string(variant.parameters.size()) + " lists, one a parameter",
-                   std::to_string(actions.size()));
+                   std::to_string(perturbations.size()));
   }
-  for (std::size_t p = 0; p < actions.size(); ++p) {
-    for (const Action& action : actions[p]) check_action(place_of(variant, p), action, data);
+  for (std::size_t p = 0; p < perturbations.size(); ++p) {
+    for (const Perturbation& perturbation : perturbations[p])
+      check_perturbation(place_of(variant, p), perturbation, data);
   }
-  return actions;
+  return perturbations;
 }
 
 }  // namespace bathyal

@@ -6,16 +6,16 @@
 #include "bathyal/effects/internal/library.hpp"
 #include "bathyal/estimation/rank.hpp"
 
-// Joints that give way under weight.
+// Joints that yield under weight.
 
-namespace bathyal {
+namespace bathyal::effects {
 namespace {
 
 constexpr double kOrdinaryCompliance = 1e-5;  ///< [rad/(N m)] or [m/N]
 
 std::string compliance_unit(const Arm& arm, int j) { return slides(arm, j) ? "m/N" : "rad/(N m)"; }
 
-/// Masses that nobody told, of the links beyond a joint: for each link its mass, and its mass
+/// Unknown masses of the links beyond a joint: for each link its mass, and its mass
 /// moment along each axis of the frame that it hangs on. A joint's torque is linear in them.
 class LumpedMoments {
  public:
@@ -40,12 +40,12 @@ class LumpedMoments {
     return out;
   }
 
-  /// Those that no offset of the joint and none before them can do. A torque of which they leave
-  /// less than a hundredth of what such a weight can exert on this arm is no number of its own: its
-  /// own length would be no measure, since an arm that is a little off its drawing makes something
-  /// out of each torque that the drawing has at nothing, which the next fit makes otherwise.
+  /// Those that are independent of an offset of the joint and of those before them. A torque with
+  /// an independent component of less than a hundredth of what such a weight can exert on this arm
+  /// is dropped. The tolerance is not relative to the torque itself: a torque that is zero at the
+  /// nominal arm is not at a slightly different one, and would be selected there.
   std::vector<int> independent() const {
-    constexpr double kTold = 1e-2;
+    constexpr double kIndependentShare = 1e-2;
     const int count = kKinds * static_cast<int>(data_.arm->joints().size());
     const double pull = data_.gravity.rowwise().norm().maxCoeff(), lever = reach();
     Eigen::MatrixXd torques(data_.rows(), count + 1);
@@ -60,7 +60,7 @@ class LumpedMoments {
       order.push_back(moment);
     }
     const double rows = std::sqrt(static_cast<double>(data_.rows()));
-    std::vector<int> kept = select_longer(torques, order, kTold * rows).kept;
+    std::vector<int> kept = select_longer(torques, order, kIndependentShare * rows).kept;
     std::erase(kept, count);
     return kept;
   }
@@ -83,14 +83,14 @@ class LumpedMoments {
   GravityLoads loads_;
 };
 
-/// Where masses are not told, "moment_1" … are compliance times a mass moment of the links beyond
+/// Where masses are unknown, "moment_1" … are compliance times a mass moment of the links beyond
 /// (settings say which), and "compliance" is that under the recorded payload.
 class JointCompliance final : public Effect {
  public:
   EffectInfo info() const override {
     return {
         "joint_compliance",
-        "a joint that gives way under the weight that it carries",
+        "a joint that yields under the weight that it carries",
         "q' = q + compliance · τ(q), τ the torque of gravity along the joint; of unknown masses "
         "q' = q + Σ moment_i · τ_i(q), τ_i the torque of a unit of mass or mass moment",
         "Whitney, Lozinski, Rourke, 1986; Khalil, Besnard: Geometric calibration of robots with "
@@ -116,16 +116,16 @@ class JointCompliance final : public Effect {
     return out;
   }
 
-  Actions actions(const EffectVariant& variant, const EffectData& data) const override {
+  Perturbations perturbations(const EffectVariant& variant, const EffectData& data) const override {
     const int j = joint_of(variant, data);
-    const auto moments_told = LumpedMoments::kKinds * static_cast<Index>(data.arm->joints().size());
+    const auto moment_count = LumpedMoments::kKinds * static_cast<Index>(data.arm->joints().size());
     const LumpedMoments moments(data, j);
     const GravityLoads loads(data, GravityLoads::Bodies::kArm, payload_of(data));
-    Actions out;
+    Perturbations out;
     for (const EffectParameter& parameter : variant.parameters) {
       const bool lumped = variant.settings.contains(parameter.name);
       out.push_back(
-          {move_joint(j, lumped ? moments.torque(index_of(variant, parameter.name, moments_told))
+          {move_joint(j, lumped ? moments.torque(index_of(variant, parameter.name, moment_count))
                                 : loads.torque(j))});
     }
     return out;
@@ -133,7 +133,7 @@ class JointCompliance final : public Effect {
 
  private:
   static bool is_felt(const Eigen::VectorXd& torque) {
-    constexpr double kNothing = 1e-9;  // [N m] or [N] rounding leaves less
+    constexpr double kNothing = 1e-9;  // [N m] or [N], above rounding errors
     return varies(torque) && torque.maxCoeff() - torque.minCoeff() > kNothing;
   }
 
@@ -154,7 +154,7 @@ class UnknownPayload final : public Effect {
   EffectInfo info() const override {
     return {
         "payload",
-        "a mass at the tool that nobody told, on joints that give way",
+        "an unknown mass at the tool, on joints that yield",
         "q'_j = q_j + mass_compliance_j · τ_j(1 kg at the tool centre point), all turning joints",
         "Khalil, Besnard: Geometric calibration of robots with flexible joints and links, 2002",
         {},
@@ -175,9 +175,9 @@ class UnknownPayload final : public Effect {
     return {variant};
   }
 
-  Actions actions(const EffectVariant& variant, const EffectData& data) const override {
+  Perturbations perturbations(const EffectVariant& variant, const EffectData& data) const override {
     const GravityLoads loads = of_one_kilogram(data);
-    Actions out;
+    Perturbations out;
     for (const EffectParameter& parameter : variant.parameters) {
       const int j = index_of(variant, parameter.name, data.q.cols());
       out.push_back({move_joint(j, loads.torque(j))});
@@ -186,7 +186,7 @@ class UnknownPayload final : public Effect {
   }
 
  private:
-  static constexpr double kNothing = 1e-9;  ///< [N m] rounding leaves less
+  static constexpr double kNothing = 1e-9;  ///< [N m], above rounding errors
 
   static GravityLoads of_one_kilogram(const EffectData& data) {
     return {data, GravityLoads::Bodies::kNone, Eigen::VectorXd::Ones(data.rows())};
@@ -198,4 +198,4 @@ class UnknownPayload final : public Effect {
 std::shared_ptr<const Effect> joint_compliance() { return std::make_shared<JointCompliance>(); }
 std::shared_ptr<const Effect> payload() { return std::make_shared<UnknownPayload>(); }
 
-}  // namespace bathyal
+}  // namespace bathyal::effects

@@ -6,7 +6,7 @@
 namespace bathyal {
 namespace {
 
-/// Along the coordinate of a joint that stands at `frame`.
+/// Along the coordinate of a joint whose frame is `frame`.
 double pull_along(const Joint& joint, const Pose& frame, const Burden& burden,
                   const Vec3& gravity) {
   const Vec3 axis = frame.linear().col(2);

@@ -6,8 +6,7 @@
 #include "bathyal/arm/row_frames.hpp"
 #include "bathyal/effects/effect.hpp"
 
-// What the weight of an arm and of its payload does at each pose. In air: what water carries is not
-// taken off. For use inside the room.
+// The weight of an arm and of its payload at each pose. In air: buoyancy is not subtracted.
 
 namespace bathyal {
 

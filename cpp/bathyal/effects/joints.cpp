@@ -7,16 +7,16 @@
 
 #include "bathyal/effects/internal/library.hpp"
 
-// What a joint does to itself: encoders, gears, screws.
+// Errors along one joint: encoders, gears, screws.
 
-namespace bathyal {
+namespace bathyal::effects {
 namespace {
 
 double span_of(const EffectData& data, int j) {
   return data.q.col(j).maxCoeff() - data.q.col(j).minCoeff();
 }
 
-/// Curves along one joint are one cause, however they are written; a scale is a curve too.
+/// Curves along one joint are aliases of one cause in any parametrization; a scale is one too.
 std::string curve_of(int j) { return "curve of joint " + std::to_string(j); }
 
 template <class Body>
@@ -49,14 +49,14 @@ class JointHarmonic final : public Effect {
         out.push_back({"joint_harmonic",
                        j,
                        {{"order", order}},
-                       {{"cos", unit, kOrdinaryError}, {"sin", unit, kOrdinaryError}},
+                       {{"cos", unit, kTypicalError}, {"sin", unit, kTypicalError}},
                        curve_of(j)});
       }
     });
     return out;
   }
 
-  Actions actions(const EffectVariant& variant, const EffectData& data) const override {
+  Perturbations perturbations(const EffectVariant& variant, const EffectData& data) const override {
     const int j = joint_of(variant, data);
     const Eigen::ArrayXd phase = setting_of(variant, "order") * data.q.col(j).array();
     return {{move_joint(j, phase.cos())}, {move_joint(j, phase.sin())}};
@@ -75,7 +75,7 @@ class JointHarmonic final : public Effect {
       out.push_back(lower);
       out.back().settings["order"] = low + (high - low) * i / kParts;
     }
-    // Teeth and encoders make whole orders: the one that lies between is asked by itself.
+    // Teeth and encoders cause whole orders: one in between is tried in addition.
     const double whole = std::round(0.5 * (low + high));
     if (low < whole && whole < high) {
       const auto at = std::find_if(out.begin(), out.end(), [&](const EffectVariant& v) {
@@ -89,9 +89,9 @@ class JointHarmonic final : public Effect {
   }
 
  private:
-  /// Two orders that are one wave over the span apart (2π / span) look unlike each other; a grid of
-  /// a quarter of that loses 3 % of a wave's amplitude between its points, one of half 10 %, and
-  /// the search refines what it finds.
+  /// Two orders that differ by one period over the span (2π / span) are distinguishable; a grid of
+  /// a quarter of that loses 3 % of the amplitude between its points, one of half 10 %, and the
+  /// search refines what it finds.
   static std::vector<double> orders(const EffectData& data, int j) {
     constexpr double kLeastStep = 0.25;
     constexpr double kFineEnd = 20.0, kEnd = 200.0;
@@ -105,7 +105,7 @@ class JointHarmonic final : public Effect {
     const double fine = std::max(least, 0.25 * wave), coarse = std::max(least, 0.5 * wave);
     std::set<double> found;
     for (int k = 1; turning && k <= kWholeOrders; ++k) found.insert(k);
-    // Below a quarter of a wave over the span a wave is no more than an offset and a scale.
+    // Less than a quarter of a period over the span is equivalent to an offset and a scale.
     int step = 0;
     double order = 0.25 * wave;
     for (; order <= fine_end; order = 0.25 * wave + ++step * fine) found.insert(order);
@@ -116,7 +116,7 @@ class JointHarmonic final : public Effect {
 };
 
 class JointMap final : public Effect {
-  static constexpr Index kRowsForTerm = 6;  ///< poses for each term, or there is nothing to tell
+  static constexpr Index kRowsForTerm = 6;  ///< poses for each term, else it is not determined
 
  public:
   EffectInfo info() const override {
@@ -144,18 +144,18 @@ class JointMap final : public Effect {
         out.push_back({"joint_map", j, {{"terms", terms}, {"wave", wave}}, {}, curve_of(j)});
         for (int term = 1; term <= terms; ++term) {
           const std::string number = std::to_string(term);
-          out.back().parameters.push_back({"cos_" + number, unit, kOrdinaryError});
-          out.back().parameters.push_back({"sin_" + number, unit, kOrdinaryError});
+          out.back().parameters.push_back({"cos_" + number, unit, kTypicalError});
+          out.back().parameters.push_back({"sin_" + number, unit, kTypicalError});
         }
       }
     });
     return out;
   }
 
-  Actions actions(const EffectVariant& variant, const EffectData& data) const override {
+  Perturbations perturbations(const EffectVariant& variant, const EffectData& data) const override {
     const int j = joint_of(variant, data);
     const Eigen::ArrayXd angle = setting_of(variant, "wave") * data.q.col(j).array();
-    Actions out;
+    Perturbations out;
     for (std::size_t term = 1; 2 * term <= variant.parameters.size(); ++term) {
       const Eigen::ArrayXd phase = static_cast<double>(term) * angle;
       out.push_back({move_joint(j, phase.cos())});
@@ -173,23 +173,24 @@ class JointMap final : public Effect {
 class JointScale final : public Effect {
  public:
   EffectInfo info() const override {
-    return {"joint_scale",
-            "a joint that tells more, or less, than it moves: a wrong gear ratio, a stretched belt",
-            "q' = q (1 + scale)",
-            "Mooring, Roth, Driels: Fundamentals of manipulator calibration, 1991",
-            {},
-            {{"scale", "1", 1e-6, 2e-2}}};
+    return {
+        "joint_scale",
+        "a joint that reports more, or less, than it moves: a wrong gear ratio, a stretched belt",
+        "q' = q (1 + scale)",
+        "Mooring, Roth, Driels: Fundamentals of manipulator calibration, 1991",
+        {},
+        {{"scale", "1", 1e-6, 2e-2}}};
   }
 
   std::vector<EffectVariant> variants(const EffectData& data) const override {
     std::vector<EffectVariant> out;
     for_each_moving(data, [&](int j) {
-      out.push_back({"joint_scale", j, {}, {{"scale", "1", kOrdinaryError}}, curve_of(j)});
+      out.push_back({"joint_scale", j, {}, {{"scale", "1", kTypicalError}}, curve_of(j)});
     });
     return out;
   }
 
-  Actions actions(const EffectVariant& variant, const EffectData& data) const override {
+  Perturbations perturbations(const EffectVariant& variant, const EffectData& data) const override {
     const int j = joint_of(variant, data);
     return {{move_joint(j, data.q.col(j))}};
   }
@@ -216,14 +217,14 @@ class JointCoupling final : public Effect {
         out.push_back({"joint_coupling",
                        j,
                        {{"by", by}},
-                       {{"ratio", mine == other ? "1" : mine + "/" + other, kOrdinaryError}},
+                       {{"ratio", mine == other ? "1" : mine + "/" + other, kTypicalError}},
                        "coupling of joint " + std::to_string(j) + " to " + std::to_string(by)});
       });
     }
     return out;
   }
 
-  Actions actions(const EffectVariant& variant, const EffectData& data) const override {
+  Perturbations perturbations(const EffectVariant& variant, const EffectData& data) const override {
     const int by = index_of(variant, "by", data.q.cols());
     return {{move_joint(joint_of(variant, data), data.q.col(by))}};
   }
@@ -249,13 +250,13 @@ class Backlash final : public Effect {
       out.push_back({"backlash",
                      j,
                      {},
-                     {{"gap", unit_of(*data.arm, j), kOrdinaryError}},
+                     {{"gap", unit_of(*data.arm, j), kTypicalError}},
                      "backlash of joint " + std::to_string(j)});
     }
     return out;
   }
 
-  Actions actions(const EffectVariant& variant, const EffectData& data) const override {
+  Perturbations perturbations(const EffectVariant& variant, const EffectData& data) const override {
     const int j = joint_of(variant, data);
     const Eigen::VectorXd direction = data.covariate("direction").col(j);
     return {{move_joint(j, -0.5 * direction)}};
@@ -270,4 +271,4 @@ std::shared_ptr<const Effect> joint_scale() { return std::make_shared<JointScale
 std::shared_ptr<const Effect> joint_coupling() { return std::make_shared<JointCoupling>(); }
 std::shared_ptr<const Effect> backlash() { return std::make_shared<Backlash>(); }
 
-}  // namespace bathyal
+}  // namespace bathyal::effects

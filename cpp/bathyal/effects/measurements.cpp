@@ -22,12 +22,12 @@ void check_length(std::string_view name, std::size_t length, Index rows) {
   }
 }
 
-/// Two turns either way: beyond them a number is an angle in degrees, hardly one in radians.
+/// Two turns in either direction: a larger number is an angle in degrees rather than in radians.
 constexpr double kMostRadians = 4.0 * std::numbers::pi;
-/// [m] From here on a double counts in steps of a tenth of a micrometre and more.
+/// [m] Beyond it the spacing of doubles exceeds a tenth of a micrometre.
 constexpr double kFarthest = 1e9;
-constexpr double kMostCovariate = 1e100;  ///< what is larger overflows when it is squared
-/// Of the largest weight: a row of less counts for nothing beside rounding.
+constexpr double kMostCovariate = 1e100;  ///< squares of larger numbers overflow
+/// Of the largest weight: a row of less is lost in rounding errors.
 constexpr double kLeastWeight = 1e-12;
 
 void check_joints(const RowMatrix& q) {
@@ -60,7 +60,7 @@ void check_weights(const std::vector<double>& weights, Index rows) {
   const auto [least, most] = std::minmax_element(weights.begin(), weights.end());
   if (*least < kLeastWeight * *most) {
     throw_argument("weights", "numbers within a factor of " + to_text(1.0 / kLeastWeight),
-                   to_text(*least) + " beside " + to_text(*most) + "; leave such rows out");
+                   to_text(*least) + " next to " + to_text(*most) + "; leave such rows out");
   }
 }
 
@@ -119,7 +119,7 @@ void check_planes(const Touches& touches) {
                        std::to_string(row));
       }
       if (!seen.insert(row).second) {
-        throw_argument(name, "rows that stand in one plane only, once", std::to_string(row));
+        throw_argument(name, "rows that belong to one plane only, once", std::to_string(row));
       }
     }
   }
@@ -146,7 +146,7 @@ void Touches::check() const {
   }
   const auto touched = [&](std::string_view name, int label) {
     if (!count.contains(label)) {
-      throw_argument(name, "labels that stand in `point`", std::to_string(label));
+      throw_argument(name, "labels that occur in `point`", std::to_string(label));
     }
   };
   for (const KnownDistance& known : known_distances) {
@@ -158,10 +158,10 @@ void Touches::check() const {
     }
     check_positive("known_distances", known.distance);
   }
-  std::set<int> told;
+  std::set<int> known_labels;
   for (const KnownPoint& known : known_points) {
     touched("known_points", known.label);
-    if (!told.insert(known.label).second) {
+    if (!known_labels.insert(known.label).second) {
       throw_argument("known_points", "each point once", std::to_string(known.label) + " twice");
     }
     if (!(known.position.cwiseAbs().maxCoeff() <= kFarthest)) {
@@ -171,7 +171,7 @@ void Touches::check() const {
   }
   for (const auto& [label, name] : names) {
     if (std::find(point.begin(), point.end(), label) == point.end()) {
-      throw_argument("names", "labels that stand in `point`",
+      throw_argument("names", "labels that occur in `point`",
                      std::to_string(label) + " (" + name + ")");
     }
   }

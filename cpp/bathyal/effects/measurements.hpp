@@ -11,18 +11,18 @@ namespace bathyal {
 
 using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// Quantities recorded beside the poses: name to (N, k) numbers. Identification of geometry leaves
-/// them alone; they ride along for what looks into the residuals.
+/// Quantities recorded in addition to the poses: name to (N, k) numbers. Identification of the
+/// geometry does not use them; diagnosis does.
 using Covariates = std::map<std::string, RowMatrix>;
 
-/// A distance told between two touched points, by their labels.
+/// A known distance between two touched points, by their labels.
 struct KnownDistance {
   int first = 0;
   int second = 0;
   double distance = 0.0;  ///< [m]
 };
 
-/// Where a touched point lies, in the frame of the measurements (the world of Arm::base()).
+/// Known position of a touched point, in the frame of the measurements (world of Arm::base()).
 struct KnownPoint {
   int label = 0;
   Vec3 position = Vec3::Zero();  ///< [m]
@@ -43,28 +43,28 @@ struct Touches {
   double distance_std = 1e-4;  ///< of a known distance [m], above 0
   std::vector<KnownPoint> known_points;
   double point_std = 1e-4;           ///< of a known point, per axis [m], above 0
-  std::vector<TouchedPlane> planes;  ///< a row stands in one plane at most
+  std::vector<TouchedPlane> planes;  ///< a row belongs to one plane at most
   std::vector<double> weights;       ///< (N,) 1 / variance up to a factor, above 0; empty: equal
   std::vector<int> tool;             ///< (N,) which tool, 0 … ; empty: one
-  std::vector<int> station;          ///< (N,) where the base stood, 0 … ; empty: one place
+  std::vector<int> station;          ///< (N,) position of the base, 0 … ; empty: one
   Covariates covariates;             ///< each (N, k)
-  std::map<int, std::string> names;  ///< of labels, for people to read; a label may have none
+  std::map<int, std::string> names;  ///< of labels, for reports; a label may have none
 
   /// \throw std::invalid_argument for lengths that differ, numbers that are not finite (NaN of a
-  ///        covariate is a row without it), joint values that only degrees can be, no two touches
-  ///        of one point, poses that are all equal, labels that nobody touched, points farther than
-  ///        10⁹ m, weights that differ by more than 10¹².
+  ///         covariate marks a row without it), joint values that must be degrees, no two touches
+  ///         of one point, poses that are all equal, labels without a touch, points farther than
+  ///         10⁹ m, weights that differ by more than 10¹².
   void check() const;
 };
 
-/// Joint values recorded beside the measured position of the tool's tip, or its whole pose.
+/// Joint values recorded together with the measured position of the tool's tip, or its whole pose.
 struct Tracked {
   RowMatrix q;                  ///< (N, n) [rad], [m] of prismatic joints
   RowMatrix position;           ///< (N, 3) of the tip, world [m]
   std::vector<Pose> pose;       ///< (N,) world_from_tool; empty: only `position` was measured
   std::vector<double> weights;  ///< (N,) 1 / variance up to a factor, above 0; empty: equal
   std::vector<int> tool;        ///< (N,) which tool (which target on it), 0 … ; empty: one
-  std::vector<int> station;     ///< (N,) where the base, or the tracker, stood; empty: one place
+  std::vector<int> station;     ///< (N,) position of the base or the tracker; empty: one
   Covariates covariates;        ///< each (N, k)
 
   /// \throw std::invalid_argument as Touches::check

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bathyal/effects/internal/library.hpp"
 
-// Effects on rows and on the noise: they move nothing that a column could, so that diagnosis finds
-// them by likelihood. What is said of them is said here, beside the others.
+// Effects on rows and on the noise: they perturb nothing that a column could represent, so that
+// diagnosis finds them by likelihood. Their documentation is here, with that of the others.
 
-namespace bathyal {
+namespace bathyal::effects {
 namespace {
 
 class RowEffect final : public Effect {
@@ -12,7 +12,7 @@ class RowEffect final : public Effect {
   explicit RowEffect(EffectInfo info) : info_(std::move(info)) {}
   EffectInfo info() const override { return info_; }
   std::vector<EffectVariant> variants(const EffectData&) const override { return {}; }
-  Actions actions(const EffectVariant&, const EffectData&) const override { return {}; }
+  Perturbations perturbations(const EffectVariant&, const EffectData&) const override { return {}; }
 
  private:
   EffectInfo info_;
@@ -23,8 +23,8 @@ class RowEffect final : public Effect {
 std::shared_ptr<const Effect> outliers() {
   return std::make_shared<RowEffect>(
       EffectInfo{"outliers",
-                 "rows that do not belong to the others: a slipped probe, a broken beam",
-                 "row i is left out where it stands beyond what noise makes",
+                 "rows that contradict the others: a slipped probe, a broken beam",
+                 "row i is excluded where its residual exceeds what noise explains",
                  "Huber: Robust estimation of a location parameter, 1964; Rousseeuw, Leroy: Robust "
                  "regression and outlier detection, 1987",
                  {},
@@ -51,4 +51,4 @@ std::shared_ptr<const Effect> quantisation() {
                                                 {{"step", "rad", 1e-6, 2e-2}}});
 }
 
-}  // namespace bathyal
+}  // namespace bathyal::effects

@@ -5,12 +5,13 @@
 
 #include "bathyal/effects/internal/library.hpp"
 
-// What jumps: bases and tools that moved between sessions, a tool that slipped.
+// Steps: bases and tools that moved between sessions, a tool that slipped.
 
-namespace bathyal {
+namespace bathyal::effects {
 namespace {
 
-constexpr int kFewestRows = 3;  ///< of a session or a side of a moment: fewer tell no frame
+constexpr int kFewestRows =
+    3;  ///< of a session or a side of a moment: fewer do not determine a frame
 constexpr Index kMostMoments = 400;
 
 /// Labels of the sessions that have enough rows, in rising order.
@@ -29,18 +30,18 @@ std::string numbered(std::string name, std::size_t number) {
   return name.append("_").append(std::to_string(number));
 }
 
-/// Three shifts, and turns where they are wanted: of "shift_x_2", of the second session.
+/// Three shifts, and turns where wanted; "shift_x_2" is that of the second session.
 std::vector<EffectParameter> shift_and_turn(bool turns, std::size_t session = 0) {
   std::vector<EffectParameter> out;
   for (const std::string& axis : frame_axes("shift", "turn", turns)) {
     out.push_back({session == 0 ? axis : numbered(axis, session), out.size() < 3 ? "m" : "rad",
-                   kOrdinaryError});
+                   kTypicalError});
   }
   return out;
 }
 
-/// A frame that stands elsewhere in some sessions. Settings tell either "from", the label of the
-/// session with which all that come later moved, or a label for each session that moved by itself:
+/// A frame that is elsewhere in some sessions. Settings give either "from", the label of the
+/// session from which on all sessions moved, or a label for each session that moved by itself:
 /// "session_2" of the second one.
 class FrameBySession : public Effect {
  public:
@@ -63,12 +64,12 @@ class FrameBySession : public Effect {
     return out;
   }
 
-  Actions actions(const EffectVariant& variant, const EffectData& data) const override {
+  Perturbations perturbations(const EffectVariant& variant, const EffectData& data) const override {
     const Eigen::ArrayXd session = data.covariate("session").col(0).array();
     const auto from = variant.settings.find("from");
     const std::size_t frames = from != variant.settings.end() ? 1 : variant.settings.size();
     const int axes = static_cast<int>(variant.parameters.size() / std::max<std::size_t>(1, frames));
-    Actions out;
+    Perturbations out;
     const auto add = [&](const Eigen::ArrayXd& moved) {
       for (int axis = 0; axis < axes; ++axis) {
         out.push_back({move_frame(frame(data), axis, moved)});
@@ -95,7 +96,7 @@ class BaseShift final : public FrameBySession {
  public:
   EffectInfo info() const override {
     return {"base_shift",
-            "the base, or the tracker's frame, stood elsewhere in some sessions than in the first",
+            "the base, or the tracker's frame, was elsewhere in some sessions than in the first",
             "base' = base · shift, turn (one for each later session, or one from a session on)",
             "Mooring, Roth, Driels: Fundamentals of manipulator calibration, 1991, on base frames",
             {"session"},
@@ -127,8 +128,8 @@ class ToolChange final : public FrameBySession {
   bool turns(const EffectData& data) const override { return data.has_rotation; }
 };
 
-/// Settings: "moment", how many rows came before it, and, where times were told, "time", halfway
-/// between the rows beside it. Poses to foretell of which no time is told come after it.
+/// Settings: "moment", how many rows came before it, and, where times were recorded, "time",
+/// halfway between the rows before and after it. Predicted poses without time come after it.
 class ToolSlip final : public Effect {
  public:
   EffectInfo info() const override {
@@ -163,7 +164,7 @@ class ToolSlip final : public Effect {
     return out;
   }
 
-  Actions actions(const EffectVariant& variant, const EffectData& data) const override {
+  Perturbations perturbations(const EffectVariant& variant, const EffectData& data) const override {
     Eigen::VectorXd after = Eigen::VectorXd::Zero(data.rows());
     const auto time = variant.settings.find("time");
     if (time != variant.settings.end() && data.has("time")) {
@@ -176,7 +177,7 @@ class ToolSlip final : public Effect {
     } else {
       after.setOnes();
     }
-    Actions out;
+    Perturbations out;
     const int flange = static_cast<int>(data.arm->joints().size()) + 1;
     for (int axis = 0; axis < static_cast<int>(variant.parameters.size()); ++axis) {
       out.push_back({move_frame(flange, axis, after)});
@@ -196,7 +197,7 @@ class ToolSlip final : public Effect {
   static double time_of(const EffectData& data, int place) {
     return data.covariate("time")(data.order[place], 0);
   }
-  /// Rows of one time cannot stand on both sides.
+  /// Rows of the same time cannot be on both sides.
   static bool parts(const EffectData& data, int moment) {
     return !data.has("time") || time_of(data, moment - 1) < time_of(data, moment);
   }
@@ -208,4 +209,4 @@ std::shared_ptr<const Effect> base_shift() { return std::make_shared<BaseShift>(
 std::shared_ptr<const Effect> tool_change() { return std::make_shared<ToolChange>(); }
 std::shared_ptr<const Effect> tool_slip() { return std::make_shared<ToolSlip>(); }
 
-}  // namespace bathyal
+}  // namespace bathyal::effects

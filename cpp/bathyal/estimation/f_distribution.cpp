@@ -16,20 +16,20 @@ double beta_fraction(double x, double a, double b) {
   double d = 1.0 / not_zero(1.0 - (a + b) * x / (a + 1.0));
   double value = d;
   for (int m = 1; m <= kMostTerms; ++m) {
-    const double even = m * (b - m) * x / ((a + 2 * m - 1.0) * (a + 2 * m));
-    d = 1.0 / not_zero(1.0 + even * d);
-    c = not_zero(1.0 + even / c);
+    const double even_term = m * (b - m) * x / ((a + 2 * m - 1.0) * (a + 2 * m));
+    d = 1.0 / not_zero(1.0 + even_term * d);
+    c = not_zero(1.0 + even_term / c);
     value *= d * c;
-    const double odd = -(a + m) * (a + b + m) * x / ((a + 2 * m) * (a + 2 * m + 1.0));
-    d = 1.0 / not_zero(1.0 + odd * d);
-    c = not_zero(1.0 + odd / c);
+    const double odd_term = -(a + m) * (a + b + m) * x / ((a + 2 * m) * (a + 2 * m + 1.0));
+    d = 1.0 / not_zero(1.0 + odd_term * d);
+    c = not_zero(1.0 + odd_term / c);
     value *= d * c;
     if (std::abs(d * c - 1.0) < 1e-15) break;
   }
   return value;
 }
 
-/// I_x(a, b); `rest` is 1 - x, told apart so that neither end loses digits.
+/// I_x(a, b); `rest` is 1 - x, a separate argument so that neither end loses digits.
 double incomplete_beta(double x, double rest, double a, double b) {
   if (x <= 0.0) return 0.0;
   if (rest <= 0.0) return 1.0;

@@ -13,24 +13,24 @@ namespace {
 
 using Columns = Eigen::Ref<const Eigen::MatrixXd>;
 using Eigen::Index;
-using products::PlainColumns;
+using estimation::PlainColumns;
 
 constexpr std::size_t kColumnsOfTask = 96;  ///< their part of a block of rows stays in the cache
 constexpr std::size_t kLeastOfTask = 24;    ///< where there would be no work for other threads
-constexpr std::size_t kRowsOfTask = 960;    ///< a multiple of what any kernel makes at once
+constexpr std::size_t kRowsOfTask = 960;    ///< a multiple of what any kernel computes at once
 
-const products::Kernels& kernels() {
+const estimation::Kernels& kernels() {
 #if defined(BATHYAL_X86_KERNELS)
   switch (simd_level()) {
     case SimdLevel::kAvx512:
-      return products::kAvx512;
+      return estimation::kAvx512;
     case SimdLevel::kAvx2:
-      return products::kAvx2;
+      return estimation::kAvx2;
     case SimdLevel::kBaseline:
       break;
   }
 #endif
-  return products::kBaseline;
+  return estimation::kBaseline;
 }
 
 PlainColumns plain(const Columns& columns, Index first, Index count) {
@@ -47,7 +47,7 @@ Eigen::MatrixXd inner_products(const Columns& a, const Columns& b, int num_threa
   if (a.cols() > b.cols()) return inner_products(b, a, num_threads).transpose();
   Eigen::MatrixXd out = Eigen::MatrixXd::Zero(a.cols(), b.cols());
   if (a.cols() == 0) return out;
-  const products::Kernels& kernel = kernels();
+  const estimation::Kernels& kernel = kernels();
   parallel_for(static_cast<std::size_t>(b.cols()), columns_of_task(b.cols()), num_threads,
                [&](std::size_t begin, std::size_t end) {
                  const auto first = static_cast<Index>(begin);
@@ -60,7 +60,7 @@ Eigen::MatrixXd inner_products(const Columns& a, const Columns& b, int num_threa
 
 Eigen::MatrixXd inner_products(const Columns& a, int num_threads) {
   Eigen::MatrixXd out = Eigen::MatrixXd::Zero(a.cols(), a.cols());
-  const products::Kernels& kernel = kernels();
+  const estimation::Kernels& kernel = kernels();
   parallel_for(static_cast<std::size_t>(a.cols()), columns_of_task(a.cols()), num_threads,
                [&](std::size_t begin, std::size_t end) {
                  const auto first = static_cast<Index>(begin);
@@ -75,12 +75,12 @@ Eigen::MatrixXd inner_products(const Columns& a, int num_threads) {
 void add_product(const Columns& a, const Columns& b, Eigen::Ref<Eigen::MatrixXd> out,
                  int num_threads) {
   if (a.cols() == 0 || b.cols() == 0) return;
-  const products::Kernels& kernel = kernels();
+  const estimation::Kernels& kernel = kernels();
   parallel_for(
       static_cast<std::size_t>(a.rows()), kRowsOfTask, num_threads,
       [&](std::size_t begin, std::size_t end) {
         const auto first = static_cast<Index>(begin);
-        std::vector<double> scratch(static_cast<std::size_t>(products::scratch_size(a.cols())));
+        std::vector<double> scratch(static_cast<std::size_t>(estimation::scratch_size(a.cols())));
         kernel.combine({{a.data() + first, a.outerStride(), a.cols()},
                         plain(b, 0, b.cols()),
                         static_cast<Index>(end - begin),

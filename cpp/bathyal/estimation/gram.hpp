@@ -3,9 +3,8 @@
 
 #include <Eigen/Core>
 
-// Products of tall matrices (many rows, some hundred columns), which are what least squares spend
-// their time with. The same bytes on every SIMD path and for any number of threads. For use inside
-// identification and diagnosis.
+// Products of tall matrices (many rows, some hundred columns), which dominate the cost of least
+// squares. The same bytes on every SIMD path and for any number of threads.
 
 namespace bathyal {
 

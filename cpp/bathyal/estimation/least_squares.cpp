@@ -23,16 +23,16 @@ Eigen::MatrixXd root_of(const Eigen::MatrixXd& square) {
   return diagonal.asDiagonal() * root;
 }
 
-/// A model as TinySolver wants it: columns + 1 rows that have the JᵀJ, Jᵀr and rᵀr of all the
-/// model's rows. The solver asks for derivatives at the start and at each point that it accepts,
-/// and nowhere else: that is where the history is written.
+/// A model as TinySolver expects it: columns + 1 rows with the JᵀJ, Jᵀr and rᵀr of all the rows of
+/// the model. The solver evaluates derivatives at the start and at each accepted point, and nowhere
+/// else: that is where the history is written.
 struct TinyFunction {
   using Scalar = double;
   enum { NUM_RESIDUALS = Eigen::Dynamic, NUM_PARAMETERS = Eigen::Dynamic };
 
   const ResidualModel& model;
   std::vector<double>& history;
-  Eigen::VectorXd& derived_at;  ///< where derivatives were last asked for
+  Eigen::VectorXd& derived_at;  ///< where derivatives were last evaluated
 
   int NumResiduals() const { return NumParameters() + 1; }
   int NumParameters() const { return static_cast<int>(model.columns()); }
@@ -45,11 +45,11 @@ struct TinyFunction {
       r[0] = std::sqrt(model.cost(y));
       return true;
     }
-    const Eigen::MatrixXd square = model.square(y);
-    const Eigen::MatrixXd root = root_of(square);
+    const Eigen::MatrixXd normal = model.normal_equations(y);
+    const Eigen::MatrixXd root = root_of(normal);
     r = root.col(columns);
     Eigen::Map<Eigen::MatrixXd>(jacobian, columns + 1, columns) = root.leftCols(columns);
-    history.push_back(square(columns, columns));
+    history.push_back(normal(columns, columns));
     derived_at = Eigen::Map<const Eigen::VectorXd>(y, columns);
     return true;
   }
@@ -68,7 +68,7 @@ LeastSquaresResult solve_tiny(const ResidualModel& model, const Eigen::VectorXd&
   solver.options.initial_trust_region_radius = 1.0 / options.damping;
   Eigen::VectorXd derived_at;
   solver.Solve(TinyFunction{model, result.history, derived_at}, &result.y);
-  // The last step, when it changed next to nothing, is taken without derivatives.
+  // The last step is taken without derivatives when it changes next to nothing.
   if (result.y != derived_at) result.history.push_back(2.0 * solver.summary.final_cost);
   result.converged = solver.summary.status != Tiny::HIT_MAX_ITERATIONS;
   return result;
@@ -78,9 +78,9 @@ LeastSquaresResult solve_paper(const ResidualModel& model, const Eigen::VectorXd
                                const LeastSquaresOptions& options) {
   LeastSquaresResult result{start, {}, false};
   const Index columns = model.columns();
-  const double settled = options.cost_change * static_cast<double>(model.rows());
+  const double convergence = options.cost_change * static_cast<double>(model.rows());
   double damping = options.damping;
-  Eigen::MatrixXd square = model.square(start.data());
+  Eigen::MatrixXd square = model.normal_equations(start.data());
   result.history.push_back(square(columns, columns));
   for (int i = 0; i < options.max_iterations; ++i) {
     Eigen::MatrixXd normal = square.topLeftCorner(columns, columns);
@@ -96,11 +96,11 @@ LeastSquaresResult solve_paper(const ResidualModel& model, const Eigen::VectorXd
     } else {
       damping /= options.factor;
     }
-    if (std::abs(change) <= settled) {
+    if (std::abs(change) <= convergence) {
       result.converged = true;
       break;
     }
-    if (change < 0.0) square = model.square(result.y.data());
+    if (change < 0.0) square = model.normal_equations(result.y.data());
   }
   return result;
 }
@@ -118,7 +118,7 @@ void LeastSquaresOptions::check() const {
   check_not_negative("cost_change", cost_change);
 }
 
-Eigen::MatrixXd ResidualModel::square(const double* y) const {
+Eigen::MatrixXd ResidualModel::normal_equations(const double* y) const {
   Eigen::MatrixXd both(rows(), columns() + 1);
   evaluate(y, both.col(columns()).data(), both.data());
   Eigen::MatrixXd square = Eigen::MatrixXd::Zero(both.cols(), both.cols());

@@ -6,8 +6,8 @@
 
 namespace bathyal {
 
-/// Residuals and their derivatives. Columns are in units of their own scale and residuals in units
-/// of their noise, so that 1 means the same everywhere.
+/// Residuals and their derivatives. Parameters are in units of their own scale and residuals in
+/// units of their noise, so that 1 means the same everywhere.
 class ResidualModel {
  public:
   virtual ~ResidualModel() = default;
@@ -18,9 +18,10 @@ class ResidualModel {
   /// column).
   virtual void evaluate(const double* y, double* residuals, double* jacobian) const = 0;
 
-  /// [J r]ᵀ[J r], (columns + 1, columns + 1): enough for a step, not for a rank. By default from
-  /// `evaluate`; models of many rows need not have them all in memory at once.
-  virtual Eigen::MatrixXd square(const double* y) const;
+  /// [J r]ᵀ[J r], (columns + 1, columns + 1): the normal equations, enough for a step but not for a
+  /// rank. By default computed from `evaluate`; a model of many rows need not hold them all in
+  /// memory at once.
+  virtual Eigen::MatrixXd normal_equations(const double* y) const;
 
   /// Sum of squared residuals.
   virtual double cost(const double* y) const;
@@ -34,9 +35,9 @@ enum class Solver {
 struct LeastSquaresOptions {
   Solver solver = Solver::kLevenbergMarquardt;
   int max_iterations = 100;    ///< 1 or more
-  double damping = 1e-8;       ///< the first one, relative (paper: absolute), above 0
+  double damping = 1e-8;       ///< initial, relative (paper: absolute), above 0
   double factor = 0.1;         ///< eta of eq 17, in (0, 1)
-  double cost_change = 1e-12;  ///< stops when the mean square changes by less, 0 or more
+  double cost_change = 1e-12;  ///< convergence: the mean square changes by less, 0 or more
 
   void check() const;
 };
@@ -49,10 +50,11 @@ struct LeastSquaresResult {
 
 /// The nearest minimum of the sum of squared residuals, from `start`.
 ///
-/// Steps are found from JᵀJ, as TinySolver and the paper do; the model's rows are seen only through
-/// `square` and `cost`. Directions that no residual feels do no harm: both ways are damped, and
-/// stay put along them. For eq 17 the printed rule is mended: the damping falls after success and
-/// grows after failure, and the stop test takes the absolute value of the change.
+/// Steps are computed from JᵀJ, as TinySolver and the paper do; the rows of the model enter only
+/// through `normal_equations` and `cost`. Directions to which no residual is sensitive do no harm:
+/// both solvers are damped and do not move along them. The printed rule of eq 17 is corrected: the
+/// damping falls after success and grows after failure, and the stop test takes the absolute value
+/// of the change.
 LeastSquaresResult solve_least_squares(const ResidualModel& model, const Eigen::VectorXd& start,
                                        const LeastSquaresOptions& options = {});
 

@@ -15,25 +15,26 @@ using Eigen::Index;
 namespace {
 
 constexpr std::size_t kTouchesPerChunk = 64;
-/// Of variances: high enough that the worst poses rule, low enough that others still steer.
+/// Of variances: high enough for the worst poses to dominate, low enough for others to contribute.
 constexpr double kPower = 12.0;
-constexpr int kShortlist = 4;  ///< candidates of an exchange that are looked at exactly
-// Of what lies between a first choice and all touches at once: where touches can do little, for
-// something that they never tell stands in front, that little is still sought.
-constexpr double kWorthwhile = 1e-5;  ///< change of the value that an exchange must bring
-constexpr double kSettled = 2e-3;     ///< a round that changes the value by less is the last one
-constexpr double kNever = -std::numeric_limits<double>::infinity();
+constexpr int kShortlist = 4;  ///< candidates of an exchange that are evaluated exactly
+// Relative to the difference between the first selection and all candidates together: parameters
+// that the touches never determine would otherwise dominate the criterion, and small gains must
+// still be found.
+constexpr double kMinimumGain = 1e-5;  ///< by which an exchange must improve the criterion
+constexpr double kConverged = 2e-3;  ///< a round that changes the criterion by less is the last one
+constexpr double kExcluded = -std::numeric_limits<double>::infinity();
 
-/// What is known with some touches chosen.
-struct Knowledge {
+/// Posterior covariance given the selected touches.
+struct Posterior {
   Eigen::MatrixXd covariance;  ///< of all unknowns
   Eigen::VectorXd variance;    ///< (S,) of the tip over the workspace
-  double value = 0.0;          ///< is to fall: ln of a worst variance, or of a determinant
+  double value = 0.0;          ///< minimised: ln of a worst variance, or of a determinant
 };
 
-class Selector {
+class ExchangeSelector {
  public:
-  Selector(const TouchDesign& design, int first_points, int num_threads)
+  ExchangeSelector(const OptimalDesign& design, int first_points, int num_threads)
       : d_(design),
         first_points_(first_points),
         num_threads_(num_threads),
@@ -43,9 +44,9 @@ class Selector {
         touched_(static_cast<std::size_t>(design.points), 0) {}
 
   bool add_best(int point);
-  void exchange(std::size_t slot, double worthwhile, Knowledge& now);
-  Knowledge know(const Eigen::MatrixXd& information) const;
-  Knowledge know_all() const;
+  void exchange(std::size_t slot, double minimum_gain, Posterior& now);
+  Posterior posterior(const Eigen::MatrixXd& information) const;
+  Posterior posterior_of_all() const;
   const Eigen::MatrixXd& information() const { return information_; }
   const std::vector<int>& chosen() const { return chosen_; }
 
@@ -54,10 +55,10 @@ class Selector {
   Eigen::VectorXd gains(const Eigen::MatrixXd& information, int only_point) const;
   std::vector<int> best_of(const Eigen::VectorXd& gains, int count) const;
   void change(Eigen::MatrixXd& information, int touch, double sign) const;
-  Eigen::Matrix3d seen_by(int touch, const Eigen::MatrixXd& covariance,
-                          const Eigen::Ref<const Eigen::MatrixXd>& product) const;
+  Eigen::Matrix3d quadratic_form(int touch, const Eigen::MatrixXd& covariance,
+                                 const Eigen::Ref<const Eigen::MatrixXd>& product) const;
 
-  const TouchDesign& d_;
+  const OptimalDesign& d_;
   int first_points_;
   int num_threads_;
   Index columns_;
@@ -76,7 +77,7 @@ double log_determinant(const Eigen::MatrixXd& matrix) {
   return 2.0 * root.matrixLLT().diagonal().array().log().sum();
 }
 
-void Selector::change(Eigen::MatrixXd& information, int touch, double sign) const {
+void ExchangeSelector::change(Eigen::MatrixXd& information, int touch, double sign) const {
   const auto rows = d_.touches.middleCols<3>(3 * touch);
   const Index at = columns_ + 3 * d_.point[touch];
   const double weight = d_.point_weight;
@@ -86,35 +87,36 @@ void Selector::change(Eigen::MatrixXd& information, int touch, double sign) cons
   information.block<3, 3>(at, at).diagonal().array() += sign * weight * weight;
 }
 
-Knowledge Selector::know(const Eigen::MatrixXd& information) const {
-  Knowledge known;
-  known.covariance = inverse_of(information);
-  const auto arm = known.covariance.topLeftCorner(columns_, columns_);
+Posterior ExchangeSelector::posterior(const Eigen::MatrixXd& information) const {
+  Posterior out;
+  out.covariance = inverse_of(information);
+  const auto arm = out.covariance.topLeftCorner(columns_, columns_);
   if (by_determinant()) {
-    known.value = log_determinant(arm);
-    return known;
+    out.value = log_determinant(arm);
+    return out;
   }
   const Eigen::VectorXd squares =
       (d_.tips.array() * (arm * d_.tips).array()).colwise().sum().transpose();
-  known.variance = squares.reshaped(3, squares.size() / 3).colwise().sum().transpose();
-  const double worst = known.variance.maxCoeff();
-  known.value =
-      std::log(worst) + std::log((known.variance / worst).array().pow(kPower).mean()) / kPower;
-  return known;
+  out.variance = squares.reshaped(3, squares.size() / 3).colwise().sum().transpose();
+  const double worst = out.variance.maxCoeff();
+  out.value =
+      std::log(worst) + std::log((out.variance / worst).array().pow(kPower).mean()) / kPower;
+  return out;
 }
 
-/// With every touch there is.
-Knowledge Selector::know_all() const {
+/// Given all candidates.
+Posterior ExchangeSelector::posterior_of_all() const {
   Eigen::MatrixXd information = d_.prior;
   for (int touch = 0; touch < static_cast<int>(d_.point.size()); ++touch) {
     change(information, touch, 1.0);
   }
-  return know(information);
+  return posterior(information);
 }
 
 /// Gᵀ M G for the rows G of a touch; `product` is the columns' corner of M times theirs of G.
-Eigen::Matrix3d Selector::seen_by(int touch, const Eigen::MatrixXd& matrix,
-                                  const Eigen::Ref<const Eigen::MatrixXd>& product) const {
+Eigen::Matrix3d ExchangeSelector::quadratic_form(
+    int touch, const Eigen::MatrixXd& matrix,
+    const Eigen::Ref<const Eigen::MatrixXd>& product) const {
   const auto rows = d_.touches.middleCols<3>(3 * touch);
   const Index at = columns_ + 3 * d_.point[touch];
   const double weight = d_.point_weight;
@@ -123,12 +125,12 @@ Eigen::Matrix3d Selector::seen_by(int touch, const Eigen::MatrixXd& matrix,
          weight * weight * matrix.block<3, 3>(at, at);
 }
 
-/// What each touch that is not used would bring: the fall of ∂value, or of the value itself.
-Eigen::VectorXd Selector::gains(const Eigen::MatrixXd& information, int only_point) const {
-  const Knowledge known = know(information);
-  const Eigen::MatrixXd& covariance = known.covariance;
-  Eigen::MatrixXd pull;  // covariance · Σ w ∂tip ∂tipᵀ · covariance
-  Eigen::VectorXd own = Eigen::VectorXd::Zero(d_.points);  // what a touch tells of its point alone
+/// Decrease of the criterion by each unused touch: first order, or exact for the determinant.
+Eigen::VectorXd ExchangeSelector::gains(const Eigen::MatrixXd& information, int only_point) const {
+  const Posterior current = posterior(information);
+  const Eigen::MatrixXd&& covariance = current.covariance;
+  Eigen::MatrixXd sensitivity;  // covariance · Σ w ∂tip ∂tipᵀ · covariance
+  Eigen::VectorXd own = Eigen::VectorXd::Zero(d_.points);  // information on its point alone
   if (by_determinant()) {
     const Index rest = 3 * d_.points;
     const Eigen::MatrixXd points = inverse_of(information.bottomRightCorner(rest, rest));
@@ -139,10 +141,10 @@ Eigen::VectorXd Selector::gains(const Eigen::MatrixXd& information, int only_poi
     }
   } else {
     const Eigen::VectorXd weight =
-        (known.variance / known.variance.maxCoeff()).array().pow(kPower - 1.0);
+        (current.variance / current.variance.maxCoeff()).array().pow(kPower - 1.0);
     const Eigen::VectorXd thrice = weight.transpose().replicate(3, 1).reshaped();
     const Eigen::MatrixXd spread = d_.tips * thrice.asDiagonal() * d_.tips.transpose();
-    pull = covariance.leftCols(columns_) * spread * covariance.topRows(columns_);
+    sensitivity = covariance.leftCols(columns_) * spread * covariance.topRows(columns_);
   }
 
   const auto arm = [&](const Eigen::MatrixXd& matrix, Index begin, Index count) {
@@ -154,29 +156,31 @@ Eigen::VectorXd Selector::gains(const Eigen::MatrixXd& information, int only_poi
       d_.point.size(), kTouchesPerChunk, num_threads_, [&](std::size_t begin, std::size_t end) {
         const auto first = static_cast<Index>(begin);
         const auto count = static_cast<Index>(end - begin);
-        const Eigen::MatrixXd known_rows = arm(covariance, first, count);
-        Eigen::MatrixXd pulled_rows;
-        if (!by_determinant()) pulled_rows = arm(pull, first, count);
+        const Eigen::MatrixXd covariance_rows = arm(covariance, first, count);
+        Eigen::MatrixXd sensitivity_rows;
+        if (!by_determinant()) sensitivity_rows = arm(sensitivity, first, count);
         for (Index i = 0; i < count; ++i) {
           const auto touch = static_cast<int>(first + i);
           const int point = d_.point[touch];
           if (used_[touch] || (only_point >= 0 ? point != only_point : point >= first_points_)) {
-            out[touch] = kNever;
+            out[touch] = kExcluded;
             continue;
           }
-          const Eigen::Matrix3d seen = Eigen::Matrix3d::Identity() +
-                                       seen_by(touch, covariance, known_rows.middleCols(3 * i, 3));
+          const Eigen::Matrix3d gain =
+              Eigen::Matrix3d::Identity() +
+              quadratic_form(touch, covariance, covariance_rows.middleCols(3 * i, 3));
           out[touch] =
               by_determinant()
-                  ? std::log(seen.determinant()) - own[point]
-                  : (seen.inverse() * seen_by(touch, pull, pulled_rows.middleCols(3 * i, 3)))
+                  ? std::log(gain.determinant()) - own[point]
+                  : (gain.inverse() *
+                     quadratic_form(touch, sensitivity, sensitivity_rows.middleCols(3 * i, 3)))
                         .trace();
         }
       });
   return out;
 }
 
-std::vector<int> Selector::best_of(const Eigen::VectorXd& gains, int count) const {
+std::vector<int> ExchangeSelector::best_of(const Eigen::VectorXd& gains, int count) const {
   std::vector<int> order(static_cast<std::size_t>(gains.size()));
   std::iota(order.begin(), order.end(), 0);
   const auto most = std::min(static_cast<std::size_t>(count), order.size());
@@ -184,12 +188,12 @@ std::vector<int> Selector::best_of(const Eigen::VectorXd& gains, int count) cons
       order.begin(), order.begin() + static_cast<std::ptrdiff_t>(most), order.end(),
       [&](int a, int b) { return gains[a] != gains[b] ? gains[a] > gains[b] : a < b; });
   order.resize(most);
-  std::erase_if(order, [&](int touch) { return gains[touch] == kNever; });
+  std::erase_if(order, [&](int touch) { return gains[touch] == kExcluded; });
   return order;
 }
 
-/// False when all touches of that point are used.
-bool Selector::add_best(int point) {
+/// False when all touches of that point have been used.
+bool ExchangeSelector::add_best(int point) {
   const std::vector<int> best = best_of(gains(information_, point), 1);
   if (best.empty()) return false;
   const int touch = best.front();
@@ -200,8 +204,8 @@ bool Selector::add_best(int point) {
   return true;
 }
 
-/// Puts another touch in place of that one if that makes `now` better.
-void Selector::exchange(std::size_t slot, double worthwhile, Knowledge& now) {
+/// Replaces a touch by another one where that improves `now`.
+void ExchangeSelector::exchange(std::size_t slot, double minimum_gain, Posterior& now) {
   const int old = chosen_[slot];
   const int point = d_.point[old];
   Eigen::MatrixXd without = information_;
@@ -210,14 +214,14 @@ void Selector::exchange(std::size_t slot, double worthwhile, Knowledge& now) {
   const int shortlist = by_determinant() ? 1 : kShortlist;
 
   int best = -1;
-  Knowledge best_known;
+  Posterior best_posterior;
   for (const int touch : best_of(gains(without, only_point), shortlist)) {
     Eigen::MatrixXd with = without;
     change(with, touch, 1.0);
-    Knowledge known = know(with);
-    if (known.value < (best < 0 ? now.value - worthwhile : best_known.value)) {
+    Posterior candidate = posterior(with);
+    if (candidate.value < (best < 0 ? now.value - minimum_gain : best_posterior.value)) {
       best = touch;
-      best_known = std::move(known);
+      best_posterior = std::move(candidate);
     }
   }
   if (best < 0) return;
@@ -228,26 +232,27 @@ void Selector::exchange(std::size_t slot, double worthwhile, Knowledge& now) {
   --touched_[point];
   ++touched_[d_.point[best]];
   chosen_[slot] = best;
-  now = std::move(best_known);
+  now = std::move(best_posterior);
 }
 
 }  // namespace
 
-std::vector<int> select_touches(const TouchDesign& design, int count, int passes, int num_threads) {
+std::vector<int> exchange_select(const OptimalDesign& design, int count, int passes,
+                                 int num_threads) {
   const int points = std::clamp(count / 2, 1, design.points);
-  Selector selector(design, points, num_threads);
-  int idle = 0;  // points in a row that had no touch left
+  ExchangeSelector selector(design, points, num_threads);
+  int idle = 0;  // consecutive points without an unused touch
   for (int turn = 0; static_cast<int>(selector.chosen().size()) < count && idle < points; ++turn) {
     idle = selector.add_best(turn % points) ? 0 : idle + 1;
   }
-  Knowledge now = selector.know(selector.information());
-  const double range = now.value - selector.know_all().value;
+  Posterior now = selector.posterior(selector.information());
+  const double range = now.value - selector.posterior_of_all().value;
   for (int pass = 0; pass < passes; ++pass) {
     const double before = now.value;
     for (std::size_t slot = 0; slot < selector.chosen().size(); ++slot) {
-      selector.exchange(slot, kWorthwhile * range, now);
+      selector.exchange(slot, kMinimumGain * range, now);
     }
-    if (now.value > before - kSettled * range) break;
+    if (now.value > before - kConverged * range) break;
   }
   return selector.chosen();
 }

@@ -12,10 +12,10 @@ namespace {
 
 constexpr std::size_t kGroupsAtOnce = 16;
 
-/// Makes all of `groups` orthogonal to `basis`: one product tells of all.
-void take_from(std::vector<Eigen::MatrixXd>& groups, const Eigen::MatrixXd& basis,
-               int num_threads) {
-  Eigen::MatrixXd all = side_by_side(groups);
+/// Makes all of `groups` orthogonal to `basis`, with one product for all of them.
+void project_out(std::vector<Eigen::MatrixXd>& groups, const Eigen::MatrixXd& basis,
+                 int num_threads) {
+  Eigen::MatrixXd all = concatenate_columns(groups);
   add_product(basis, -inner_products(basis, all, num_threads), all, num_threads);
   Index first = 0;
   for (Eigen::MatrixXd& group : groups) {
@@ -31,19 +31,19 @@ void append(Eigen::MatrixXd& columns, const Eigen::MatrixXd& more) {
   columns.rightCols(more.cols()) = more;
 }
 
-Eigen::MatrixXd side_by_side(const std::vector<Eigen::MatrixXd>& columns) {
+Eigen::MatrixXd concatenate_columns(const std::vector<Eigen::MatrixXd>& columns) {
   Index wide = 0;
-  for (const Eigen::MatrixXd& some : columns) wide += some.cols();
+  for (const Eigen::MatrixXd& group : columns) wide += group.cols();
   Eigen::MatrixXd out(columns.empty() ? 0 : columns.front().rows(), wide);
   wide = 0;
-  for (const Eigen::MatrixXd& some : columns) {
-    out.middleCols(wide, some.cols()) = some;
-    wide += some.cols();
+  for (const Eigen::MatrixXd& group : columns) {
+    out.middleCols(wide, group.cols()) = group;
+    wide += group.cols();
   }
   return out;
 }
 
-void scale_to_length_1(Eigen::MatrixXd& columns) {
+void normalize_columns(Eigen::MatrixXd& columns) {
   for (Index c = 0; c < columns.cols(); ++c) {
     const double length = columns.col(c).norm();
     if (length > 0.0) columns.col(c) /= length;
@@ -51,7 +51,7 @@ void scale_to_length_1(Eigen::MatrixXd& columns) {
 }
 
 Eigen::MatrixXd orthonormal(Eigen::MatrixXd columns, double tolerance) {
-  scale_to_length_1(columns);
+  normalize_columns(columns);
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(columns);
   qr.setThreshold(tolerance);
   return qr.householderQ() * Eigen::MatrixXd::Identity(columns.rows(), qr.rank());
@@ -59,14 +59,15 @@ Eigen::MatrixXd orthonormal(Eigen::MatrixXd columns, double tolerance) {
 
 double least_length(const Eigen::Ref<const Eigen::MatrixXd>& columns) {
   // In standard deviations of the noise, of all rows together.
-  constexpr double kLeastSeen = 2.0;
+  constexpr double kDetectable = 2.0;
   const double longest = columns.cols() > 0 ? columns.colwise().norm().maxCoeff() : 0.0;
-  return std::max(kLeastSeen, kSwallowed * longest);
+  return std::max(kDetectable, kCollinearityTolerance * longest);
 }
 
-std::vector<Beside> orthonormal_beside(const Eigen::MatrixXd& basis,
-                                       std::vector<Eigen::MatrixXd> groups, int num_threads) {
-  std::vector<Beside> out(groups.size());
+std::vector<ProjectedColumns> projected_columns(const Eigen::MatrixXd& basis,
+                                                std::vector<Eigen::MatrixXd> groups,
+                                                int num_threads) {
+  std::vector<ProjectedColumns> out(groups.size());
   std::vector<double> least(groups.size());
   for (std::size_t g = 0; g < groups.size(); ++g) least[g] = least_length(groups[g]);
   const auto for_each = [&](const auto& body) {
@@ -76,7 +77,7 @@ std::vector<Beside> orthonormal_beside(const Eigen::MatrixXd& basis,
                  });
   };
   const int inside = groups.size() == 1 ? num_threads : 1;
-  take_from(groups, basis, num_threads);
+  project_out(groups, basis, num_threads);
   for_each([&](std::size_t g) {
     if (groups[g].cols() == 0) return;
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(inner_products(groups[g], inside));
@@ -89,8 +90,8 @@ std::vector<Beside> orthonormal_beside(const Eigen::MatrixXd& basis,
         groups[g], eigen.eigenvectors().rightCols(kept) * out[g].length.cwiseInverse().asDiagonal(),
         inside);
   });
-  // What rounding has left of the basis and of one another; nothing is turned by that.
-  take_from(groups, basis, num_threads);
+  // Removes the remaining rounding errors by a symmetric correction, which rotates nothing.
+  project_out(groups, basis, num_threads);
   for_each([&](std::size_t g) {
     if (groups[g].cols() > 0) {
       const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> skew(inner_products(groups[g], inside));

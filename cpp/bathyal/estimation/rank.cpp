@@ -15,12 +15,12 @@ namespace {
 
 constexpr Index kRowsPerBlock = 1024;
 
-/// Entries below this share of a direction's largest one are rounding, not partners.
-constexpr double kPartnerShare = 1e-4;
+/// Entries below this share of the largest entry of a direction are rounding errors.
+constexpr double kEntryShare = 1e-4;
 
-/// Positions by falling size of their entry, those above the share only.
-std::vector<Index> partners(const Eigen::VectorXd& direction) {
-  const double least = kPartnerShare * direction.cwiseAbs().maxCoeff();
+/// Indices by descending size of their entry, without those below the share.
+std::vector<Index> sorted_entries(const Eigen::VectorXd& direction) {
+  const double least = kEntryShare * direction.cwiseAbs().maxCoeff();
   std::vector<Index> order;
   for (Index i = 0; i < direction.size(); ++i) {
     if (std::abs(direction[i]) > least) order.push_back(i);
@@ -33,39 +33,39 @@ std::vector<Index> partners(const Eigen::VectorXd& direction) {
 
 }  // namespace
 
-Eigen::MatrixXd triangle_of(const Eigen::MatrixXd& rows, int num_threads) {
+Eigen::MatrixXd qr_factor(const Eigen::MatrixXd& rows, int num_threads) {
   const Index columns = rows.cols();
   if (rows.rows() <= std::max(kRowsPerBlock, 2 * columns)) {
-    Eigen::MatrixXd triangle = Eigen::MatrixXd::Zero(columns, columns);
+    Eigen::MatrixXd factor = Eigen::MatrixXd::Zero(columns, columns);
     const Index height = std::min(rows.rows(), columns);
     const Eigen::HouseholderQR<Eigen::MatrixXd> qr(rows);
-    triangle.topRows(height) = qr.matrixQR().topRows(height).triangularView<Eigen::Upper>();
-    return triangle;
+    factor.topRows(height) = qr.matrixQR().topRows(height).triangularView<Eigen::Upper>();
+    return factor;
   }
   const Index block = std::max(kRowsPerBlock, 2 * columns);
   const Index blocks = (rows.rows() + block - 1) / block;
-  Eigen::MatrixXd triangles(blocks * columns, columns);
+  Eigen::MatrixXd factors(blocks * columns, columns);
   parallel_for(static_cast<std::size_t>(blocks), 1, num_threads, [&](std::size_t i, std::size_t) {
     const auto first = static_cast<Index>(i) * block;
-    triangles.middleRows(static_cast<Index>(i) * columns, columns) =
-        triangle_of(rows.middleRows(first, std::min(block, rows.rows() - first)));
+    factors.middleRows(static_cast<Index>(i) * columns, columns) =
+        qr_factor(rows.middleRows(first, std::min(block, rows.rows() - first)));
   });
-  return triangle_of(triangles);
+  return qr_factor(factors);
 }
 
-Eigen::MatrixXd inverse_square(const Eigen::MatrixXd& jacobian) {
+Eigen::MatrixXd covariance_from_qr(const Eigen::MatrixXd& jacobian) {
   const Index columns = jacobian.cols();
-  const Eigen::MatrixXd inverse = triangle_of(jacobian).triangularView<Eigen::Upper>().solve(
+  const Eigen::MatrixXd inverse = qr_factor(jacobian).triangularView<Eigen::Upper>().solve(
       Eigen::MatrixXd::Identity(columns, columns));
   return inverse * inverse.transpose();
 }
 
-RankReport reveal_rank(const Eigen::MatrixXd& jacobian, double tolerance) {
+RankReport numerical_rank(const Eigen::MatrixXd& jacobian, double tolerance) {
   RankReport report;
   const Index columns = jacobian.cols();
   if (columns == 0) return report;
-  const bool square = jacobian.rows() == columns;
-  const Eigen::BDCSVD<Eigen::MatrixXd> svd(square ? jacobian : triangle_of(jacobian),
+  const bool is_factor = jacobian.rows() == columns;
+  const Eigen::BDCSVD<Eigen::MatrixXd> svd(is_factor ? jacobian : qr_factor(jacobian),
                                            Eigen::ComputeFullV);
   report.singular_values = svd.singularValues();
   report.directions = svd.matrixV();
@@ -74,21 +74,21 @@ RankReport reveal_rank(const Eigen::MatrixXd& jacobian, double tolerance) {
   return report;
 }
 
-Eigen::MatrixXd unseen_of(const Eigen::MatrixXd& jacobian) {
+Eigen::MatrixXd null_space_of(const Eigen::MatrixXd& jacobian) {
   const Index columns = jacobian.cols();
-  const Eigen::MatrixXd triangle = triangle_of(jacobian);
-  if ((triangle.diagonal().array() != 0.0).all()) {
+  const Eigen::MatrixXd factor = qr_factor(jacobian);
+  if ((factor.diagonal().array() != 0.0).all()) {
     const Eigen::MatrixXd inverse =
-        triangle.triangularView<Eigen::Upper>().solve(Eigen::MatrixXd::Identity(columns, columns));
+        factor.triangularView<Eigen::Upper>().solve(Eigen::MatrixXd::Identity(columns, columns));
     // The Frobenius norm is no less than the largest singular value.
-    if (kRankTolerance * triangle.norm() * inverse.norm() < 1.0) return {columns, 0};
+    if (kRankTolerance * factor.norm() * inverse.norm() < 1.0) return {columns, 0};
   }
-  return reveal_rank(triangle).unseen();
+  return numerical_rank(factor).null_space();
 }
 
-std::vector<Eigen::VectorXd> readable_directions(const Eigen::MatrixXd& unseen) {
-  // Gauss and Jordan with the largest entry left as the next lead.
-  Eigen::MatrixXd rows = unseen.transpose();
+std::vector<Eigen::VectorXd> readable_directions(const Eigen::MatrixXd& null_space) {
+  // Gauss-Jordan elimination with the largest remaining entry as the next pivot.
+  Eigen::MatrixXd rows = null_space.transpose();
   for (Index k = 0; k < rows.rows(); ++k) {
     Index row = 0;
     Index column = 0;
@@ -105,87 +105,90 @@ std::vector<Eigen::VectorXd> readable_directions(const Eigen::MatrixXd& unseen) 
 }
 
 bool takes_part(Index column, const Eigen::MatrixXd& directions) {
-  return directions.cols() > 0 && directions.row(column).norm() > kUnseenShare;
+  return directions.cols() > 0 && directions.row(column).norm() > kNullSpaceShare;
 }
 
-std::vector<Trade> trades_of(int column, const Eigen::MatrixXd& unseen,
-                             const std::vector<Column>& columns) {
-  std::vector<Trade> trades;
-  if (unseen.cols() == 0) return trades;
-  const Eigen::VectorXd direction = unseen * unseen.row(column).transpose();
-  if (std::abs(direction[column]) < kPartnerShare * kPartnerShare) return trades;
-  for (const Index i : partners(direction)) {
+std::vector<NullSpacePartner> null_space_partners(int column, const Eigen::MatrixXd& null_space,
+                                                  const std::vector<Parameter>& parameters) {
+  std::vector<NullSpacePartner> partners;
+  if (null_space.cols() == 0) return partners;
+  const Eigen::VectorXd direction = null_space * null_space.row(column).transpose();
+  if (std::abs(direction[column]) < kEntryShare * kEntryShare) return partners;
+  for (const Index i : sorted_entries(direction)) {
     if (i == column) continue;
-    const Column& other = columns[i];
-    trades.push_back({other.name, other.words,
-                      direction[i] * other.scale / (direction[column] * columns[column].scale)});
+    const Parameter& other = parameters[i];
+    partners.push_back(
+        {other.name, other.description,
+         direction[i] * other.scale / (direction[column] * parameters[column].scale)});
   }
-  return trades;
+  return partners;
 }
 
-std::string in_words(const Eigen::VectorXd& direction, const std::vector<Column>& columns) {
+std::string describe_direction(const Eigen::VectorXd& direction,
+                               const std::vector<Parameter>& parameters) {
   std::string text;
-  for (const Index i : partners(direction)) {
+  for (const Index i : sorted_entries(direction)) {
     char number[32];
     std::snprintf(number, sizeof number, " %+.3g", direction[i]);
-    text += (text.empty() ? "" : ", ") + columns[i].words + number;
+    text += (text.empty() ? "" : ", ") + parameters[i].description + number;
   }
   return text;
 }
 
 namespace {
 
-/// Of the columns `order`, those that bring something new: `least` (passes, columns) is the length
-/// from which what is left of a column does, in each pass over all of them.
-Selection select_above(const Eigen::MatrixXd& jacobian, const std::vector<int>& order,
-                       const Eigen::MatrixXd& least) {
-  // Householder's QR: of the columns that are still left, `rest` has below row `known` what those
-  // that were kept cannot do.
-  Eigen::MatrixXd rest = jacobian(Eigen::all, order);
+/// Selects columns in the `order` given: in each pass over all of them those whose component
+/// orthogonal to the kept ones is longer than `least` (passes, columns).
+IndependentColumns select_above(const Eigen::MatrixXd& jacobian, const std::vector<int>& order,
+                                const Eigen::MatrixXd& least) {
+  // Householder QR: below row `kept_count`, `remaining` holds the part of each column that is
+  // orthogonal to the kept ones.
+  Eigen::MatrixXd remaining = jacobian(Eigen::all, order);
   std::vector<char> is_kept(order.size(), 0);
-  Selection selection;
-  Index known = 0;
-  const auto keep = [&](std::size_t taken) {
-    const Index below = rest.rows() - known - 1;
+  IndependentColumns out;
+  Index kept_count = 0;
+  const auto keep = [&](std::size_t next) {
+    const Index below = remaining.rows() - kept_count - 1;
     double tau = 0.0;
     double beta = 0.0;
     Eigen::VectorXd reflector(below);
-    rest.col(static_cast<Index>(taken)).tail(below + 1).makeHouseholder(reflector, tau, beta);
-    is_kept[taken] = 1;
-    selection.kept.push_back(order[taken]);
+    remaining.col(static_cast<Index>(next)).tail(below + 1).makeHouseholder(reflector, tau, beta);
+    is_kept[next] = 1;
+    out.kept.push_back(order[next]);
     for (std::size_t i = 0; i < order.size(); ++i) {
       if (is_kept[i]) continue;
-      auto column = rest.col(static_cast<Index>(i));
-      const double along = tau * (column[known] + reflector.dot(column.tail(below)));
-      column[known] -= along;
+      auto column = remaining.col(static_cast<Index>(i));
+      const double along = tau * (column[kept_count] + reflector.dot(column.tail(below)));
+      column[kept_count] -= along;
       column.tail(below) -= along * reflector;
     }
-    ++known;
+    ++kept_count;
   };
   for (Index pass = 0; pass < least.rows(); ++pass) {
     for (std::size_t i = 0; i < order.size(); ++i) {
       const auto column = static_cast<Index>(i);
-      const double left = rest.col(column).tail(rest.rows() - known).norm();
-      if (!is_kept[i] && left > least(pass, column)) keep(i);
+      const double remainder = remaining.col(column).tail(remaining.rows() - kept_count).norm();
+      if (!is_kept[i] && remainder > least(pass, column)) keep(i);
     }
   }
   for (std::size_t i = 0; i < order.size(); ++i) {
-    if (!is_kept[i]) selection.dependent.push_back(order[i]);
+    if (!is_kept[i]) out.dependent.push_back(order[i]);
   }
-  return selection;
+  return out;
 }
 
 }  // namespace
 
-Selection select_independent(const Eigen::MatrixXd& jacobian, const std::vector<int>& order,
-                             const std::vector<double>& tolerances) {
+IndependentColumns select_independent(const Eigen::MatrixXd& jacobian,
+                                      const std::vector<int>& order,
+                                      const std::vector<double>& tolerances) {
   const Eigen::Map<const Eigen::VectorXd> shares(tolerances.data(),
                                                  static_cast<Index>(tolerances.size()));
   return select_above(jacobian, order, shares * jacobian(Eigen::all, order).colwise().norm());
 }
 
-Selection select_longer(const Eigen::MatrixXd& jacobian, const std::vector<int>& order,
-                        double least) {
+IndependentColumns select_longer(const Eigen::MatrixXd& jacobian, const std::vector<int>& order,
+                                 double least) {
   return select_above(jacobian, order,
                       Eigen::RowVectorXd::Constant(static_cast<Index>(order.size()), least));
 }

@@ -7,79 +7,81 @@
 
 #include "bathyal/estimation/parameter.hpp"
 
-// What data can tell of columns, from the Jacobian alone: by QR and singular values of the Jacobian
-// with its columns scaled, never from normal equations.
+// Observability of parameters from the Jacobian alone: by QR and singular values of the Jacobian
+// with scaled columns, never from normal equations.
 
 namespace bathyal {
 
-/// A singular value below this share of the largest one is none. Jacobians are analytic, so that
-/// columns that truly depend leave about 1e-15.
+/// Singular values below this share of the largest one count as zero. Jacobians are analytic, so
+/// that truly dependent columns leave about 1e-15.
 constexpr double kRankTolerance = 1e-7;
 
-/// Singular values of a Jacobian and its directions, all columns in units of their scale.
+/// Singular values and right singular vectors of a Jacobian whose columns are in units of scale.
 struct RankReport {
   int rank = 0;
-  Eigen::VectorXd singular_values;  ///< falling; as many as columns
+  Eigen::VectorXd singular_values;  ///< descending; as many as columns
   Eigen::MatrixXd directions;       ///< (columns, columns) right singular vectors, in that order
 
-  /// (columns, columns - rank) orthonormal: changes that nothing measured can see.
-  Eigen::MatrixXd unseen() const { return directions.rightCols(directions.cols() - rank); }
+  /// (columns, columns - rank) orthonormal: changes without effect on any measurement.
+  Eigen::MatrixXd null_space() const { return directions.rightCols(directions.cols() - rank); }
 };
 
-/// R of the QR decomposition, (columns, columns): it has the singular values, the right singular
-/// vectors and the square of all the rows. Many rows are taken in fixed blocks whose triangles are
-/// decomposed again: the same bytes for any number of threads.
-Eigen::MatrixXd triangle_of(const Eigen::MatrixXd& rows, int num_threads = 1);
+/// R of the QR decomposition, (columns, columns): it has the singular values, right singular
+/// vectors and Gram matrix of all the rows. Many rows are decomposed in fixed blocks whose R
+/// factors are stacked and decomposed again: the same bytes for any number of threads.
+Eigen::MatrixXd qr_factor(const Eigen::MatrixXd& rows, int num_threads = 1);
 
 /// \pre no entry is NaN
-RankReport reveal_rank(const Eigen::MatrixXd& jacobian, double tolerance = kRankTolerance);
+RankReport numerical_rank(const Eigen::MatrixXd& jacobian, double tolerance = kRankTolerance);
 
-/// The same as reveal_rank(jacobian).unseen(), for less where all is plainly seen.
+/// The same as numerical_rank(jacobian).null_space(), cheaper where the rank is clearly full.
 /// \pre no entry is NaN
-Eigen::MatrixXd unseen_of(const Eigen::MatrixXd& jacobian);
+Eigen::MatrixXd null_space_of(const Eigen::MatrixXd& jacobian);
 
-/// (JᵀJ)⁻¹ from the triangle of J: the covariance of columns when residuals have unit noise.
+/// (JᵀJ)⁻¹ from the R factor of J: the covariance of the parameters for residuals of unit noise.
 /// \pre the columns are independent
-Eigen::MatrixXd inverse_square(const Eigen::MatrixXd& jacobian);
+Eigen::MatrixXd covariance_from_qr(const Eigen::MatrixXd& jacobian);
 
-/// The same space, each direction with a leading column that no other one has, so that each reads
-/// as one sentence; leading entries are 1.
-std::vector<Eigen::VectorXd> readable_directions(const Eigen::MatrixXd& unseen);
+/// A basis of the same space in which each direction has a leading parameter that takes part in no
+/// other one, so that it can be described in one sentence; leading entries are 1.
+std::vector<Eigen::VectorXd> readable_directions(const Eigen::MatrixXd& null_space);
 
-/// A column's share in an unseen direction from which it counts as part of it.
-constexpr double kUnseenShare = 1e-4;
+/// A parameter's share in a null-space direction from which it counts as part of it.
+constexpr double kNullSpaceShare = 1e-4;
 
-/// Whether `column` takes part in any of `directions` (columns, k), k 0 or more.
+/// Whether parameter `column` takes part in any of `directions` (columns, k), k 0 or more.
 bool takes_part(Eigen::Index column, const Eigen::MatrixXd& directions);
 
-/// A column that takes part in a change that nothing sees.
-struct Trade {
+/// A parameter that takes part in an unobservable change of another one.
+struct NullSpacePartner {
   std::string name;
-  std::string words;
-  double factor = 0.0;  ///< how far it goes per unit of the first one, each in its own unit
+  std::string description;
+  double factor = 0.0;  ///< its change per unit of the first one, each in its own unit
 };
 
-/// Others that move along with `column` in the unseen change that moves it most, the largest first
-/// (in units of their scale). Empty when `column` is seen.
-std::vector<Trade> trades_of(int column, const Eigen::MatrixXd& unseen,
-                             const std::vector<Column>& columns);
+/// The other parameters of the unobservable change that moves `column` most, by descending size (in
+/// units of their scale). Empty when `column` is observable.
+std::vector<NullSpacePartner> null_space_partners(int column, const Eigen::MatrixXd& null_space,
+                                                  const std::vector<Parameter>& parameters);
 
-/// "theta of row 1 +1, d of row 2 -0.5": the columns of a direction, the largest first.
-std::string in_words(const Eigen::VectorXd& direction, const std::vector<Column>& columns);
+/// "theta of row 1 +1, d of row 2 -0.5": the parameters of a direction by descending size.
+std::string describe_direction(const Eigen::VectorXd& direction,
+                               const std::vector<Parameter>& parameters);
 
-/// Columns taken in the order given as long as each brings something new: a share of it, above the
-/// tolerance, that those kept before cannot do. Of several tolerances the first counts for all
-/// columns before the next one is asked of those that are left.
-struct Selection {
+/// Columns selected in the order given, each as long as a share of it above the tolerance is
+/// independent of those kept before. Of several tolerances the first is applied to all columns
+/// before the next one is applied to the columns that it rejected.
+struct IndependentColumns {
   std::vector<int> kept;
-  std::vector<int> dependent;  ///< those that the columns kept before them can do as well
+  std::vector<int> dependent;  ///< linear combinations of the columns kept before them
 };
-Selection select_independent(const Eigen::MatrixXd& jacobian, const std::vector<int>& order,
-                             const std::vector<double>& tolerances = {kRankTolerance});
+IndependentColumns select_independent(const Eigen::MatrixXd& jacobian,
+                                      const std::vector<int>& order,
+                                      const std::vector<double>& tolerances = {kRankTolerance});
 
-/// The same by an absolute measure: a column brings something new where those kept before it leave
-/// more than `least` of its length.
-Selection select_longer(const Eigen::MatrixXd& jacobian, const std::vector<int>& order,
-                        double least);
+/// The same with an absolute tolerance: a column is selected where its component orthogonal to
+/// those kept before is longer than `least`.
+IndependentColumns select_longer(const Eigen::MatrixXd& jacobian, const std::vector<int>& order,
+                                 double least);
 
 }  // namespace bathyal

@@ -29,7 +29,7 @@ Cloud::Ptr to_pcl(std::string_view name, PointView points) {
   return cloud;
 }
 
-/// PCL prints its warnings; what matters here is thrown.
+/// PCL prints its warnings; errors are thrown here.
 class QuietPcl {
  public:
   QuietPcl() { pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS); }
@@ -44,14 +44,14 @@ class QuietPcl {
 void check_none_shared(const std::vector<Index>& pairs, Index positions) {
   std::vector<Index> owner(static_cast<std::size_t>(positions), -1);
   for (Index i = 0; i < static_cast<Index>(pairs.size()); ++i) {
-    Index& taken = owner[pairs[i]];
-    if (taken >= 0) {
+    Index& previous = owner[pairs[i]];
+    if (previous >= 0) {
       throw Error("the iterative closest point algorithm leaves predictions " +
-                  std::to_string(taken) + " and " + std::to_string(i) +
+                  std::to_string(previous) + " and " + std::to_string(i) +
                   " nearest to the same position, row " + std::to_string(pairs[i]) +
                   ": the clouds lie too far apart to be paired by it");
     }
-    taken = i;
+    previous = i;
   }
 }
 

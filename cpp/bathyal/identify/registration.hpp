@@ -13,15 +13,16 @@ struct IcpOptions {
   void check() const;
 };
 
-/// For each row of `predicted` the row of `positions` that the iterative closest point algorithm
-/// (Besl, McKay 1992), as PCL has it, leaves nearest, from both centroids laid upon each other: the
-/// pairing of Yukhimets and Gubankov (2023) where nobody wrote down which measurement belongs to
-/// which pose. It finds the pairs only where the clouds start closer to each other than their
-/// points lie apart. Positions that nobody predicted are left over. PCL works in float32 about the
-/// centroids. \throw std::invalid_argument for fewer than three rows on either side, fewer
-/// positions than predictions, or rows that are not finite. \throw Error when it does not converge,
-/// and where two rows end up nearest to the same position: one of them is wrong then, and with it
-/// every figure that came of it.
+/// For each row of `predicted` the row of `positions` that is nearest after the iterative closest
+/// point algorithm (Besl, McKay 1992; PCL), starting with aligned centroids: the pairing of
+/// Yukhimets and Gubankov (2023) where it was not recorded which measurement belongs to which pose.
+/// It finds the pairs only where the clouds start closer to each other than the distance between
+/// their points. Positions without a prediction remain unpaired. PCL computes in float32 about the
+/// centroids.
+/// \throw std::invalid_argument for fewer than three rows on either side, fewer positions than
+///         predictions, or rows that are not finite.
+/// \throw Error when it does not converge, and where two rows are nearest to the same position: at
+///         least one of the pairs is then wrong, and with it every figure that depends on it.
 std::vector<Index> pair_by_icp(PointView predicted, PointView positions,
                                const IcpOptions& options = {});
 

@@ -16,14 +16,14 @@ void check_pairs(const std::vector<Index>& pairs, Index predictions, Index posit
     throw_argument("pairs", "one for each of " + std::to_string(predictions) + " predictions",
                    std::to_string(pairs.size()));
   }
-  std::vector<bool> taken(static_cast<std::size_t>(positions), false);
+  std::vector<bool> used(static_cast<std::size_t>(positions), false);
   for (const Index row : pairs) {
     if (row < 0 || row >= positions) {
       throw_argument("pairs", "rows of the " + std::to_string(positions) + " positions",
                      std::to_string(row));
     }
-    if (taken[row]) throw_argument("pairs", "each row once", std::to_string(row) + " twice");
-    taken[row] = true;
+    if (used[row]) throw_argument("pairs", "each row once", std::to_string(row) + " twice");
+    used[row] = true;
   }
 }
 

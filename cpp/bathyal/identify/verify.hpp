@@ -7,7 +7,7 @@
 
 namespace bathyal {
 
-/// How far positions an arm predicts lie from measured ones, their frames laid upon each other.
+/// Deviation of positions that an arm predicts from measured ones, after alignment of the frames.
 struct Verification {
   Pose measured_from_predicted = Pose::Identity();  ///< the alignment
   double rms_before = 0.0;        ///< √mean‖e‖² with the centroids removed only [m]
@@ -18,10 +18,11 @@ struct Verification {
 };
 
 /// The check of Yukhimets and Gubankov (2023): both clouds' centroids are removed and the predicted
-/// one is turned onto the measured one, so that neither the instrument's frame nor where the arm
-/// stands count. `pairs` names for each prediction the row of `positions` it belongs to; empty
-/// pairs row to row. \throw std::invalid_argument as align, and for other than one row for each
-/// prediction, rows that are not there, or one named twice.
+/// cloud is rotated onto the measured one, so that neither the frame of the instrument nor the
+/// position of the arm matters. `pairs` gives for each prediction the row of `positions` it belongs
+/// to; empty pairs row by row.
+/// \throw std::invalid_argument as align, and for other than one row for each prediction, rows that
+///         do not exist, or one given twice.
 Verification verify_positions(PointView predicted, PointView positions,
                               const std::vector<Index>& pairs = {});
 

@@ -47,7 +47,8 @@ Pool::Pool(const Eigen::MatrixXd& basis, const Eigen::VectorXd& misfit, double f
       total_(misfit_.squaredNorm()),
       freedom_(freedom),
       num_threads_(num_threads) {
-  const std::vector<Beside> beside = orthonormal_beside(basis, std::move(columns), num_threads);
+  const std::vector<ProjectedColumns> beside =
+      projected_columns(basis, std::move(columns), num_threads);
   Index wide = 0;
   std::map<std::string, int> causes;
   for (std::size_t i = 0; i < beside.size(); ++i) {
@@ -61,7 +62,7 @@ Pool::Pool(const Eigen::MatrixXd& basis, const Eigen::VectorXd& misfit, double f
   stack_.resize(misfit.size(), wide);
   held_by_.resize(wide);
   wide = 0;
-  for (const Beside& one : beside) {
+  for (const ProjectedColumns& one : beside) {
     const Index width = one.length.size();
     stack_.middleCols(wide, width) = one.columns;
     held_by_.segment(wide, width) = one.length.cwiseAbs2().cwiseInverse();

@@ -56,10 +56,10 @@ const Ground& Vantage::ground(const std::vector<int>& forms) const {
   if (forms.empty()) return *bare_;
   if (!last_ || last_->first != forms) {
     Eigen::MatrixXd basis = bare_->basis;
-    append(basis,
-           orthonormal_beside(bare_->basis, {side_by_side(subject_.columns(forms))}, num_threads_)
-               .front()
-               .columns);
+    append(basis, projected_columns(bare_->basis, {concatenate_columns(subject_.columns(forms))},
+                                    num_threads_)
+                      .front()
+                      .columns);
     last_.emplace(forms, with(std::move(basis)));
   }
   return last_->second;

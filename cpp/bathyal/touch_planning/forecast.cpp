@@ -11,6 +11,9 @@
 #include "bathyal/touch_planning/internal/tip_model.hpp"
 
 namespace bathyal {
+
+using namespace touch_planning;
+
 namespace {
 
 constexpr double kUnit = 1e-3;  ///< of singular values [m]
@@ -29,19 +32,19 @@ Eigen::Matrix3Xd targets_of(const TouchModel& model, const Measurement& m, int n
   return targets;
 }
 
-void tell_rank(const TouchModel& model, ArmSystem system, TouchForecast& out) {
+void fill_rank(const TouchModel& model, ArmResiduals system, TouchForecast& out) {
   system.set_equal_noise(kUnit);
   system.set_use_priors(false);
-  const RankReport rank = reveal_rank(system.jacobian(model.columns.nominal()));
-  out.parameters = static_cast<int>(model.columns.columns.size());
+  const RankReport rank = numerical_rank(system.jacobian(model.parameters.nominal()));
+  out.parameters = static_cast<int>(model.parameters.parameters.size());
   out.free = static_cast<int>(model.free.size());
   out.rank = rank.rank;
   out.singular_values = rank.singular_values;
 
-  std::vector<Column> free;
-  for (const int column : model.free) free.push_back(model.columns.columns[column]);
-  for (const Eigen::VectorXd& direction : readable_directions(rank.unseen())) {
-    out.unseen.push_back(in_words(direction, free));
+  std::vector<Parameter> free;
+  for (const int column : model.free) free.push_back(model.parameters.parameters[column]);
+  for (const Eigen::VectorXd& direction : readable_directions(rank.null_space())) {
+    out.null_space.push_back(describe_direction(direction, free));
   }
   const double mean_log = rank.singular_values.head(rank.rank).array().log().mean();
   out.o1 = rank.rank == 0
@@ -49,25 +52,25 @@ void tell_rank(const TouchModel& model, ArmSystem system, TouchForecast& out) {
                : std::exp(mean_log) / std::sqrt(static_cast<double>(system.measurement().rows()));
 }
 
-void tell_tips(const TouchModel& model, const ArmSystem& system, int num_threads,
-               TouchForecast& out) {
-  const auto& columns = model.columns.columns;
-  const Eigen::MatrixXd jacobian = system.jacobian(model.columns.nominal());
-  const Eigen::MatrixXd known = inverse_square(jacobian);
+void fill_tip_std(const TouchModel& model, const ArmResiduals& system, int num_threads,
+                  TouchForecast& out) {
+  const auto& columns = model.parameters.parameters;
+  const Eigen::MatrixXd jacobian = system.jacobian(model.parameters.nominal());
+  const Eigen::MatrixXd covariance = covariance_from_qr(jacobian);
   const Eigen::HouseholderQR<Eigen::MatrixXd> qr(jacobian);
   out.log_det = 2.0 * qr.matrixQR().diagonal().head(out.free).array().abs().log().sum();
 
-  ArmFit fit(model.columns.arm);
-  fit.columns = model.columns;
-  fit.values = model.columns.nominal();
+  ArmFit fit(model.parameters.arm);
+  fit.arm_parameters = model.parameters;
+  fit.values = model.parameters.nominal();
   const auto count = static_cast<Index>(columns.size());
   fit.covariance.setZero(count, count);
-  fit.blind.resize(count, 0);
+  fit.undetermined.resize(count, 0);
   for (std::size_t i = 0; i < model.free.size(); ++i) {
     for (std::size_t j = 0; j < model.free.size(); ++j) {
       const int a = model.free[i];
       const int b = model.free[j];
-      fit.covariance(a, b) = known(i, j) * columns[a].scale * columns[b].scale;
+      fit.covariance(a, b) = covariance(i, j) * columns[a].scale * columns[b].scale;
     }
   }
   for (const Eigen::Matrix3d& c : tip_covariance(fit, out.workspace, num_threads)) {
@@ -107,13 +110,14 @@ TouchForecast forecast_touches(const Arm& arm, const Touches& touches,
                       ? options.workspace
                       : random_poses(arm, options.workspace_poses, options.seed);
   const TouchModel model = make_touch_model(arm, m, options);
-  m.q = settled_on(model, m.q, targets_of(model, m, options.num_threads), options.num_threads);
+  m.q =
+      joints_on_targets(model, m.q, targets_of(model, m, options.num_threads), options.num_threads);
 
-  ArmSystem system(model.columns, m, Criterion::kCentroid, false, options.num_threads);
+  ArmResiduals system(model.parameters, m, Criterion::kCentroid, false, options.num_threads);
   system.set_free(model.free);
-  system.set_noise({options.noise, options.noise}, model.columns.nominal());
-  tell_rank(model, system, out);
-  tell_tips(model, system, options.num_threads, out);
+  system.set_noise({options.noise, options.noise}, model.parameters.nominal());
+  fill_rank(model, system, out);
+  fill_tip_std(model, system, options.num_threads, out);
   return out;
 }
 

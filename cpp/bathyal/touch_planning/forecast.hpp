@@ -11,10 +11,10 @@
 
 namespace bathyal {
 
-/// What is believed of an arm and its touches before anything is touched.
+/// Prior assumptions about an arm and its touches.
 struct ForecastOptions {
   Parametrization parametrization = Parametrization::kHayati;
-  double nearly_parallel = kNearlyParallel;  ///< sine below which beta takes d's place, 0 … 0.5
+  double nearly_parallel = kNearlyParallel;  ///< sine below which beta replaces d, 0 … 0.5
   double noise = 1e-4;                       ///< std of one touch, per axis [m], above 0
   double length_prior = 1e-3;                ///< std of every a and d about nominal [m], above 0
   double angle_prior = 2e-3;                 ///< of every theta, alpha, beta [rad], above 0
@@ -29,18 +29,18 @@ struct ForecastOptions {
   void check() const;
 };
 
-/// What touches will tell of an arm, before the arm is identified.
+/// Predicted result of identifying an arm from touches.
 struct TouchForecast {
-  RowMatrix workspace;          ///< (S, n) poses that the deviation is foretold for
+  RowMatrix workspace;          ///< (S, n) poses for which the deviation is predicted
   std::vector<double> tip_std;  ///< (S,) √trace of the tip's covariance there [m]
   double worst_tip_std = 0.0;   ///< [m]
   double median_tip_std = 0.0;  ///< [m]
 
-  int parameters = 0;               ///< as many as ArmFit::parameters
-  int free = 0;                     ///< of them, those that base and tool cannot do as well
-  int rank = 0;                     ///< of the data by them, without priors
-  Eigen::VectorXd singular_values;  ///< (free,) falling, mm at the tip per mm and mrad
-  std::vector<std::string> unseen;  ///< the null directions among the free ones, in words
+  int parameters = 0;                   ///< as many as ArmFit::parameters
+  int free = 0;                         ///< of them, those that base and tool cannot represent
+  int rank = 0;                         ///< of the data by the free ones, without priors
+  Eigen::VectorXd singular_values;      ///< (free,) descending, mm at the tip per mm and mrad
+  std::vector<std::string> null_space;  ///< descriptions of the undetermined directions
   /// Borm and Menq (1989): (Π σ)^(1/r) / √N over the r = rank singular values above zero.
   double o1 = 0.0;
   /// ln det of the free parameters' information, priors included, per mm and mrad.
@@ -48,11 +48,11 @@ struct TouchForecast {
 };
 
 /// The covariance that `identify_arm` will report with these priors, to first order at the nominal
-/// arm, and what it makes of the tip all over the workspace: in the frame of the base, gauge counts
-/// nothing, the arm's size counts, as in `tip_covariance`. Recorded touches that scatter are first
-/// moved onto their point.
-/// \throw std::invalid_argument for bad touches or options, another number of joints, several
-///        tools or stations, touched planes.
+/// arm, and the resulting deviation of the tip over the workspace: in the frame of the base, gauge
+/// freedom does not count, the scale of the arm counts, as in `tip_covariance`. Recorded touches
+/// that scatter are first moved onto their point.
+/// \throw std::invalid_argument for invalid touches or options, another number of joints, several
+///         tools or stations, touched planes.
 TouchForecast forecast_touches(const Arm& arm, const Touches& touches,
                                const ForecastOptions& options = {});
 

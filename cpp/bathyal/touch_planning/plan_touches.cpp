@@ -14,6 +14,9 @@
 #include "bathyal/touch_planning/internal/tip_model.hpp"
 
 namespace bathyal {
+
+using namespace touch_planning;
+
 namespace {
 
 // Limits of what fits into memory and ends within hours.
@@ -23,17 +26,16 @@ constexpr int kMostCandidates = 100'000;  ///< for each point
 constexpr int kMostPasses = 10'000;
 
 constexpr double kLengthUnit = 1e-3;  ///< of lengths among scaled columns [m]
-/// How far a point may lie from where it is said to: so far that it tells nothing beside touches
-/// [m].
+/// Prior std of a point with an unknown position: vague compared with touches [m].
 constexpr double kVague = 1.0;
 
-/// Candidates of all points, one below the other.
+/// Candidates of all points, stacked.
 struct Candidates {
   RowMatrix q;
   std::vector<int> point;
 };
 
-/// A measurement without rows, to say what kind of touches will come.
+/// A measurement without rows that has the kind of the planned touches.
 Measurement kind_of(const PlanTouchesOptions& options) {
   Measurement kind;
   for (const int point : options.known_points) kind.known_points.push_back({point, Vec3::Zero()});
@@ -53,15 +55,15 @@ Candidates gather(const Arm& arm, const TouchModel& model, const Eigen::Matrix3X
   return all;
 }
 
-/// Information before any touch: priors of the columns, points that lie somewhere, distances and
-/// points that will be told.
+/// Information before any touch: priors of the parameters, vague priors of the points, distances
+/// and points that will be measured.
 Eigen::MatrixXd prior_information(const TouchModel& model, const Eigen::Matrix3Xd& points,
                                   const PlanTouchesOptions& options) {
   const auto columns = static_cast<Index>(model.free.size());
   const Index unknowns = columns + 3 * points.cols();
   Eigen::VectorXd diagonal = Eigen::VectorXd::Constant(unknowns, std::pow(kLengthUnit / kVague, 2));
   for (Index i = 0; i < columns; ++i) {
-    const Column& column = model.columns.columns[model.free[i]];
+    const Parameter& column = model.parameters.parameters[model.free[i]];
     diagonal[i] = std::pow(column.scale / column.prior_std, 2);
   }
   for (const int p : options.known_points) {
@@ -78,10 +80,10 @@ Eigen::MatrixXd prior_information(const TouchModel& model, const Eigen::Matrix3X
   return information;
 }
 
-TouchDesign make_design(const TouchModel& model, const Candidates& candidates,
-                        const Eigen::Matrix3Xd& points, const RowMatrix& workspace,
-                        const PlanTouchesOptions& options) {
-  TouchDesign design;
+OptimalDesign make_design(const TouchModel& model, const Candidates& candidates,
+                          const Eigen::Matrix3Xd& points, const RowMatrix& workspace,
+                          const PlanTouchesOptions& options) {
+  OptimalDesign design;
   const double noise = options.forecast.noise;
   const int threads = options.forecast.num_threads;
   design.touches = tip_derivatives(model, candidates.q, threads) / noise;
@@ -95,10 +97,10 @@ TouchDesign make_design(const TouchModel& model, const Candidates& candidates,
   return design;
 }
 
-/// The same problem for O1: only what the candidates can tell together counts, and nothing is known
-/// beside the touches.
-void leave_out_priors(TouchDesign& design) {
-  constexpr double kNothing = 1e-6;  // of a touch's information: the first ones need some footing
+/// The same problem for O1: only the parameters that the candidates determine together, without
+/// priors.
+void drop_priors(OptimalDesign& design) {
+  constexpr double kRegularisation = 1e-6;  // of a touch's information: regularises the first ones
   Eigen::MatrixXd rows = design.touches.transpose();
   Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(3 * design.points, rows.cols());
   std::vector<double> count(static_cast<std::size_t>(design.points), 0.0);
@@ -110,29 +112,29 @@ void leave_out_priors(TouchDesign& design) {
     const int p = design.point[i];
     rows.middleRows<3>(3 * static_cast<Index>(i)) -= sum.middleRows<3>(3 * p) / count[p];
   }
-  const RankReport rank = reveal_rank(rows);
-  const Eigen::MatrixXd seen = rank.directions.leftCols(rank.rank);
-  design.touches = seen.transpose() * design.touches;
+  const RankReport rank = numerical_rank(rows);
+  const Eigen::MatrixXd observable = rank.directions.leftCols(rank.rank);
+  design.touches = observable.transpose() * design.touches;
   const Index unknowns = rank.rank + 3 * design.points;
-  design.prior = Eigen::MatrixXd::Identity(unknowns, unknowns) * kNothing * design.point_weight *
-                 design.point_weight;
+  design.prior = Eigen::MatrixXd::Identity(unknowns, unknowns) * kRegularisation *
+                 design.point_weight * design.point_weight;
 }
 
-/// Point by point, each pose the nearest of those left to the one before, from the one nearest to
-/// the joints' middle: the arm is moved as little as may be.
-std::vector<int> in_order(const Candidates& candidates, std::vector<int> left) {
+/// Point by point, each pose the nearest of the remaining ones to the previous pose, starting near
+/// the middle of the joints: minimises the motion of the arm.
+std::vector<int> ordered(const Candidates& candidates, std::vector<int> remaining) {
   std::vector<int> order;
   Eigen::RowVectorXd last = candidates.q.colwise().mean();
-  while (!left.empty()) {
+  while (!remaining.empty()) {
     const auto far = [&](int touch) {
       return std::make_pair(candidates.point[touch],
                             (candidates.q.row(touch) - last).squaredNorm());
     };
-    const auto next =
-        std::min_element(left.begin(), left.end(), [&](int a, int b) { return far(a) < far(b); });
+    const auto next = std::min_element(remaining.begin(), remaining.end(),
+                                       [&](int a, int b) { return far(a) < far(b); });
     last = candidates.q.row(*next);
     order.push_back(*next);
-    left.erase(next);
+    remaining.erase(next);
   }
   return order;
 }
@@ -155,8 +157,8 @@ Touches touches_of(const TouchPlan& plan, const PlanTouchesOptions& options) {
   return touches;
 }
 
-/// The two touched points farthest from each other, and what their distance would bring; nothing
-/// where the size is told, or one point is touched.
+/// The two touched points farthest from each other, and the gain of measuring their distance;
+/// nothing where the scale is observed, or one point is touched.
 std::optional<DistanceAdvice> distance_advice(const Arm& arm, const TouchPlan& plan,
                                               Touches touches, const ForecastOptions& options) {
   if (!touches.known_distances.empty() || !touches.known_points.empty()) return std::nullopt;
@@ -252,10 +254,10 @@ TouchPlan plan_touches(const Arm& arm, int count, const PlanTouchesOptions& opti
   const Candidates candidates = gather(arm, model, plan.points, options);
   plan.candidates = static_cast<int>(candidates.point.size());
 
-  TouchDesign design = make_design(model, candidates, plan.points, workspace, options);
-  if (options.criterion == TouchCriterion::kO1) leave_out_priors(design);
-  const std::vector<int> chosen = in_order(
-      candidates, select_touches(design, count, options.passes, options.forecast.num_threads));
+  OptimalDesign design = make_design(model, candidates, plan.points, workspace, options);
+  if (options.criterion == TouchCriterion::kO1) drop_priors(design);
+  const std::vector<int> chosen = ordered(
+      candidates, exchange_select(design, count, options.passes, options.forecast.num_threads));
   plan.q = candidates.q(chosen, Eigen::all);
   for (const int touch : chosen) plan.point.push_back(candidates.point[touch]);
 

@@ -101,7 +101,7 @@ TEST(Derivatives, TablesOfEitherConventionAgreeWithDualNumbers) {
 TEST(Derivatives, FollowersAddToTheirLeaders) {
   for (std::uint64_t seed = 0; seed < 50; ++seed) {
     SCOPED_TRACE(seed);
-    const Arm arm = odd_arm(seed);
+    const Arm arm = irregular_arm(seed);
     const JointMatrix q = random_poses(arm, 1, seed);
     JetMatrix product = constant(arm.base() * arm.root());
     for (const Joint& joint : arm.joints()) {

@@ -50,7 +50,7 @@ TEST(Inverse, ReachesEveryReachablePose) {
 }
 
 TEST(Inverse, ComesBackToAStartNearby) {
-  for (const Arm& arm : {ur10e(), odd_arm(5)}) {
+  for (const Arm& arm : {ur10e(), irregular_arm(5)}) {
     JointMatrix q = random_poses(arm, 100, 22);
     if (arm.size() == 6) q *= 0.9;
     const std::vector<double> targets = forward(arm, view_of(q));
@@ -164,7 +164,7 @@ TEST(Inverse, ReportsWhyNothingWasReached) {
 }
 
 TEST(Inverse, SlidingAndMimicJoints) {
-  const Arm arm = odd_arm(6);
+  const Arm arm = irregular_arm(6);
   const JointMatrix q = random_poses(arm, 50, 26);
   const std::vector<double> targets = forward(arm, view_of(q));
   const InverseResult result = inverse(arm, targets, no_start(arm));

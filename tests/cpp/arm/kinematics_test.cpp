@@ -19,7 +19,9 @@ std::span<const double> row_of(const JointMatrix& q, Index i) {
   return {q.row(i).data(), static_cast<std::size_t>(q.cols())};
 }
 
-std::vector<Arm> all_arms() { return {planar_arm(), ur10e(), panda(), odd_arm(1), odd_arm(2)}; }
+std::vector<Arm> all_arms() {
+  return {planar_arm(), ur10e(), panda(), irregular_arm(1), irregular_arm(2)};
+}
 
 TEST(Forward, TwoLinkArmIsTheTextbook) {
   const Arm arm = planar_arm();
@@ -137,7 +139,7 @@ TEST(Kinematics, IntoMemoryOfTheCaller) {
 }
 
 TEST(Kinematics, APoseDoesNotDependOnItsNeighbours) {
-  const Arm arm = odd_arm(3);
+  const Arm arm = irregular_arm(3);
   const JointMatrix q = random_poses(arm, 13, 7);
   const std::vector<double> all = forward(arm, view_of(q));
   for (Index i = 0; i < q.rows(); ++i) {

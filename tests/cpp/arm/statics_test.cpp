@@ -49,7 +49,7 @@ TEST(Statics, AreTheDerivativeOfTheEnergyAndJTransposed) {
   options.payload.volume = 1e-3;
   options.payload.center_of_buoyancy = Vec3(-0.1, 0.0, 0.2);
   for (const std::uint64_t seed : {1, 2, 3}) {
-    const Arm arm = odd_arm(seed);
+    const Arm arm = irregular_arm(seed);
     const JointMatrix q = random_poses(arm, 1, seed);
     const Eigen::Matrix<double, 1, 6, Eigen::RowMajor> push =
         (Eigen::Matrix<double, 1, 6>() << 5.0, -3.0, 2.0, 0.5, -0.4, 0.3).finished();
@@ -71,7 +71,7 @@ TEST(Statics, AreTheDerivativeOfTheEnergyAndJTransposed) {
 }
 
 TEST(Statics, SameForAnyThreadsAndFarFromTheOrigin) {
-  Arm arm = odd_arm(4);
+  Arm arm = irregular_arm(4);
   const JointMatrix q = random_poses(arm, 600, 5);
   StaticsOptions options;
   options.num_threads = 1;

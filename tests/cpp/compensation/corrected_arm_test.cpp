@@ -13,7 +13,7 @@ namespace bathyal {
 namespace {
 
 TEST(CorrectedArm, ComposesTheChainAsItsHeaderSays) {
-  const Arm arm = odd_arm(4);
+  const Arm arm = irregular_arm(4);
   const std::vector<FoundEffect> effects{curve(2e-3), bending(3e-3), moved_base(1e-2),
                                          slip(4e-3),  growth(1e-3),  sag(1e-3)};
   const CorrectedArm model(arm, effects, some_support(arm));
@@ -44,7 +44,7 @@ TEST(CorrectedArm, ComposesTheChainAsItsHeaderSays) {
 }
 
 TEST(CorrectedArm, IsTheRigidArmWithoutEffects) {
-  const Arm arm = odd_arm(2);
+  const Arm arm = irregular_arm(2);
   const CorrectedArm model(arm, {}, some_support(arm));
   const JointMatrix q = random_poses(arm, 20, 3);
   EXPECT_EQ(model.forward(view_of(q)).poses, forward(arm, view_of(q)));
@@ -53,7 +53,7 @@ TEST(CorrectedArm, IsTheRigidArmWithoutEffects) {
 }
 
 TEST(CorrectedArm, LinksStandOnTheChain) {
-  const Arm arm = odd_arm(6);
+  const Arm arm = irregular_arm(6);
   const CorrectedArm model(arm, {curve(2e-3), moved_base(1e-2)}, some_support(arm));
   const JointMatrix q = poses_within(arm, 3, 5);
   const CorrectedPoses links = model.forward_links(view_of(q), some_covariates());
@@ -68,7 +68,7 @@ TEST(CorrectedArm, LinksStandOnTheChain) {
 }
 
 TEST(CorrectedArm, JacobianIsTheDerivativeOfForward) {
-  const Arm arm = odd_arm(9);
+  const Arm arm = irregular_arm(9);
   const CorrectedArm model(arm,
                            {curve(0.02), bending(0.03), moved_base(0.1), slip(0.01), growth(1e-3)},
                            some_support(arm));
@@ -92,9 +92,9 @@ TEST(CorrectedArm, JacobianIsTheDerivativeOfForward) {
       EXPECT_LT((numeric - jacobian.col(j)).cwiseAbs().maxCoeff(), 1e-7) << i << " " << j;
     }
   }
-  const CorrectedJacobians told = model.jacobian(view_of(q), covariates, TipFrame::kTool);
+  const CorrectedJacobians in_tool = model.jacobian(view_of(q), covariates, TipFrame::kTool);
   const JointView world(found.jacobians.data(), 6, arm.size());
-  const JointView tool(told.jacobians.data(), 6, arm.size());
+  const JointView tool(in_tool.jacobians.data(), 6, arm.size());
   const Eigen::Matrix3d turn = pose_at(poses.poses, 0).linear();
   EXPECT_LT((turn * tool.topRows(3) - world.topRows(3)).cwiseAbs().maxCoeff(), 1e-13);
 }
@@ -145,19 +145,21 @@ TEST(CorrectedArm, NamesAnEffectWhoseActionsDoNotFit) {
     CorrectedArm(arm, {found("broken", -1, 1.0, moves)}, some_support(arm)).forward(view_of(q));
   };
   EXPECT_THROW(of([](const EffectData&) {
-                 return Action{Site::kJoint, 0, RowMatrix::Zero(1, 1)};
+                 return Perturbation{PerturbationSite::kJoint, 0, RowMatrix::Zero(1, 1)};
                }),
                std::invalid_argument);
   EXPECT_THROW(of([](const EffectData&) {
-                 return Action{Site::kJoint, 6, RowMatrix::Zero(2, 1)};
+                 return Perturbation{PerturbationSite::kJoint, 6, RowMatrix::Zero(2, 1)};
                }),
                std::invalid_argument);
   EXPECT_THROW(of([](const EffectData&) {
-                 return Action{Site::kFrame, 8, RowMatrix::Zero(2, 6)};
+                 return Perturbation{PerturbationSite::kFrame, 8, RowMatrix::Zero(2, 6)};
                }),
                std::invalid_argument);
   try {
-    of([](const EffectData&) { return Action{Site::kJoint, 0, RowMatrix::Constant(2, 1, kNan)}; });
+    of([](const EffectData&) {
+      return Perturbation{PerturbationSite::kJoint, 0, RowMatrix::Constant(2, 1, kNan)};
+    });
     FAIL();
   } catch (const std::invalid_argument& error) {
     EXPECT_NE(std::string(error.what()).find("broken"), std::string::npos) << error.what();
@@ -211,7 +213,7 @@ TEST(CorrectedArm, InverseSaysWhatItDoesNotReach) {
 }
 
 TEST(CorrectedArm, IsTheSameForAnyNumberOfThreads) {
-  const Arm arm = odd_arm(5);
+  const Arm arm = irregular_arm(5);
   const CorrectedArm model(arm, {curve(2e-3), bending(3e-3), moved_base(1e-2)}, some_support(arm));
   const JointMatrix q = poses_within(arm, 1000, 4);
   const Covariates covariates = some_covariates();

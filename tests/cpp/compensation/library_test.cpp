@@ -27,8 +27,8 @@ struct Library {
   explicit Library(const Scene& of, double size, const std::string& only = "")
       : scene(of),
         measurement(measurement_of(scene.arm, scene.q, true)),
-        columns(columns_of(scene.arm, measurement)),
-        x(columns.nominal()) {
+        parameters(columns_of(scene.arm, measurement)),
+        x(parameters.nominal()) {
     const EffectData data = scene.data();
     for (const auto& effect : library_effects()) {
       const std::vector<EffectVariant> variants = effect->variants(data);
@@ -39,13 +39,13 @@ struct Library {
 
   void add(const std::shared_ptr<const Effect>& effect, const EffectVariant& variant,
            const EffectData& data, double size) {
-    const int first = add_effect(columns, variant, actions_of(*effect, variant, data));
+    const int first = add_effect(parameters, variant, perturbations_of(*effect, variant, data));
     const auto count = static_cast<Index>(variant.parameters.size());
     FoundEffect& one = found.emplace_back(FoundEffect{effect, variant, Eigen::VectorXd(count)});
     x.conservativeResize(x.size() + count);
     for (Index p = 0; p < count; ++p) {
       const double sign = p % 2 == 0 ? 1.0 : -0.7;
-      one.values[p] = sign * size / 1e-3 * columns.columns[first + p].scale;
+      one.values[p] = sign * size / 1e-3 * parameters.parameters[first + p].scale;
       x[first + p] = one.values[p];
     }
   }
@@ -54,30 +54,31 @@ struct Library {
 
   const Scene& scene;
   Measurement measurement;
-  ArmColumns columns;
+  ArmParameters parameters;
   Eigen::VectorXd x;
   std::vector<FoundEffect> found;
 };
 
 void expect_the_chain_of_identification(const Library& library) {
   const Scene& scene = library.scene;
-  const TipWalk walk(library.columns, library.x, {});
-  WalkFrames frames;
+  const ChainDerivatives chain(library.parameters, library.x, {});
+  ChainFrames frames;
   const CorrectedPoses found = library.model().forward(view(scene.q), scene.covariates);
   EXPECT_TRUE(found.in_support.all());
   double moved = 0.0;
   for (Index i = 0; i < scene.q.rows(); ++i) {
     const double* q = scene.q.row(i).data();
-    const Pose told = walk.tip(q, i, 0, 0, frames, nullptr, nullptr, 0);
-    EXPECT_LT((told.matrix() - pose_of(found.poses, i).matrix()).cwiseAbs().maxCoeff(), 1e-12);
+    const Pose identified = chain.tip(q, i, 0, 0, frames, nullptr, nullptr, 0);
+    EXPECT_LT((identified.matrix() - pose_of(found.poses, i).matrix()).cwiseAbs().maxCoeff(),
+              1e-12);
     const Pose rigid = plain_forward(scene.arm, scene.q.row(i), {});
-    moved = std::max(moved, (told.translation() - rigid.translation()).norm());
+    moved = std::max(moved, (identified.translation() - rigid.translation()).norm());
   }
   EXPECT_GT(moved, 1e-4);
 }
 
 TEST(CorrectedLibrary, EachEffectIsThatOfIdentification) {
-  const Scene scene(odd_arm(3));
+  const Scene scene(irregular_arm(3));
   int tried = 0;
   for (const auto& effect : library_effects()) {
     const Library library(scene, 1e-3, effect->info().name);
@@ -90,12 +91,12 @@ TEST(CorrectedLibrary, EachEffectIsThatOfIdentification) {
 }
 
 TEST(CorrectedLibrary, AllTogetherAreThoseOfIdentification) {
-  const Scene scene(odd_arm(4));
+  const Scene scene(irregular_arm(4));
   expect_the_chain_of_identification(Library(scene, 5e-3));
 }
 
 TEST(CorrectedLibrary, JacobianIsTheDerivativeOfForward) {
-  const Scene scene(odd_arm(5), 12);
+  const Scene scene(irregular_arm(5), 12);
   const Library library(scene, 1e-3);
   const CorrectedArm model = library.model();
   // In the middle of the support, where no step leaves it.
@@ -122,9 +123,9 @@ TEST(CorrectedLibrary, JacobianIsTheDerivativeOfForward) {
   }
 }
 
-/// Rows mean the same whatever rows stand beside them: nothing is derived from the data set.
+/// Rows mean the same in any data set: nothing is derived from the other rows.
 TEST(CorrectedLibrary, ARowMeansTheSameAlone) {
-  const Scene scene(odd_arm(3));
+  const Scene scene(irregular_arm(3));
   Library library(scene, 1e-3);
   std::erase_if(library.found, [](const FoundEffect& f) { return f.effect->info().by_difference; });
   const CorrectedArm model = library.model();
@@ -144,16 +145,17 @@ TEST(CorrectedLibrary, IdentificationHoldsEffects) {
   const Scene scene(ur10e(), 80);
   const Library library(scene, 1e-3, "joint_harmonic");
   const CorrectedArm model = library.model();
-  const std::vector<HeldEffect> held = model.held(view(scene.q), scene.covariates);
+  const std::vector<FixedEffect> held = model.fixed_effects(view(scene.q), scene.covariates);
   ASSERT_EQ(held.size(), 1U);
   EXPECT_EQ(held[0].values, library.found[0].values);
   RowMatrix far = scene.q;
   far.row(3).setConstant(50.0);
   far.row(5).setConstant(60.0);
-  const RowMatrix beyond = model.held(view(far), scene.covariates)[0].actions[0][0].values;
+  const RowMatrix beyond =
+      model.fixed_effects(view(far), scene.covariates)[0].perturbations[0][0].values;
   EXPECT_EQ(beyond.row(3), beyond.row(5));  // at the average of what was taught
-  EXPECT_NE(beyond.row(3), held[0].actions[0][0].values.row(3));
-  EXPECT_EQ(beyond.row(4), held[0].actions[0][0].values.row(4));
+  EXPECT_NE(beyond.row(3), held[0].perturbations[0][0].values.row(3));
+  EXPECT_EQ(beyond.row(4), held[0].perturbations[0][0].values.row(4));
 }
 
 }  // namespace

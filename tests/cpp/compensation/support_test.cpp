@@ -42,7 +42,7 @@ TEST(CorrectedArm, HoldsWhatLiesBeyondAtTheNearestRow) {
   EXPECT_TRUE(tip(q, 45.0).isApprox(tip(q, 30.0), 0.0));
   EXPECT_TRUE(tip(q, -5.0).isApprox(tip(q, 10.0), 0.0));
 
-  // The curve alone, by its own formula: the arm stands at 1.7, the curve at the nearest 1.
+  // The curve alone, by its own formula: the arm is at 1.7, the curve at the nearest 1.
   const CorrectedArm curved(arm, {curve(2e-3)}, some_support(arm));
   JointMatrix far = q, moved = q;
   far(0, 0) = moved(0, 0) = 1.7;
@@ -68,20 +68,21 @@ std::vector<FoundEffect> waves(const Arm& arm) {
     }
     throw std::logic_error("no such form");
   };
-  return {of(joint_harmonic(), 2, 3.0), of(joint_harmonic(), 2, 9.0), of(joint_map(), 3, 4.0)};
+  return {of(effects::joint_harmonic(), 2, 3.0), of(effects::joint_harmonic(), 2, 9.0),
+          of(effects::joint_map(), 3, 4.0)};
 }
 
 TEST(CorrectedArm, HoldsWavesInGapsWiderThanTheirPeriod) {
   const Arm arm = ur10e();
   // Every 0.01 from -1 to 1, less a stretch of 0.8 (wider than the shorter wave, 2π / 9, and so for
   // both of joint 3; not than the map's 2π / 4), with one row that lies alone in it.
-  RowMatrix taught(201, arm.size());
-  for (Index i = 0; i < taught.rows(); ++i)
-    taught.row(i).setConstant(-1.0 + 0.01 * static_cast<double>(i));
-  for (Index i = 0; i < taught.rows(); ++i) {
-    if (taught(i, 0) > -0.2 && taught(i, 0) < 0.6) taught.row(i).setConstant(-0.2);
+  RowMatrix training_q(201, arm.size());
+  for (Index i = 0; i < training_q.rows(); ++i)
+    training_q.row(i).setConstant(-1.0 + 0.01 * static_cast<double>(i));
+  for (Index i = 0; i < training_q.rows(); ++i) {
+    if (training_q(i, 0) > -0.2 && training_q(i, 0) < 0.6) training_q.row(i).setConstant(-0.2);
   }
-  const CorrectedArm model(arm, waves(arm), support_of(taught, {}));
+  const CorrectedArm model(arm, waves(arm), support_of(training_q, {}));
   JointMatrix q = JointMatrix::Constant(3, arm.size(), -0.5);
   q.row(1).setConstant(0.1);
   q(2, 0) = q(2, 1) = 0.1;
@@ -101,7 +102,7 @@ TEST(CorrectedArm, HoldsWavesInGapsWiderThanTheirPeriod) {
     const double along = -1.0 + 1.2 * (i + 0.5) / kParts;
     sum += wave(along < -0.2 ? along : along + 0.8);
   }
-  const CorrectedArm mapped(arm, {waves(arm)[2]}, support_of(taught, {}));
+  const CorrectedArm mapped(arm, {waves(arm)[2]}, support_of(training_q, {}));
   JointMatrix moved = q.row(1);
   moved(0, 2) += sum / kParts;
   const Pose tip = pose_at(mapped.forward(view_of(moved)).poses, 0);
@@ -117,14 +118,14 @@ TEST(CorrectedArm, HoldsWavesInGapsWiderThanTheirPeriod) {
 
 TEST(CorrectedArm, ALoneRowInAGapTeachesNothing) {
   const Arm arm = ur10e();
-  RowMatrix taught(102, arm.size());
+  RowMatrix training_q(102, arm.size());
   for (Index i = 0; i < 51; ++i) {
-    taught.row(i).setConstant(-2.0 + 0.02 * static_cast<double>(i));
-    taught.row(i + 51).setConstant(1.0 + 0.02 * static_cast<double>(i));
+    training_q.row(i).setConstant(-2.0 + 0.02 * static_cast<double>(i));
+    training_q.row(i + 51).setConstant(1.0 + 0.02 * static_cast<double>(i));
   }
-  const Support without = support_of(taught, {});
+  const Support without = support_of(training_q, {});
   RowMatrix more(103, arm.size());
-  more << taught, RowMatrix::Constant(1, arm.size(), 0.1);
+  more << training_q, RowMatrix::Constant(1, arm.size(), 0.1);
   const std::vector<FoundEffect> found{waves(arm)[0], waves(arm)[1]};
   const CorrectedArm one(arm, found, without), other(arm, found, support_of(more, {}));
   const JointMatrix q = JointMatrix::Constant(1, arm.size(), 0.2);
@@ -134,7 +135,7 @@ TEST(CorrectedArm, ALoneRowInAGapTeachesNothing) {
 }
 
 TEST(CorrectedArm, IsRigidWhereEverythingIsLeftOut) {
-  const Arm arm = odd_arm(3);
+  const Arm arm = irregular_arm(3);
   const CorrectedArm model(arm, {growth(1e-3), moved_base(1e-3)}, some_support(arm));
   const JointMatrix q = JointMatrix::Constant(4, arm.size(), 0.7);
   const CorrectedPoses found =
@@ -198,14 +199,15 @@ TEST(Support, KnowsItsGaps) {
   EXPECT_EQ(support.gaps[0][1].high, 1.0);
   EXPECT_TRUE(support.gaps[1].empty());
 
-  RowMatrix asked(6, 2);
-  asked << 0.2, 3.0, 0.5, 3.0, 0.6, 3.0, 0.9, 3.0, -1.0, 3.0, 2.0, 3.0;
-  RowMatrix near = asked;
+  RowMatrix query(6, 2);
+  query << 0.2, 3.0, 0.5, 3.0, 0.6, 3.0, 0.9, 3.0, -1.0, 3.0, 2.0, 3.0;
+  RowMatrix near = query;
   EXPECT_FALSE(support.leave_gaps(0.7, near));
   EXPECT_TRUE(support.leave_gaps(0.5, near));
   EXPECT_TRUE(near.col(0).isApprox(column({0.004, 0.6, 0.6, 0.9, -1.0, 2.0})));
-  EXPECT_TRUE(support.taught(0, 0.5, 2).isApprox(column({0.101 + 0.596, 0.899}).col(0), 1e-12))
-      << support.taught(0, 0.5, 2);
+  EXPECT_TRUE(
+      support.training_values(0, 0.5, 2).isApprox(column({0.101 + 0.596, 0.899}).col(0), 1e-12))
+      << support.training_values(0, 0.5, 2);
   EXPECT_NO_THROW(support.check(2));
   support.gaps[0][1].low = 0.5;
   EXPECT_THROW(support.check(2), std::invalid_argument);

@@ -26,7 +26,7 @@ TEST(Library, SaysOfEachWhatItIs) {
   const std::set<std::string> known{"temperature", "time", "payload", "direction", "session"};
   for (const auto& effect : library_effects()) {
     const EffectInfo info = effect->info();
-    EXPECT_FALSE(info.words.empty()) << info.name;
+    EXPECT_FALSE(info.description.empty()) << info.name;
     EXPECT_FALSE(info.formula.empty()) << info.name;
     EXPECT_NE(info.source.find_first_of("12"), std::string::npos) << info.name << ": a year";
     for (const std::string& need : info.needs) EXPECT_TRUE(known.contains(need)) << need;
@@ -38,7 +38,7 @@ TEST(Library, SaysOfEachWhatItIs) {
 }
 
 TEST(Library, NamesRangesAfterParametersThatThereAre) {
-  const Scene scene(odd_arm(3));
+  const Scene scene(irregular_arm(3));
   for (const auto& effect : library_effects()) {
     const auto variants = effect->variants(scene.data());
     for (const EffectInfo::Range& range : effect->info().ranges) {
@@ -52,7 +52,7 @@ TEST(Library, NamesRangesAfterParametersThatThereAre) {
 }
 
 TEST(Variants, NeedTheirCovariates) {
-  Scene bare(odd_arm(3));
+  Scene bare(irregular_arm(3));
   bare.covariates.clear();
   for (const auto& effect : library_effects()) {
     const EffectInfo info = effect->info();
@@ -60,10 +60,10 @@ TEST(Variants, NeedTheirCovariates) {
       EXPECT_TRUE(effect->variants(bare.data()).empty()) << info.name;
     }
     for (const std::string& need : info.needs) {
-      Scene missing(odd_arm(3));
+      Scene missing(irregular_arm(3));
       missing.covariates[need](3, 0) = std::numeric_limits<double>::quiet_NaN();
       EXPECT_TRUE(effect->variants(missing.data()).empty()) << info.name << " without " << need;
-      Scene constant(odd_arm(3));
+      Scene constant(irregular_arm(3));
       constant.covariates[need].setOnes();
       EXPECT_TRUE(effect->variants(constant.data()).empty()) << info.name << " of one " << need;
     }
@@ -71,7 +71,7 @@ TEST(Variants, NeedTheirCovariates) {
 }
 
 TEST(Variants, LeaveOutJointsThatStandStill) {
-  Scene scene(odd_arm(3));
+  Scene scene(irregular_arm(3));
   scene.q.col(2).setConstant(0.3);
   for (const char* name : {"joint_harmonic", "joint_map", "joint_scale"}) {
     std::set<int> joints;
@@ -112,7 +112,7 @@ TEST(Variants, OrdersLeaveNoWaveBetweenThem) {
 }
 
 TEST(Variants, SessionsOfFewRowsAreNone) {
-  Scene scene(odd_arm(3));
+  Scene scene(irregular_arm(3));
   scene.covariates["session"].setConstant(1.0);
   scene.covariates["session"](0, 0) = scene.covariates["session"](1, 0) = 5.0;
   EXPECT_TRUE(variants_of("base_shift", scene.data()).empty());
@@ -121,10 +121,10 @@ TEST(Variants, SessionsOfFewRowsAreNone) {
 }
 
 TEST(Variants, SlipsAreThinnedAndNeverPartRowsOfOneTime) {
-  Scene scene(odd_arm(3), 1500);
+  Scene scene(irregular_arm(3), 1500);
   EXPECT_LE(variants_of("tool_slip", scene.data()).size(), 400U);
   EXPECT_GE(variants_of("tool_slip", scene.data()).size(), 200U);
-  Scene pairs(odd_arm(3));
+  Scene pairs(irregular_arm(3));
   for (Index i = 0; i < 40; ++i) pairs.covariates["time"](i, 0) = static_cast<double>(i / 2);
   for (const EffectVariant& v : variants_of("tool_slip", pairs.data())) {
     EXPECT_EQ(static_cast<int>(v.settings.at("moment")) % 2, 0);
@@ -132,7 +132,7 @@ TEST(Variants, SlipsAreThinnedAndNeverPartRowsOfOneTime) {
 }
 
 TEST(Variants, TurnsOfTheToolNeedOrientations) {
-  const Scene scene(odd_arm(3));
+  const Scene scene(irregular_arm(3));
   for (const char* name : {"tool_slip", "tool_change"}) {
     EXPECT_EQ(effect_named(name)->variants(scene.data(true))[0].parameters.size(), 6U) << name;
     EXPECT_EQ(effect_named(name)->variants(scene.data(false))[0].parameters.size(), 3U) << name;
@@ -140,13 +140,13 @@ TEST(Variants, TurnsOfTheToolNeedOrientations) {
 }
 
 TEST(Variants, WithoutTimesRowsCountAsTheyStand) {
-  Scene scene(odd_arm(3));
+  Scene scene(irregular_arm(3));
   scene.covariates.erase("time");
   const EffectVariant v = variants_of("tool_slip", scene.data()).at(7);
   EXPECT_EQ(v.settings.at("moment"), 10.0);
-  const auto actions = actions_of(*effect_named("tool_slip"), v, scene.data());
-  EXPECT_EQ(actions[0][0].values.col(0).head(10).sum(), 0.0);
-  EXPECT_EQ(actions[0][0].values.col(0).tail(30).sum(), 30.0);
+  const auto perturbations = perturbations_of(*effect_named("tool_slip"), v, scene.data());
+  EXPECT_EQ(perturbations[0][0].values.col(0).head(10).sum(), 0.0);
+  EXPECT_EQ(perturbations[0][0].values.col(0).tail(30).sum(), 30.0);
 }
 
 void expect_refused(const Scene& scene, const std::string& name) {
@@ -162,22 +162,22 @@ void expect_refused(const Scene& scene, const std::string& name) {
 TEST(EffectData, RefusesCovariatesOfAnotherShapeOrSense) {
   const double inf = std::numeric_limits<double>::infinity();
   for (const char* name : {"temperature", "time", "payload", "direction", "gravity", "session"}) {
-    Scene scene(odd_arm(3));
+    Scene scene(irregular_arm(3));
     scene.covariates[name] = RowMatrix::Zero(40, 5);
     expect_refused(scene, name);
     scene.covariates[name] = RowMatrix::Zero(39, scene.covariates[name].cols());
     expect_refused(scene, name);
-    Scene endless(odd_arm(3));
+    Scene endless(irregular_arm(3));
     endless.covariates[name](2, 0) = inf;
     expect_refused(endless, name);
   }
   for (const auto& [name, value] :
        {std::pair{"payload", -1.0}, std::pair{"direction", 0.5}, std::pair{"session", 1.5}}) {
-    Scene scene(odd_arm(3));
+    Scene scene(irregular_arm(3));
     scene.covariates[name](5, 0) = value;
     expect_refused(scene, name);
   }
-  Scene other(odd_arm(3));
+  Scene other(irregular_arm(3));
   other.covariates["humidity"] = RowMatrix::Zero(40, 2);
   EXPECT_NO_THROW(other.data()) << "names of the user's own are free";
 }
@@ -194,37 +194,47 @@ TEST(EffectData, OrdersRowsByTime) {
 /// A user's effect that returns what it must not.
 class Careless final : public Effect {
  public:
-  explicit Careless(std::vector<std::vector<Action>> actions) : actions_(std::move(actions)) {}
+  explicit Careless(std::vector<std::vector<Perturbation>> perturbations)
+      : perturbations_(std::move(perturbations)) {}
   EffectInfo info() const override { return {"careless", "", "", "", {}, {}}; }
   std::vector<EffectVariant> variants(const EffectData&) const override { return {variant()}; }
-  std::vector<std::vector<Action>> actions(const EffectVariant&, const EffectData&) const override {
-    return actions_;
+  std::vector<std::vector<Perturbation>> perturbations(const EffectVariant&,
+                                                       const EffectData&) const override {
+    return perturbations_;
   }
   static EffectVariant variant() { return {"careless", -1, {}, {{"size", "1", 1.0}}, "careless"}; }
 
  private:
-  std::vector<std::vector<Action>> actions_;
+  std::vector<std::vector<Perturbation>> perturbations_;
 };
 
 TEST(ActionsOf, RefusesWhatTheContractDoesNotAllow) {
   const Scene scene(planar_arm(), 5);
   const EffectData data = scene.data();
-  const auto ask = [&](std::vector<std::vector<Action>> actions) {
-    return actions_of(Careless(std::move(actions)), Careless::variant(), data);
+  const auto evaluate = [&](std::vector<std::vector<Perturbation>> perturbations) {
+    return perturbations_of(Careless(std::move(perturbations)), Careless::variant(), data);
   };
   const RowMatrix one = RowMatrix::Ones(5, 1), six = RowMatrix::Ones(5, 6);
   RowMatrix nan = one;
   nan(3, 0) = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_NO_THROW(ask({{{Site::kJoint, 1, one}, {Site::kFrame, 3, six}, {Site::kLength, 0, one}}}));
-  EXPECT_THROW(ask({}), std::invalid_argument) << "no list";
-  EXPECT_THROW(ask({{}, {}}), std::invalid_argument) << "two lists of one parameter";
-  EXPECT_THROW(ask({{{Site::kJoint, 1, six}}}), std::invalid_argument) << "six for a joint";
-  EXPECT_THROW(ask({{{Site::kFrame, 1, one}}}), std::invalid_argument) << "one for a frame";
-  EXPECT_THROW(ask({{{Site::kJoint, 1, one.topRows(4)}}}), std::invalid_argument) << "rows";
-  EXPECT_THROW(ask({{{Site::kJoint, 1, nan}}}), std::invalid_argument) << "NaN";
-  EXPECT_THROW(ask({{{Site::kJoint, 2, one}}}), std::invalid_argument) << "no such joint";
-  EXPECT_THROW(ask({{{Site::kFrame, 4, six}}}), std::invalid_argument) << "no such frame";
-  EXPECT_THROW(ask({{{Site::kJoint, -1, one}}}), std::invalid_argument) << "below 0";
+  EXPECT_NO_THROW(evaluate({{{PerturbationSite::kJoint, 1, one},
+                             {PerturbationSite::kFrame, 3, six},
+                             {PerturbationSite::kLength, 0, one}}}));
+  EXPECT_THROW(evaluate({}), std::invalid_argument) << "no list";
+  EXPECT_THROW(evaluate({{}, {}}), std::invalid_argument) << "two lists of one parameter";
+  EXPECT_THROW(evaluate({{{PerturbationSite::kJoint, 1, six}}}), std::invalid_argument)
+      << "six for a joint";
+  EXPECT_THROW(evaluate({{{PerturbationSite::kFrame, 1, one}}}), std::invalid_argument)
+      << "one for a frame";
+  EXPECT_THROW(evaluate({{{PerturbationSite::kJoint, 1, one.topRows(4)}}}), std::invalid_argument)
+      << "rows";
+  EXPECT_THROW(evaluate({{{PerturbationSite::kJoint, 1, nan}}}), std::invalid_argument) << "NaN";
+  EXPECT_THROW(evaluate({{{PerturbationSite::kJoint, 2, one}}}), std::invalid_argument)
+      << "no such joint";
+  EXPECT_THROW(evaluate({{{PerturbationSite::kFrame, 4, six}}}), std::invalid_argument)
+      << "no such frame";
+  EXPECT_THROW(evaluate({{{PerturbationSite::kJoint, -1, one}}}), std::invalid_argument)
+      << "below 0";
 }
 
 }  // namespace

@@ -53,7 +53,7 @@ Arm without_masses(const Arm& arm) {
 }
 
 TEST(GravityEffects, JointsGiveWayByTheVirtualWorkOfWeight) {
-  const Scene scene(odd_arm(3));
+  const Scene scene(irregular_arm(3));
   const auto variants = variants_of("joint_compliance", scene.data());
   ASSERT_EQ(variants.size(), 4U);
   for (const EffectVariant& v : variants) {
@@ -73,7 +73,7 @@ TEST(GravityEffects, JointsGiveWayByTheVirtualWorkOfWeight) {
 }
 
 TEST(GravityEffects, WithoutGravityToldItPointsDown) {
-  Scene scene(odd_arm(3));
+  Scene scene(irregular_arm(3));
   scene.covariates.erase("gravity");
   expect_means(
       scene, variants_of("joint_compliance", scene.data()).at(2),
@@ -87,7 +87,7 @@ TEST(GravityEffects, WithoutGravityToldItPointsDown) {
 }
 
 TEST(GravityEffects, PayloadIsAnUnknownMassOnEveryTurningJoint) {
-  const Scene scene(odd_arm(3));
+  const Scene scene(irregular_arm(3));
   const auto variants = variants_of("payload", scene.data());
   ASSERT_EQ(variants.size(), 1U);
   ASSERT_EQ(variants[0].parameters.size(), 3U);
@@ -110,20 +110,21 @@ TEST(GravityEffects, PayloadIsAnUnknownMassOnEveryTurningJoint) {
 
 /// Unknown masses: any masses at all are some sizes of the moments, up to an offset of the joint.
 TEST(GravityEffects, MomentsMakeUpTheTorqueOfAnyMasses) {
-  const Scene scene(odd_arm(3));
+  const Scene scene(irregular_arm(3));
   Scene untold(without_masses(scene.arm));
   untold.covariates["payload"].setZero();
   for (int joint = 0; joint < 4; ++joint) {
     const auto variants = variants_where("joint_compliance", untold.data(),
                                          [&](const EffectVariant& v) { return v.joint == joint; });
     ASSERT_EQ(variants.size(), 1U);
-    const auto actions = actions_of(*effect_named("joint_compliance"), variants[0], untold.data());
-    Eigen::MatrixXd shapes(40, static_cast<Index>(actions.size()) + 1);
+    const auto perturbations =
+        perturbations_of(*effect_named("joint_compliance"), variants[0], untold.data());
+    Eigen::MatrixXd shapes(40, static_cast<Index>(perturbations.size()) + 1);
     shapes.col(0).setOnes();
-    for (std::size_t p = 0; p < actions.size(); ++p) {
+    for (std::size_t p = 0; p < perturbations.size(); ++p) {
       EXPECT_EQ(variants[0].parameters[p].name, "moment_" + std::to_string(p + 1));
-      EXPECT_EQ(actions[p][0].index, joint);
-      shapes.col(static_cast<Index>(p) + 1) = actions[p][0].values.col(0);
+      EXPECT_EQ(perturbations[p][0].index, joint);
+      shapes.col(static_cast<Index>(p) + 1) = perturbations[p][0].values.col(0);
     }
     Eigen::VectorXd torque(40);
     for (Index i = 0; i < 40; ++i) {
@@ -164,21 +165,21 @@ TEST(GravityEffects, MomentsAreThoseOfTheDrawingOnAnArmALittleOffIt) {
 }
 
 TEST(GravityEffects, MomentsFoundInSomePosesMeanTheSameInOthers) {
-  Scene all(without_masses(odd_arm(3)));
+  Scene all(without_masses(irregular_arm(3)));
   const EffectData data = all.data();
   const EffectVariant variant = variants_of("joint_compliance", data).at(2);
-  const auto of_all = actions_of(*effect_named("joint_compliance"), variant, data);
+  const auto of_all = perturbations_of(*effect_named("joint_compliance"), variant, data);
   Scene one = all;
   one.q = all.q.row(7).eval();
   for (auto& [name, values] : one.covariates) values = RowMatrix(values.row(7));
-  const auto of_one = actions_of(*effect_named("joint_compliance"), variant, one.data());
+  const auto of_one = perturbations_of(*effect_named("joint_compliance"), variant, one.data());
   for (std::size_t p = 0; p < of_all.size(); ++p) {
     EXPECT_EQ(of_all[p][0].values(7, 0), of_one[p][0].values(0, 0));
   }
 }
 
 TEST(GravityEffects, LinksBendAsCantilevers) {
-  const Scene scene(odd_arm(3));
+  const Scene scene(irregular_arm(3));
   const auto variants = variants_of("link_compliance", scene.data());
   EXPECT_EQ(variants.size(), scene.arm.joints().size());
   for (const EffectVariant& v : variants) {
@@ -217,15 +218,16 @@ TEST(GravityEffects, BeamSagsAsTheTextbookSays) {
   scene.covariates["payload"].col(0) << 1, 2, 3, 4, 5, 6;
   const auto variants = variants_of("link_compliance", scene.data());
   ASSERT_EQ(variants.size(), 2U);
-  const auto actions = actions_of(*effect_named("link_compliance"), variants[1], scene.data());
-  const RowMatrix& bend = actions[0][0].values;  // link of 0.4 m in x of its frame
+  const auto perturbations =
+      perturbations_of(*effect_named("link_compliance"), variants[1], scene.data());
+  const RowMatrix& bend = perturbations[0][0].values;  // link of 0.4 m in x of its frame
   EXPECT_NEAR(bend(2, 2), -30.0 * 0.4 * 0.4 * 0.4 / 3.0, 1e-12);
   EXPECT_NEAR(bend(2, 4), 30.0 * 0.4 * 0.4 / 2.0, 1e-12);
   EXPECT_NEAR(bend.row(2).squaredNorm(), std::pow(bend(2, 2), 2) + std::pow(bend(2, 4), 2), 1e-12);
 }
 
 TEST(GravityEffects, StandTiltsUnderTheMomentOfAllWeight) {
-  const Scene scene(odd_arm(3));
+  const Scene scene(irregular_arm(3));
   const auto variants = variants_of("base_compliance", scene.data());
   ASSERT_EQ(variants.size(), 1U);
   expect_means(
@@ -234,7 +236,7 @@ TEST(GravityEffects, StandTiltsUnderTheMomentOfAllWeight) {
         Vec3 moment = Vec3::Zero();
         const std::vector<Body> bodies =
             bodies_of(scene.arm, scene.q.row(i), scene.covariates.at("payload")(i, 0));
-        for (std::size_t k = 1; k < bodies.size(); ++k) {  // the foot stands, and leans on nothing
+        for (std::size_t k = 1; k < bodies.size(); ++k) {  // the first link rests on the ground
           moment += bodies[k].place.cross(bodies[k].mass * gravity_at(scene, i));
         }
         return wrong_frame(0, Vec3::Zero(), Vec3(p[0] * moment.x(), p[1] * moment.y(), 0.0));
@@ -243,7 +245,7 @@ TEST(GravityEffects, StandTiltsUnderTheMomentOfAllWeight) {
 }
 
 TEST(GravityEffects, WithoutMassesOrPayloadNothingBends) {
-  Scene scene(without_masses(odd_arm(3)));
+  Scene scene(without_masses(irregular_arm(3)));
   scene.covariates.erase("payload");
   EXPECT_TRUE(variants_of("link_compliance", scene.data()).empty());
   EXPECT_TRUE(variants_of("base_compliance", scene.data()).empty());

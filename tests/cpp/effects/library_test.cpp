@@ -12,7 +12,7 @@ namespace bathyal {
 namespace {
 
 const Scene& odd_scene() {
-  static const Scene scene(odd_arm(3));
+  static const Scene scene(irregular_arm(3));
   return scene;
 }
 
@@ -167,9 +167,9 @@ TEST(Effects, ClockShiftKeepsToItsSession) {
   scene.covariates["session"].col(0) << 1, 1, 1, 1, 2, 2, 2, 2;
   const EffectData data = scene.data();
   const EffectVariant v = variants_of("clock_shift", data).at(0);
-  const auto actions = actions_of(*effect_named("clock_shift"), v, data);
-  EXPECT_NEAR(actions[0][0].values(3, 0), scene.q(3, 0) - scene.q(2, 0), 1e-15);
-  EXPECT_NEAR(actions[0][0].values(4, 0), scene.q(5, 0) - scene.q(4, 0), 1e-15);
+  const auto perturbations = perturbations_of(*effect_named("clock_shift"), v, data);
+  EXPECT_NEAR(perturbations[0][0].values(3, 0), scene.q(3, 0) - scene.q(2, 0), 1e-15);
+  EXPECT_NEAR(perturbations[0][0].values(4, 0), scene.q(5, 0) - scene.q(4, 0), 1e-15);
 }
 
 }  // namespace

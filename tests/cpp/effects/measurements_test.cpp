@@ -47,8 +47,8 @@ std::string of_touches(const std::function<void(Touches&)>& spoil) {
   return said<Touches>(good_touches(), spoil);
 }
 
-bool names(const std::string& text, const std::string& words) {
-  return text.find(words) != std::string::npos;
+bool names(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
 }
 
 TEST(Touches, GoodOnesAreTaken) {
@@ -80,7 +80,7 @@ TEST(Touches, EachArgumentIsRefusedByItsName) {
   EXPECT_TRUE(names(of_touches([](Touches& t) {
                       t.known_distances = {{3, 4, 0.1}};
                     }),
-                    "`known_distances`: expected labels that stand in `point`, got 4"));
+                    "`known_distances`: expected labels that occur in `point`, got 4"));
   EXPECT_TRUE(names(of_touches([](Touches& t) {
                       t.known_distances = {{3, 3, 0.1}};
                     }),
@@ -170,12 +170,12 @@ TEST(Measurement, LabelsAreCountedInRisingOrder) {
 
 TEST(Measurement, SomeRowsAreThoseRows) {
   const Measurement m = to_measurement(planar_arm(), good_tracked());
-  const Measurement some = some_of(m, {0, 3});
+  const Measurement some = subset(m, {0, 3});
   ASSERT_EQ(some.rows(), 2);
   EXPECT_EQ(some.q.row(1), m.q.row(3));
   EXPECT_EQ(some.position.col(1), m.position.col(3));
   EXPECT_EQ(some.station.size(), 2U);
-  EXPECT_EQ(some.actions, (std::vector<int>{0, 3}));
+  EXPECT_EQ(some.perturbation_rows, (std::vector<int>{0, 3}));
 }
 
 }  // namespace

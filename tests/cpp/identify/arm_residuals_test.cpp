@@ -55,38 +55,39 @@ struct Frame3 {
 
 /// What the columns mean, written down once more and straight: world_from_tool.
 template <class T>
-Frame3<T> forward(const ArmColumns& columns, const std::vector<T>& x, const double* q, int tool,
-                  int station) {
+Frame3<T> forward(const ArmParameters& parameters, const std::vector<T>& x, const double* q,
+                  int tool, int station) {
   struct Row {
     T theta, d, a, alpha, beta;
   };
   std::vector<Row> rows;
-  for (const Joint& joint : columns.arm.joints()) {
+  for (const Joint& joint : parameters.arm.joints()) {
     const DhRow& r = joint.row;
     rows.push_back({T(r.theta), T(r.d), T(r.a), T(r.alpha), T(r.beta)});
   }
-  Frame3<T> base(columns.bases[station]), flange_from_tool(columns.tools[tool]);
+  Frame3<T> base(parameters.bases[station]), flange_from_tool(parameters.tools[tool]);
   Column3<T> base_turn = Column3<T>::Zero(), tool_turn = Column3<T>::Zero();
   for (std::size_t i = 0; i < x.size(); ++i) {
-    const auto [part, index, axis] = columns.places[i];
-    if (part == Part::kTheta) rows[index].theta = x[i];
-    if (part == Part::kD) rows[index].d = x[i];
-    if (part == Part::kA) rows[index].a = x[i];
-    if (part == Part::kAlpha) rows[index].alpha = x[i];
-    if (part == Part::kBeta) rows[index].beta = x[i];
-    if (part == Part::kToolShift && index == tool) flange_from_tool.shift[axis] = x[i];
-    if (part == Part::kToolTurn && index == tool) tool_turn[axis] = x[i];
-    if (part == Part::kBaseShift && index == station) base.shift[axis] = x[i];
-    if (part == Part::kBaseTurn && index == station) base_turn[axis] = x[i];
+    const auto [kind, index, axis] = parameters.slots[i];
+    if (kind == ParameterKind::kTheta) rows[index].theta = x[i];
+    if (kind == ParameterKind::kD) rows[index].d = x[i];
+    if (kind == ParameterKind::kA) rows[index].a = x[i];
+    if (kind == ParameterKind::kAlpha) rows[index].alpha = x[i];
+    if (kind == ParameterKind::kBeta) rows[index].beta = x[i];
+    if (kind == ParameterKind::kToolShift && index == tool) flange_from_tool.shift[axis] = x[i];
+    if (kind == ParameterKind::kToolTurn && index == tool) tool_turn[axis] = x[i];
+    if (kind == ParameterKind::kBaseShift && index == station) base.shift[axis] = x[i];
+    if (kind == ParameterKind::kBaseTurn && index == station) base_turn[axis] = x[i];
   }
   if (base_turn.norm() > T(0)) base.turn = (rotation<T>(base_turn) * base.turn).eval();
   if (tool_turn.norm() > T(0)) {
     flange_from_tool.turn = (flange_from_tool.turn * rotation<T>(tool_turn)).eval();
   }
   Frame3<T> pose = base;
-  pose.then(columns.arm.root().linear().cast<T>(), columns.arm.root().translation().cast<T>());
+  pose.then(parameters.arm.root().linear().cast<T>(),
+            parameters.arm.root().translation().cast<T>());
   for (std::size_t k = 0; k < rows.size(); ++k) {
-    const Joint& joint = columns.arm.joints()[k];
+    const Joint& joint = parameters.arm.joints()[k];
     T theta = rows[k].theta, d = rows[k].d;
     if (joint.type == JointType::kRevolute) {
       theta += T(joint.multiplier * q[joint.coordinate] + joint.offset);
@@ -98,7 +99,8 @@ Frame3<T> forward(const ArmColumns& columns, const std::vector<T>& x, const doub
     pose.then(turn_about<T>(0, rows[k].alpha), Column3<T>(rows[k].a, T(0), d));
     pose.then(turn_about<T>(1, rows[k].beta), none);
   }
-  pose.then(columns.arm.flange().linear().cast<T>(), columns.arm.flange().translation().cast<T>());
+  pose.then(parameters.arm.flange().linear().cast<T>(),
+            parameters.arm.flange().translation().cast<T>());
   pose.then(flange_from_tool.turn, flange_from_tool.shift);
   return pose;
 }
@@ -116,11 +118,11 @@ std::vector<Pose> some_poses(int count, std::uint64_t seed) {
 struct Everything {
   Arm arm;
   Measurement m;
-  ArmColumns columns;
+  ArmParameters parameters;
   Eigen::VectorXd x;
 
   Everything(bool tracked, Parametrization parametrization)
-      : arm(odd_arm(3)), columns{arm, {}, {}, {}, {}, {}} {
+      : arm(irregular_arm(3)), parameters{arm, {}, {}, {}, {}, {}} {
     if (tracked) {
       Tracked data = track(arm, 24, true, 5);
       set_groups(24, data.tool, data.station);
@@ -141,10 +143,10 @@ struct Everything {
     for (const Pose& pose : some_poses(static_cast<int>(m.plane_names.size()), 8)) {
       planes.push_back({pose.linear().col(2), pose.translation(), 0.1});
     }
-    columns = make_columns(arm, m, some_poses(2, 6), some_poses(2, 7), planes,
-                           {parametrization, 0.9, true});
+    parameters = make_parameters(arm, m, some_poses(2, 6), some_poses(2, 7), planes,
+                                 {parametrization, 0.9, true});
     RandomStream random(9);
-    x = columns.nominal();
+    x = parameters.nominal();
     for (Index i = 0; i < x.size(); ++i) x[i] += random.uniform(-0.1, 0.1);
   }
 
@@ -162,25 +164,25 @@ struct Everything {
   }
 };
 
-TEST(TipWalk, DerivativesAreThoseOfAutomaticDifferentiation) {
-  std::set<Part> seen;
+TEST(ChainDerivatives, DerivativesAreThoseOfAutomaticDifferentiation) {
+  std::set<ParameterKind> seen;
   for (const Parametrization kind : {Parametrization::kHayati, Parametrization::kDh}) {
     const Everything all(true, kind);
-    const auto count = static_cast<int>(all.columns.columns.size());
+    const auto count = static_cast<int>(all.parameters.parameters.size());
     std::vector<int> wanted(static_cast<std::size_t>(count));
     for (int i = 0; i < count; ++i) wanted[i] = i;
-    const TipWalk walk(all.columns, all.x, wanted);
-    WalkFrames frames;
+    const ChainDerivatives chain(all.parameters, all.x, wanted);
+    ChainFrames frames;
     Eigen::Matrix3Xd shift(3, count), turn(3, count);
     for (Index row = 0; row < all.m.rows(); ++row) {
       const double* q = all.m.q.row(row).data();
       const int tool = all.m.tool[row], station = all.m.station[row];
-      const Pose pose = walk.tip(q, kNoRow, tool, station, frames, shift.data(), turn.data(), 3);
+      const Pose pose = chain.tip(q, kNoRow, tool, station, frames, shift.data(), turn.data(), 3);
       for (int c = 0; c < count; ++c) {
         using Jet = ceres::Jet<double, 1>;
         std::vector<Jet> x(all.x.begin(), all.x.end());
         x[c].v[0] = 1.0;
-        const Frame3<Jet> truth = forward(all.columns, x, q, tool, station);
+        const Frame3<Jet> truth = forward(all.parameters, x, q, tool, station);
         Vec3 move;
         Eigen::Matrix3d spin, turned;
         for (int i = 0; i < 3; ++i) {
@@ -193,10 +195,10 @@ TEST(TipWalk, DerivativesAreThoseOfAutomaticDifferentiation) {
         }
         const Eigen::Matrix3d cross = spin * turned.transpose();  // d R Rᵀ is the turn's matrix
         const Vec3 axis(cross(2, 1), cross(0, 2), cross(1, 0));
-        const std::string& name = all.columns.columns[c].name;
+        const std::string& name = all.parameters.parameters[c].name;
         EXPECT_LT((shift.col(c) - move).norm(), 1e-13) << name << " in row " << row;
         EXPECT_LT((turn.col(c) - axis).norm(), 1e-13) << name << " in row " << row;
-        if (move.norm() + axis.norm() > 1e-3) seen.insert(all.columns.places[c].part);
+        if (move.norm() + axis.norm() > 1e-3) seen.insert(all.parameters.slots[c].kind);
       }
     }
   }
@@ -204,7 +206,7 @@ TEST(TipWalk, DerivativesAreThoseOfAutomaticDifferentiation) {
 }
 
 /// The whole Jacobian, centroids, planes, known things and priors included, by central differences.
-void check_by_differences(ArmSystem& system, const Everything& all) {
+void check_by_differences(ArmResiduals& system, const Everything& all) {
   system.set_noise({1e-3, 2e-3}, all.x);
   Eigen::VectorXd y = system.scaled(all.x);
   Eigen::VectorXd residuals(system.rows()), up(system.rows()), down(system.rows());
@@ -220,7 +222,7 @@ void check_by_differences(ArmSystem& system, const Everything& all) {
     y[c] = at;
     const Eigen::VectorXd slope = (up - down) / (2.0 * kStep);
     EXPECT_LT((slope - jacobian.col(c)).cwiseAbs().maxCoeff(), 1e-6)
-        << all.columns.columns[system.free()[c]].name;
+        << all.parameters.parameters[system.free()[c]].name;
   }
   system.evaluate(y.data(), up.data(), nullptr);
   EXPECT_EQ(up, residuals) << "the same residuals with and without derivatives";
@@ -228,37 +230,37 @@ void check_by_differences(ArmSystem& system, const Everything& all) {
   Eigen::MatrixXd both(system.rows(), system.columns() + 1);
   both << jacobian, residuals;
   const Eigen::MatrixXd square = both.transpose() * both;
-  EXPECT_LT((system.square(y.data()) - square).cwiseAbs().maxCoeff(),
+  EXPECT_LT((system.normal_equations(y.data()) - square).cwiseAbs().maxCoeff(),
             1e-12 * square.cwiseAbs().maxCoeff());
   EXPECT_NEAR(system.cost(y.data()), residuals.squaredNorm(), 1e-12 * residuals.squaredNorm());
 }
 
-TEST(ArmSystem, DerivativesOfTouchesAreTheirDifferences) {
+TEST(ArmResiduals, DerivativesOfTouchesAreTheirDifferences) {
   for (const Criterion criterion : {Criterion::kCentroid, Criterion::kPairs}) {
     for (const bool weighted : {false, true}) {
       Everything all(false, Parametrization::kHayati);
-      all.columns.columns[2].prior_std = 1e-3;
-      ArmSystem system(all.columns, all.m, criterion, weighted, 1);
-      LinearRow row{Eigen::VectorXd::LinSpaced(all.x.size(), -1.0, 1.0), 0.5};
-      system.set_linear_rows({row});
+      all.parameters.parameters[2].prior_std = 1e-3;
+      ArmResiduals system(all.parameters, all.m, criterion, weighted, 1);
+      LinearConstraint row{Eigen::VectorXd::LinSpaced(all.x.size(), -1.0, 1.0), 0.5};
+      system.set_linear_constraints({row});
       check_by_differences(system, all);
     }
   }
 }
 
-TEST(ArmSystem, DerivativesOfTrackedPosesAreTheirDifferences) {
+TEST(ArmResiduals, DerivativesOfTrackedPosesAreTheirDifferences) {
   Everything all(true, Parametrization::kHayati);
-  all.columns.columns[2].prior_std = 1e-3;
-  ArmSystem system(all.columns, all.m, Criterion::kCentroid, false, 1);
+  all.parameters.parameters[2].prior_std = 1e-3;
+  ArmResiduals system(all.parameters, all.m, Criterion::kCentroid, false, 1);
   std::vector<int> free = system.free();
   free.erase(free.begin() + 4);  // one of them held
   system.set_free(free);
-  system.set_linear_rows({{Eigen::VectorXd::LinSpaced(all.x.size(), -1.0, 1.0), 0.5}});
+  system.set_linear_constraints({{Eigen::VectorXd::LinSpaced(all.x.size(), -1.0, 1.0), 0.5}});
   check_by_differences(system, all);
 }
 
 /// Other directions and sizes for each row.
-ArmSystem::Whitening some_whitening(Index rows) {
+ArmResiduals::Whitening some_whitening(Index rows) {
   auto out = std::make_shared<std::vector<Eigen::Matrix3d>>();
   RandomStream random(9);
   for (Index i = 0; i < rows; ++i) {
@@ -270,18 +272,18 @@ ArmSystem::Whitening some_whitening(Index rows) {
   return out;
 }
 
-TEST(ArmSystem, DerivativesOfRowsThatAreWhitenedAreTheirDifferences) {
+TEST(ArmResiduals, DerivativesOfRowsThatAreWhitenedAreTheirDifferences) {
   for (const bool tracked : {false, true}) {
     Everything all(tracked, Parametrization::kHayati);
-    ArmSystem system(all.columns, all.m, Criterion::kCentroid, false, 1);
+    ArmResiduals system(all.parameters, all.m, Criterion::kCentroid, false, 1);
     system.set_row_whitening(some_whitening(all.m.rows()));
     check_by_differences(system, all);
   }
 }
 
-TEST(ArmSystem, APointLiesWhereWhitenedTouchesCostLeast) {
+TEST(ArmResiduals, APointLiesWhereWhitenedTouchesCostLeast) {
   Everything all(false, Parametrization::kHayati);
-  ArmSystem system(all.columns, all.m, Criterion::kCentroid, false, 1);
+  ArmResiduals system(all.parameters, all.m, Criterion::kCentroid, false, 1);
   system.set_row_whitening(some_whitening(all.m.rows()));
   const Eigen::Matrix3Xd off = system.deviations(all.x);
   Eigen::VectorXd residuals(system.rows());
@@ -299,13 +301,14 @@ TEST(ArmSystem, APointLiesWhereWhitenedTouchesCostLeast) {
 }
 
 /// Σ over pairs = m Σ about the mean; with weights Σ w Σ w‖ ‖².
-TEST(ArmSystem, BothCriteriaCostTheSame) {
+TEST(ArmResiduals, BothCriteriaCostTheSame) {
   const Arm arm = ur10e();
   Touches touches = touch(built_arm(arm, 1e-3, 1), three_points(), 8, 2);
   const auto cost = [&](Criterion criterion, bool pair_weights) {
     const Measurement m = to_measurement(arm, touches);
-    const ArmColumns columns = make_columns(arm, m, {Pose::Identity()}, {Pose::Identity()}, {}, {});
-    const ArmSystem system(columns, m, criterion, pair_weights, 1);
+    const ArmParameters parameters =
+        make_parameters(arm, m, {Pose::Identity()}, {Pose::Identity()}, {}, {});
+    const ArmResiduals system(parameters, m, criterion, pair_weights, 1);
     const Eigen::VectorXd y = Eigen::VectorXd::Zero(system.columns());
     return system.cost(y.data());
   };
@@ -321,21 +324,21 @@ TEST(ArmSystem, BothCriteriaCostTheSame) {
   EXPECT_GT(std::abs(8.0 * cost(Criterion::kCentroid, false) - uneven), 1e-3 * uneven);
 }
 
-TEST(ArmSystem, TheSameBytesForAnyNumberOfThreads) {
+TEST(ArmResiduals, TheSameBytesForAnyNumberOfThreads) {
   const Arm arm = ur10e();
   const Tracked tracked = track(built_arm(arm, 1e-3, 1), 1000, true, 2);
   const Measurement m = to_measurement(arm, tracked);
-  const ArmColumns columns =
-      make_columns(arm, m, {Pose::Identity()}, {Pose::Identity()}, {}, {.free_base = true});
-  const ArmSystem one(columns, m, Criterion::kCentroid, false, 1);
-  const ArmSystem three(columns, m, Criterion::kCentroid, false, 3);
+  const ArmParameters parameters =
+      make_parameters(arm, m, {Pose::Identity()}, {Pose::Identity()}, {}, {.free_base = true});
+  const ArmResiduals one(parameters, m, Criterion::kCentroid, false, 1);
+  const ArmResiduals three(parameters, m, Criterion::kCentroid, false, 3);
   const Eigen::VectorXd y = Eigen::VectorXd::Zero(one.columns());
-  EXPECT_EQ(one.square(y.data()), three.square(y.data()));
+  EXPECT_EQ(one.normal_equations(y.data()), three.normal_equations(y.data()));
   EXPECT_EQ(one.cost(y.data()), three.cost(y.data()));
-  EXPECT_EQ(one.jacobian(columns.nominal()), three.jacobian(columns.nominal()));
+  EXPECT_EQ(one.jacobian(parameters.nominal()), three.jacobian(parameters.nominal()));
 }
 
-TEST(ArmSystem, NoiseByTheMedianIsThatOfAnAxisWhateverAFewRowsDo) {
+TEST(ArmResiduals, NoiseByTheMedianIsThatOfAnAxisWhateverAFewRowsDo) {
   const Arm arm = ur10e();
   Tracked tracked = track(arm, 400, false, 2);
   RandomStream random(3);
@@ -344,10 +347,11 @@ TEST(ArmSystem, NoiseByTheMedianIsThatOfAnAxisWhateverAFewRowsDo) {
   }
   const auto noise = [&] {
     const Measurement m = to_measurement(arm, tracked);
-    const ArmColumns columns = make_columns(arm, m, {Pose::Identity()}, {Pose::Identity()}, {}, {});
-    ArmSystem system(columns, m, Criterion::kCentroid, false, 1);
+    const ArmParameters parameters =
+        make_parameters(arm, m, {Pose::Identity()}, {Pose::Identity()}, {}, {});
+    ArmResiduals system(parameters, m, Criterion::kCentroid, false, 1);
     system.set_free({});
-    return median_noise(system, system.deviations(columns.nominal()).colwise().norm());
+    return median_noise(system, system.deviations(parameters.nominal()).colwise().norm());
   };
   EXPECT_NEAR(noise(), 2e-4, 2e-5);
   for (Index i = 0; i < 400; i += 10) tracked.position(i, 0) += 0.05;

@@ -27,24 +27,25 @@ std::vector<EffectVariant> one_of_each(const EffectData& data) {
   return out;
 }
 
-void add_all(ArmColumns& columns, const std::vector<EffectVariant>& variants,
+void add_all(ArmParameters& parameters, const std::vector<EffectVariant>& variants,
              const EffectData& data) {
   for (const EffectVariant& v : variants) {
-    add_effect(columns, v, actions_of(*effect_named(v.effect), v, data));
+    add_effect(parameters, v, perturbations_of(*effect_named(v.effect), v, data));
   }
 }
 
 /// Values off nominal, effects so that joints and frames move by about `size` each.
-Eigen::VectorXd somewhere(const ArmColumns& columns, double size, std::uint64_t seed) {
+Eigen::VectorXd somewhere(const ArmParameters& parameters, double size, std::uint64_t seed) {
   RandomStream random(seed);
-  Eigen::VectorXd x = columns.nominal();
+  Eigen::VectorXd x = parameters.nominal();
   for (Index i = 0; i < x.size(); ++i) {
-    x[i] += size / 1e-3 * columns.columns[i].scale * random.uniform(-1.0, 1.0);
+    x[i] += size / 1e-3 * parameters.parameters[i].scale * random.uniform(-1.0, 1.0);
   }
   return x;
 }
 
-void expect_slopes(ArmSystem& system, const ArmColumns& columns, const Eigen::VectorXd& x) {
+void expect_slopes(ArmResiduals& system, const ArmParameters& parameters,
+                   const Eigen::VectorXd& x) {
   Eigen::VectorXd y = system.scaled(x);
   Eigen::VectorXd residuals(system.rows()), up(system.rows()), down(system.rows());
   Eigen::MatrixXd jacobian(system.rows(), system.columns());
@@ -59,14 +60,14 @@ void expect_slopes(ArmSystem& system, const ArmColumns& columns, const Eigen::Ve
     y[c] = at;
     const Eigen::VectorXd slope = (up - down) / (2.0 * kStep);
     EXPECT_LT((slope - jacobian.col(c)).cwiseAbs().maxCoeff(), 3e-6)
-        << columns.columns[system.free()[c]].name;
+        << parameters.parameters[system.free()[c]].name;
   }
 }
 
 /// Two tools and two stations, rotations, every effect at once, each off zero: what one of them
 /// does to the derivative by another, and to those of the arm's own columns.
 TEST(EffectColumns, DerivativesOfTrackedPosesAreTheirDifferences) {
-  const Scene scene(odd_arm(3));
+  const Scene scene(irregular_arm(3));
   const EffectData data = scene.data();
   Measurement m = measurement_of(scene.arm, scene.q, true);
   m.tools = m.stations = 2;
@@ -76,17 +77,17 @@ TEST(EffectColumns, DerivativesOfTrackedPosesAreTheirDifferences) {
     m.rotation[i] = plain_forward(scene.arm, scene.q.row(i), {}).linear();
   }
   const std::vector<Pose> two{pose_of(0.1, 0.2, 0.3, 0.4, 0.5), pose_of(-0.3, 0.2, -0.1, 0.5, 0.2)};
-  ArmColumns columns = make_columns(scene.arm, m, two, two, {}, {.free_base = true});
-  add_all(columns, one_of_each(data), data);
-  const Eigen::VectorXd x = somewhere(columns, 0.02, 5);
-  ArmSystem system(columns, m, Criterion::kCentroid, false, 1);
+  ArmParameters parameters = make_parameters(scene.arm, m, two, two, {}, {.free_base = true});
+  add_all(parameters, one_of_each(data), data);
+  const Eigen::VectorXd x = somewhere(parameters, 0.02, 5);
+  ArmResiduals system(parameters, m, Criterion::kCentroid, false, 1);
   system.set_noise({1e-3, 2e-3}, x);
-  EXPECT_GT(columns.actions.size(), 40U);
-  expect_slopes(system, columns, x);
+  EXPECT_GT(parameters.perturbations.size(), 40U);
+  expect_slopes(system, parameters, x);
 }
 
 TEST(EffectColumns, DerivativesOfTouchesAreTheirDifferences) {
-  const Scene scene(odd_arm(4));
+  const Scene scene(irregular_arm(4));
   const EffectData data = scene.data(false);
   Touches touches;
   touches.q = scene.q;
@@ -94,31 +95,31 @@ TEST(EffectColumns, DerivativesOfTouchesAreTheirDifferences) {
   touches.planes = {{"deck", {1, 6, 11, 16, 20}}};
   touches.known_distances = {{0, 1, 0.3}};
   const Measurement m = to_measurement(scene.arm, touches);
-  ArmColumns columns = make_columns(scene.arm, m, {scene.arm.base()}, {scene.arm.tool()},
-                                    {{Vec3::UnitZ(), Vec3::Zero(), 0.1}}, {});
-  add_all(columns, one_of_each(data), data);
-  const Eigen::VectorXd x = somewhere(columns, 0.02, 6);
+  ArmParameters parameters = make_parameters(scene.arm, m, {scene.arm.base()}, {scene.arm.tool()},
+                                             {{Vec3::UnitZ(), Vec3::Zero(), 0.1}}, {});
+  add_all(parameters, one_of_each(data), data);
+  const Eigen::VectorXd x = somewhere(parameters, 0.02, 6);
   for (const Criterion criterion : {Criterion::kCentroid, Criterion::kPairs}) {
-    ArmSystem system(columns, m, criterion, false, 1);
-    system.set_noise({1e-3, 2e-3}, columns.nominal());
-    expect_slopes(system, columns, x);
+    ArmResiduals system(parameters, m, criterion, false, 1);
+    system.set_noise({1e-3, 2e-3}, parameters.nominal());
+    expect_slopes(system, parameters, x);
   }
 }
 
 TEST(EffectColumns, JointDerivativeHoldsWhatEffectsDo) {
-  const Scene scene(odd_arm(3));
+  const Scene scene(irregular_arm(3));
   const EffectData data = scene.data();
   const Measurement m = measurement_of(scene.arm, scene.q, true);
-  ArmColumns columns = columns_of(scene.arm, m);
-  add_all(columns, one_of_each(data), data);
-  const TipWalk walk(columns, somewhere(columns, 0.05, 5), {});
-  WalkFrames frames;
+  ArmParameters parameters = columns_of(scene.arm, m);
+  add_all(parameters, one_of_each(data), data);
+  const ChainDerivatives chain(parameters, somewhere(parameters, 0.05, 5), {});
+  ChainFrames frames;
   for (Index row = 0; row < 5; ++row) {
     Eigen::VectorXd q = scene.q.row(row);
     Vec3 tip;
-    const Eigen::Matrix3Xd jacobian = walk.joint_jacobian(q.data(), row, 0, 0, frames, tip);
+    const Eigen::Matrix3Xd jacobian = chain.joint_jacobian(q.data(), row, 0, 0, frames, tip);
     const auto at = [&] {
-      return Vec3(walk.tip(q.data(), row, 0, 0, frames, nullptr, nullptr, 0).translation());
+      return Vec3(chain.tip(q.data(), row, 0, 0, frames, nullptr, nullptr, 0).translation());
     };
     EXPECT_LT((tip - at()).norm(), 1e-14);
     for (Index j = 0; j < q.size(); ++j) {
@@ -132,7 +133,7 @@ TEST(EffectColumns, JointDerivativeHoldsWhatEffectsDo) {
   }
 }
 
-/// A known effect is found again beside the geometry, from poses as they would be measured.
+/// A known effect is estimated together with the geometry, from realistic measurements.
 TEST(EffectColumns, SearchFindsTheSizes) {
   Scene scene(built_arm(ur10e(), 1e-3, 1), 200);
   const EffectData data = scene.data(false);
@@ -166,126 +167,129 @@ TEST(EffectColumns, SearchFindsTheSizes) {
   }
   const Measurement m = to_measurement(ur10e(), tracked);
   Arm drawing = ur10e();
-  ArmColumns columns =
-      make_columns(drawing, m, {Pose::Identity()}, {scene.arm.tool()}, {}, {.free_base = true});
-  const std::size_t geometry = columns.columns.size();
-  add_all(columns, hidden, data);
-  const auto gauge = find_gauge(columns, m, {.free_base = true}, false, {});
+  ArmParameters parameters =
+      make_parameters(drawing, m, {Pose::Identity()}, {scene.arm.tool()}, {}, {.free_base = true});
+  const std::size_t geometry = parameters.parameters.size();
+  add_all(parameters, hidden, data);
+  const auto gauge = find_redundant(parameters, m, {.free_base = true}, false, {});
   EXPECT_EQ(gauge.size(), 6U) << "effects are none of its business";
   std::vector<int> free;
-  for (int i = 0; i < static_cast<int>(columns.columns.size()); ++i) {
+  for (int i = 0; i < static_cast<int>(parameters.parameters.size()); ++i) {
     if (std::none_of(gauge.begin(), gauge.end(), [i](const auto& g) { return g.column == i; })) {
       free.push_back(i);
     }
   }
-  ArmSystem system(columns, m, Criterion::kCentroid, false, 1);
+  ArmResiduals system(parameters, m, Criterion::kCentroid, false, 1);
   system.set_free(free);
   const Eigen::VectorXd start = Eigen::VectorXd::Zero(system.columns());
   const Eigen::VectorXd x = system.values(solve_least_squares(system, start).y);
   Eigen::VectorXd truth(11);
   truth << 3e-3, -1e-3, 2e-3, 4e-3, 2.3e-5, shift.shift, shift.turn;
-  // Lengths that are gauge stand at the drawing's, a millimetre off, and grow by that much less.
+  // Redundant lengths are at nominal, a millimetre off, and grow by that much less.
   EXPECT_LT(system.deviations(x).norm(), 1e-5);
   EXPECT_LT((x.tail(11) - truth).cwiseAbs().maxCoeff(), 1e-5);
   EXPECT_NEAR(x[x.size() - 7], 2.3e-5, 1e-8);
 
   // The same values held act as the free ones did, and without them the arm alone does worse.
-  for (std::size_t i = 0; i < columns.columns.size(); ++i) columns.columns[i].nominal = x[i];
+  for (std::size_t i = 0; i < parameters.parameters.size(); ++i)
+    parameters.parameters[i].nominal = x[i];
   std::erase_if(free, [&](int c) { return c >= static_cast<int>(geometry); });
   system.set_free(free);
   const Eigen::VectorXd nothing = Eigen::VectorXd::Zero(system.columns());
-  EXPECT_EQ(system.values(nothing), columns.nominal());
+  EXPECT_EQ(system.values(nothing), parameters.nominal());
   EXPECT_LT(system.deviations(system.values(nothing)).norm(), 1e-5);
-  truncate_columns(columns, geometry);
-  EXPECT_EQ(columns.actions.size(), 0U);
+  truncate_parameters(parameters, geometry);
+  EXPECT_EQ(parameters.perturbations.size(), 0U);
   const Eigen::VectorXd alone = system.values(solve_least_squares(system, nothing).y);
   EXPECT_GT(system.deviations(alone).norm(), 1e-3);
 }
 
 TEST(EffectColumns, NamesAreUniqueAndTellTheForm) {
-  const Scene scene(odd_arm(3));
+  const Scene scene(irregular_arm(3));
   const EffectData data = scene.data();
-  ArmColumns columns = columns_of(scene.arm, measurement_of(scene.arm, scene.q, true));
+  ArmParameters parameters = columns_of(scene.arm, measurement_of(scene.arm, scene.q, true));
   std::set<std::string> names;
   for (const auto& effect : library_effects()) {
     for (const EffectVariant& v : effect->variants(data)) {
       EXPECT_TRUE(names.insert(variant_name(v)).second) << variant_name(v);
       EXPECT_EQ(v.effect, effect->info().name);
-      EXPECT_FALSE(v.cause.empty());
+      EXPECT_FALSE(v.alias_group.empty());
       for (const EffectParameter& p : v.parameters) EXPECT_FALSE(p.unit.empty()) << p.name;
     }
   }
   const EffectVariant v = variants_of("joint_coupling", data).front();
-  const int first = add_effect(columns, v, actions_of(*effect_named(v.effect), v, data));
-  EXPECT_EQ(columns.columns[first].name, "joint_coupling(joint=0,by=1).ratio");
-  EXPECT_EQ(columns.columns[first].group, "joint_coupling(joint=0,by=1)");
-  EXPECT_EQ(columns.places[first].part, Part::kEffect);
-  EXPECT_EQ(geometry_columns(columns), static_cast<std::size_t>(first));
+  const int first = add_effect(parameters, v, perturbations_of(*effect_named(v.effect), v, data));
+  EXPECT_EQ(parameters.parameters[first].name, "joint_coupling(joint=0,by=1).ratio");
+  EXPECT_EQ(parameters.parameters[first].group, "joint_coupling(joint=0,by=1)");
+  EXPECT_EQ(parameters.slots[first].kind, ParameterKind::kEffect);
+  EXPECT_EQ(geometry_parameters(parameters), static_cast<std::size_t>(first));
 }
 
 /// A unit of each column moves the tip of an arm of a metre or two by about a millimetre.
 TEST(EffectColumns, ScalesAreAlike) {
-  const Scene scene(odd_arm(3));
+  const Scene scene(irregular_arm(3));
   const EffectData data = scene.data();
   const Measurement m = measurement_of(scene.arm, scene.q, false);
-  ArmColumns columns = columns_of(scene.arm, m);
-  const auto first = static_cast<Index>(columns.columns.size());
-  add_all(columns, one_of_each(data), data);
-  ArmSystem system(columns, m, Criterion::kCentroid, false, 1);
-  system.set_noise({1.0, 1.0}, columns.nominal());
-  const Eigen::MatrixXd jacobian = system.jacobian(columns.nominal());
+  ArmParameters parameters = columns_of(scene.arm, m);
+  const auto first = static_cast<Index>(parameters.parameters.size());
+  add_all(parameters, one_of_each(data), data);
+  ArmResiduals system(parameters, m, Criterion::kCentroid, false, 1);
+  system.set_noise({1.0, 1.0}, parameters.nominal());
+  const Eigen::MatrixXd jacobian = system.jacobian(parameters.nominal());
   for (Index c = first; c < jacobian.cols(); ++c) {
     const double rms = jacobian.col(c).norm() / std::sqrt(40.0);
-    EXPECT_GT(rms, 1e-4) << columns.columns[c].name;
-    EXPECT_LT(rms, 2e-2) << columns.columns[c].name;
+    EXPECT_GT(rms, 1e-4) << parameters.parameters[c].name;
+    EXPECT_LT(rms, 2e-2) << parameters.parameters[c].name;
   }
 }
 
 TEST(EffectColumns, TheSameBytesForAnyNumberOfThreads) {
-  const Scene scene(odd_arm(3), 700);
+  const Scene scene(irregular_arm(3), 700);
   const EffectData data = scene.data();
   Measurement m = measurement_of(scene.arm, scene.q, true);
-  ArmColumns columns = columns_of(scene.arm, m);
-  add_all(columns, one_of_each(data), data);
-  const Eigen::VectorXd x = somewhere(columns, 0.01, 5);
-  const ArmSystem one(columns, m, Criterion::kCentroid, false, 1);
-  const ArmSystem three(columns, m, Criterion::kCentroid, false, 3);
+  ArmParameters parameters = columns_of(scene.arm, m);
+  add_all(parameters, one_of_each(data), data);
+  const Eigen::VectorXd x = somewhere(parameters, 0.01, 5);
+  const ArmResiduals one(parameters, m, Criterion::kCentroid, false, 1);
+  const ArmResiduals three(parameters, m, Criterion::kCentroid, false, 3);
   const Eigen::VectorXd y = one.scaled(x);
-  EXPECT_EQ(one.square(y.data()), three.square(y.data()));
+  EXPECT_EQ(one.normal_equations(y.data()), three.normal_equations(y.data()));
   EXPECT_EQ(one.jacobian(x), three.jacobian(x));
 }
 
-/// A part of the rows, told which they are, gives those rows of the whole.
+/// A subset of the rows gives those rows of the whole.
 TEST(EffectColumns, RowsOfAPartKeepTheirActions) {
-  const Scene scene(odd_arm(3));
+  const Scene scene(irregular_arm(3));
   const EffectData data = scene.data();
   const Measurement m = measurement_of(scene.arm, scene.q, false);
-  ArmColumns columns = columns_of(scene.arm, m);
-  add_all(columns, one_of_each(data), data);
-  const Eigen::VectorXd x = somewhere(columns, 0.01, 5);
+  ArmParameters parameters = columns_of(scene.arm, m);
+  add_all(parameters, one_of_each(data), data);
+  const Eigen::VectorXd x = somewhere(parameters, 0.01, 5);
   std::vector<int> rows;
   for (int i = 0; i < m.rows(); i += 3) rows.push_back(i);
-  const Measurement third = some_of(m, rows);
-  const Eigen::Matrix3Xd all = ArmSystem(columns, m, Criterion::kCentroid, false, 1).deviations(x);
+  const Measurement third = subset(m, rows);
+  const Eigen::Matrix3Xd all =
+      ArmResiduals(parameters, m, Criterion::kCentroid, false, 1).deviations(x);
   const Eigen::Matrix3Xd some =
-      ArmSystem(columns, third, Criterion::kCentroid, false, 1).deviations(x);
+      ArmResiduals(parameters, third, Criterion::kCentroid, false, 1).deviations(x);
   for (Index i = 0; i < some.cols(); ++i) EXPECT_EQ(some.col(i), all.col(3 * i));
 }
 
 TEST(EffectColumns, PosesOfNoRowAreThoseOfTheArmAlone) {
-  const Scene scene(odd_arm(3));
+  const Scene scene(irregular_arm(3));
   const EffectData data = scene.data();
-  ArmColumns columns = columns_of(scene.arm, measurement_of(scene.arm, scene.q, false));
-  const auto alone = static_cast<Index>(columns.columns.size());
-  add_all(columns, one_of_each(data), data);
-  Eigen::VectorXd x = columns.nominal();
+  ArmParameters parameters = columns_of(scene.arm, measurement_of(scene.arm, scene.q, false));
+  const auto alone = static_cast<Index>(parameters.parameters.size());
+  add_all(parameters, one_of_each(data), data);
+  Eigen::VectorXd x = parameters.nominal();
   x.tail(x.size() - alone).setConstant(0.1);
-  std::vector<int> wanted(columns.columns.size());
+  std::vector<int> wanted(parameters.parameters.size());
   std::iota(wanted.begin(), wanted.end(), 0);
-  const TipWalk walk(columns, x, wanted);
-  WalkFrames frames;
+  const ChainDerivatives chain(parameters, x, wanted);
+  ChainFrames frames;
   Eigen::Matrix3Xd shift(3, x.size());
-  const Pose pose = walk.tip(scene.q.row(0).data(), kNoRow, 0, 0, frames, shift.data(), nullptr, 3);
+  const Pose pose =
+      chain.tip(scene.q.row(0).data(), kNoRow, 0, 0, frames, shift.data(), nullptr, 3);
   EXPECT_LT((pose.matrix() - plain_forward(scene.arm, scene.q.row(0), {}).matrix()).norm(), 1e-12);
   EXPECT_TRUE(shift.rightCols(x.size() - alone).isZero(0.0));
 }

@@ -36,7 +36,7 @@ double worst_tip(const Arm& found, const Arm& truth) {
   return worst;
 }
 
-/// The same once a rigid motion, which touches of unknown points cannot tell, is taken away.
+/// The same after removing a rigid motion, which touches of unknown points do not determine.
 double worst_tip_aligned(const Arm& found, const Arm& truth) {
   const JointMatrix q = random_poses(truth, 200, 77);
   Eigen::Matrix3Xd a(3, q.rows()), b(3, q.rows());
@@ -51,7 +51,7 @@ double worst_tip_aligned(const Arm& found, const Arm& truth) {
   return (moved - b).colwise().norm().maxCoeff();
 }
 
-/// 27 parameters, three points, 21 poses each: the ranks that the literature's rules foretell.
+/// 27 parameters, three points, 21 poses each: the ranks that the rules of the literature predict.
 TEST(IdentifyArm, RankOfTheUr10e) {
   struct Case {
     Parametrization parametrization;
@@ -66,7 +66,7 @@ TEST(IdentifyArm, RankOfTheUr10e) {
     ArmFit fit = identify_arm(drawing, touches, options);
     EXPECT_EQ(fit.parameters.size(), 27u);
     EXPECT_EQ(fit.rank, known.touched);
-    EXPECT_EQ(fit.unseen.size(), 27u - known.touched);
+    EXPECT_EQ(fit.null_space.size(), 27u - known.touched);
     EXPECT_EQ(fit.scale_source, "prior on lengths (1 mm)");
     touches.known_distances = {{0, 1, distance(three_points(), 0, 1)}};
     fit = identify_arm(drawing, touches, options);
@@ -107,7 +107,7 @@ TEST(IdentifyArm, ExactPositionsAndPosesGiveTheArmBack) {
 
 /// A sliding joint, joints that follow others, one that is fixed.
 TEST(IdentifyArm, SlidingAndFollowingJoints) {
-  const Arm drawing = odd_arm(3);
+  const Arm drawing = irregular_arm(3);
   Arm truth = built_arm(drawing, 1e-3, 5, drawing.tool().translation());
   truth.set_base(drawing.base());
   const ArmFit fit = identify_arm(drawing, track(truth, 80, true, 6));
@@ -117,7 +117,7 @@ TEST(IdentifyArm, SlidingAndFollowingJoints) {
 }
 
 /// Drawings with a sliding joint whose right angles and parallel axes hide from some columns what
-/// they would see on any other arm: what is left is the noise all the same.
+/// they would see on any other arm: the residual is still the noise.
 TEST(IdentifyArm, SlidingJointsAtSpecialAnglesLeaveTheNoise) {
   constexpr double kNoise = 1e-4;
   constexpr double kSquare = kPi / 2;
@@ -307,11 +307,11 @@ TEST(IdentifyArm, PruningPutsBackWhatIsNotSeenToDiffer) {
 TEST(IdentifyArm, PriorsHoldWhatTheyAreToldToHold) {
   const Arm truth = built_arm(ur10e(), 1e-3, 3);
   const Tracked tracked = track(truth, 60, false, 4);
-  const double told = truth.joints()[2].row.a;
+  const double true_length = truth.joints()[2].row.a;
   const double nominal = ur10e().joints()[2].row.a;
   const ArmFit open = identify_arm(ur10e(), tracked, {.noise = 1e-4});
   const ArmFit held = identify_arm(ur10e(), tracked, {.priors = {{"a_3", 1e-9}}, .noise = 1e-4});
-  EXPECT_NEAR(parameter(open, "a_3").value, told, 1e-9);
+  EXPECT_NEAR(parameter(open, "a_3").value, true_length, 1e-9);
   EXPECT_NEAR(parameter(held, "a_3").value, nominal, 1e-8);
   EXPECT_EQ(parameter(held, "a_3").status, Status::kPrior);
   const ArmFit fixed = identify_arm(ur10e(), tracked, {.fixed = {"a_3"}});

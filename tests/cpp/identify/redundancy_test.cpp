@@ -29,23 +29,23 @@ Measurement poses(bool tracked, Index joints) {
 
 struct Found {
   std::vector<std::string> names;
-  std::vector<GaugeColumn> gauge;
-  std::vector<Column> columns;
+  std::vector<RedundantParameter> redundant;
+  std::vector<Parameter> parameters;
 };
 
 Found gauge_of(const Arm& arm, bool tracked, bool base_known, Parametrization parametrization,
                const std::vector<std::string>& fixed = {}) {
   const Measurement m = poses(tracked, arm.size());
-  ColumnChoice choice;
+  ParameterChoice choice;
   choice.parametrization = parametrization;
   choice.free_base = tracked;
-  const ArmColumns columns =
-      make_columns(arm, m, {Pose::Identity()}, {pose_of(0.06, 0.02, 0.1, 0, 0)}, {}, choice);
+  const ArmParameters parameters =
+      make_parameters(arm, m, {Pose::Identity()}, {pose_of(0.06, 0.02, 0.1, 0, 0)}, {}, choice);
   std::vector<int> held;
-  for (const std::string& name : fixed) held.push_back(find_column(columns.columns, name));
-  Found found{{}, find_gauge(columns, m, choice, base_known, held), columns.columns};
-  for (const GaugeColumn& gauge : found.gauge) {
-    if (gauge.column >= 0) found.names.push_back(columns.columns[gauge.column].name);
+  for (const std::string& name : fixed) held.push_back(find_parameter(parameters.parameters, name));
+  Found found{{}, find_redundant(parameters, m, choice, base_known, held), parameters.parameters};
+  for (const RedundantParameter& gauge : found.redundant) {
+    if (gauge.column >= 0) found.names.push_back(parameters.parameters[gauge.column].name);
   }
   return found;
 }
@@ -55,7 +55,7 @@ bool holds(const Found& found, const std::string& name) {
 }
 
 TEST(Gauge, TouchesLoseTheFootAndTheTip) {
-  // 27 unknowns, of which touches tell 20 and a distance the size: 6 are gauge.
+  // 27 unknowns, of which touches determine 20 and a distance the scale: 6 are redundant.
   const Found found = gauge_of(ur10e(), false, false, Parametrization::kHayati);
   EXPECT_EQ(found.names.size(), 6U);
   EXPECT_TRUE(holds(found, "theta_1"));
@@ -71,7 +71,7 @@ TEST(Gauge, KnownBaseTellsTheFoot) {
 
 TEST(Gauge, WhatTakesItsPartIsNamed) {
   const Found found = gauge_of(ur10e(), false, false, Parametrization::kHayati);
-  for (const GaugeColumn& gauge : found.gauge) EXPECT_FALSE(gauge.trades.empty());
+  for (const RedundantParameter& gauge : found.redundant) EXPECT_FALSE(gauge.partners.empty());
 }
 
 TEST(Gauge, FixedColumnsAreNeither) {
@@ -109,7 +109,7 @@ Arm drawn_arm(std::uint64_t seed, bool rounded) {
 }
 
 /// Held at nominal, a column that the others can do without on any other arm may be the only one
-/// that moves this one where its axes stand parallel or square.
+/// that moves this one where its axes are parallel or perpendicular.
 TEST(Gauge, LosesNothingWhereTheArmStands) {
   constexpr double kClear = 1e-4;  // what rounded angles let through is less
   for (std::uint64_t seed = 0; seed < 120; ++seed) {
@@ -126,20 +126,20 @@ TEST(Gauge, LosesNothingWhereTheArmStands) {
     m.plane.assign(40, -1);
     m.position.setZero(3, 40);
     if (seed % 5 == 0) m.rotation.assign(40, Eigen::Matrix3d::Identity());
-    const ColumnChoice choice{Parametrization::kHayati, kNearlyParallel, true};
-    const ArmColumns columns =
-        make_columns(arm, m, {Pose::Identity()}, {pose_of(0.06, 0.02, 0.1, 0, 0)}, {}, choice);
+    const ParameterChoice choice{Parametrization::kHayati, kNearlyParallel, true};
+    const ArmParameters parameters =
+        make_parameters(arm, m, {Pose::Identity()}, {pose_of(0.06, 0.02, 0.1, 0, 0)}, {}, choice);
     std::vector<int> kept;
-    const std::vector<GaugeColumn> gauge = find_gauge(columns, m, choice, false, {});
-    for (int i = 0; i < static_cast<int>(columns.columns.size()); ++i) {
+    const std::vector<RedundantParameter> gauge = find_redundant(parameters, m, choice, false, {});
+    for (int i = 0; i < static_cast<int>(parameters.parameters.size()); ++i) {
       const bool left = std::any_of(gauge.begin(), gauge.end(),
-                                    [i](const GaugeColumn& g) { return g.column == i; });
+                                    [i](const RedundantParameter& g) { return g.column == i; });
       if (!left) kept.push_back(i);
     }
-    ArmSystem system(columns, m, Criterion::kCentroid, false, 1);
-    const Eigen::MatrixXd jacobian = system.jacobian(columns.nominal());
-    EXPECT_EQ(reveal_rank(jacobian(Eigen::all, kept), kClear).rank,
-              reveal_rank(jacobian, kClear).rank);
+    ArmResiduals system(parameters, m, Criterion::kCentroid, false, 1);
+    const Eigen::MatrixXd jacobian = system.jacobian(parameters.nominal());
+    EXPECT_EQ(numerical_rank(jacobian(Eigen::all, kept), kClear).rank,
+              numerical_rank(jacobian, kClear).rank);
   }
 }
 

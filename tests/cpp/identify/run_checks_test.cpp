@@ -47,10 +47,9 @@ Tracked measured(Index count, double sag = 0.0) {
   return tracked;
 }
 
-bool any_says(const ArmFit& fit, const std::string& words) {
-  return std::any_of(fit.warnings.begin(), fit.warnings.end(), [&](const std::string& text) {
-    return text.find(words) != std::string::npos;
-  });
+bool any_says(const ArmFit& fit, const std::string& part) {
+  return std::any_of(fit.warnings.begin(), fit.warnings.end(),
+                     [&](const std::string& text) { return text.find(part) != std::string::npos; });
 }
 
 TEST(FTail, WithTwoAboveItIsAPower) {

@@ -16,6 +16,8 @@
 namespace bathyal {
 namespace {
 
+using namespace soundings;
+
 namespace fs = std::filesystem;
 
 class ByteSourceTest : public testing::Test {

@@ -64,7 +64,7 @@ inline Arm panda() {
 
 /// Turning, sliding, fixed and mimic joints, every row with beta; links with frames of their own,
 /// masses and volumes; base, root, flange and tool.
-inline Arm odd_arm(std::uint64_t seed) {
+inline Arm irregular_arm(std::uint64_t seed) {
   RandomStream random(seed);
   const auto any = [&] { return random.uniform(-1.0, 1.0); };
   std::vector<Joint> joints(7);
@@ -89,7 +89,7 @@ inline Arm odd_arm(std::uint64_t seed) {
     link.body.center_of_mass = Vec3(any(), any(), any());
     link.body.center_of_buoyancy = Vec3(any(), any(), any());
   }
-  Arm arm("odd", joints, links, pose_of(any(), any(), any(), any(), any()),
+  Arm arm("irregular", joints, links, pose_of(any(), any(), any(), any(), any()),
           pose_of(any(), any(), any(), any(), any()));
   arm.set_base(pose_of(any(), any(), any(), any(), any()));
   arm.set_tool(pose_of(any(), any(), any(), any(), any()));

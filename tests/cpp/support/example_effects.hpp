@@ -12,10 +12,10 @@
 
 namespace bathyal {
 
-/// An effect from a function: its needs and its one action.
+/// An effect given by its needs and its one perturbation.
 class FunctionEffect final : public Effect {
  public:
-  using Moves = Action (*)(const EffectData&);
+  using Moves = Perturbation (*)(const EffectData&);
 
   FunctionEffect(std::string name, Moves moves, std::vector<std::string> needs = {},
                  bool by_difference = false)
@@ -32,8 +32,8 @@ class FunctionEffect final : public Effect {
     return info;
   }
   std::vector<EffectVariant> variants(const EffectData&) const override { return {}; }
-  std::vector<std::vector<Action>> actions(const EffectVariant&,
-                                           const EffectData& data) const override {
+  std::vector<std::vector<Perturbation>> perturbations(const EffectVariant&,
+                                                       const EffectData& data) const override {
     return {{moves_(data)}};
   }
 
@@ -60,7 +60,7 @@ inline FoundEffect found(std::string name, int joint, double value, FunctionEffe
 inline FoundEffect curve(double size) {
   return found("curve", 1, size, [](const EffectData& data) {
     RowMatrix values = (3.0 * data.q.col(1)).array().sin() + data.q.col(0).array().cos();
-    return Action{Site::kJoint, 1, std::move(values)};
+    return Perturbation{PerturbationSite::kJoint, 1, std::move(values)};
   });
 }
 
@@ -72,7 +72,7 @@ inline FoundEffect bending(double size) {
       const double reach = std::cos(data.q(i, 1));
       values.row(i) << 0.1 * reach, -0.2, reach * reach, reach, -2.0 * reach, 0.5;
     }
-    return Action{Site::kFrame, 1, std::move(values)};
+    return Perturbation{PerturbationSite::kFrame, 1, std::move(values)};
   });
 }
 
@@ -85,7 +85,7 @@ inline FoundEffect moved_base(double size) {
                  for (Index i = 0; i < data.rows(); ++i) {
                    if (session(i, 0) == 2.0) values.row(i) << 1.0, 2.0, 3.0, 0.1, 0.2, 0.3;
                  }
-                 return Action{Site::kFrame, 0, std::move(values)};
+                 return Perturbation{PerturbationSite::kFrame, 0, std::move(values)};
                },
                {"session"});
 }
@@ -100,7 +100,7 @@ inline FoundEffect slip(double size) {
                    if (time(i, 0) >= 100.0) values(i, 1) = 1.0;
                  }
                  const auto flange = static_cast<int>(data.arm->joints().size()) + 1;
-                 return Action{Site::kFrame, flange, std::move(values)};
+                 return Perturbation{PerturbationSite::kFrame, flange, std::move(values)};
                },
                {"time"});
 }
@@ -111,7 +111,7 @@ inline FoundEffect growth(double size) {
                [](const EffectData& data) {
                  RowMatrix values = (data.covariates.at("temperature").col(0).array() - 20.0) *
                                     (1.0 + 0.1 * data.q.col(0).array());
-                 return Action{Site::kLength, 0, std::move(values)};
+                 return Perturbation{PerturbationSite::kLength, 0, std::move(values)};
                },
                {"temperature"});
 }
@@ -120,7 +120,7 @@ inline FoundEffect growth(double size) {
 inline FoundEffect sag(double size) {
   return found("sag", 1, size, [](const EffectData& data) {
     RowMatrix values = data.covariates.at("payload").col(0).array() * data.gravity.col(2).array();
-    return Action{Site::kJoint, 1, std::move(values)};
+    return Perturbation{PerturbationSite::kJoint, 1, std::move(values)};
   });
 }
 
@@ -131,7 +131,7 @@ inline FoundEffect late(double size) {
       [](const EffectData& data) {
         RowMatrix values = RowMatrix::Zero(data.rows(), 1);
         for (Index i = 1; i < data.rows(); ++i) values(i, 0) = data.q(i, 0) - data.q(i - 1, 0);
-        return Action{Site::kJoint, 0, std::move(values)};
+        return Perturbation{PerturbationSite::kJoint, 0, std::move(values)};
       },
       {"time"}, true);
 }

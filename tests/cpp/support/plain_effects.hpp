@@ -143,8 +143,8 @@ inline Measurement measurement_of(const Arm& arm, const RowMatrix& q, bool rotat
 }
 
 /// Columns of the arm at its own values, without its base.
-inline ArmColumns columns_of(const Arm& arm, const Measurement& m) {
-  return make_columns(arm, m, {arm.base()}, {arm.tool()}, {}, {.free_base = true});
+inline ArmParameters columns_of(const Arm& arm, const Measurement& m) {
+  return make_parameters(arm, m, {arm.base()}, {arm.tool()}, {}, {.free_base = true});
 }
 
 using Formula = std::function<Wrong(Index row, const Eigen::VectorXd& values)>;
@@ -155,22 +155,22 @@ inline void expect_means(const Scene& scene, const EffectVariant& variant, const
   const EffectData data = scene.data();
   const std::string name = variant_name(variant);
   const Measurement m = measurement_of(scene.arm, scene.q, true);
-  ArmColumns columns = columns_of(scene.arm, m);
-  const int first =
-      add_effect(columns, variant, actions_of(*effect_named(variant.effect), variant, data));
+  ArmParameters parameters = columns_of(scene.arm, m);
+  const int first = add_effect(parameters, variant,
+                               perturbations_of(*effect_named(variant.effect), variant, data));
   const auto count = static_cast<Index>(variant.parameters.size());
   RandomStream random(3);
   Eigen::VectorXd values(count);
   for (double& value : values) value = size * random.uniform(0.5, 1.0);
-  Eigen::VectorXd x = columns.nominal();
+  Eigen::VectorXd x = parameters.nominal();
   x.segment(first, count) = values;
-  const TipWalk walk(columns, x, {});
-  const TipWalk without(columns, columns.nominal(), {});
-  WalkFrames frames;
+  const ChainDerivatives chain(parameters, x, {});
+  const ChainDerivatives without(parameters, parameters.nominal(), {});
+  ChainFrames frames;
   double moved = 0.0;
   for (Index i = 0; i < scene.q.rows(); ++i) {
     const double* q = scene.q.row(i).data();
-    const Pose found = walk.tip(q, i, 0, 0, frames, nullptr, nullptr, 0);
+    const Pose found = chain.tip(q, i, 0, 0, frames, nullptr, nullptr, 0);
     const Pose truth = plain_forward(scene.arm, scene.q.row(i), formula(i, values));
     EXPECT_LT((found.matrix() - truth.matrix()).norm(), 1e-10) << name << " in row " << i;
     const Pose plain = without.tip(q, i, 0, 0, frames, nullptr, nullptr, 0);

@@ -18,7 +18,7 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-/// Six joints like those of a common arm, and a tool beside the last axis.
+/// Six joints like those of a common arm, and a tool off the last axis.
 Arm six_joints() {
   const std::vector<DhRow> rows{{0.0, kPi / 2, 0.18}, {-0.61, 0, 0},       {-0.57, 0, 0},
                                 {0, kPi / 2, 0.17},   {0, -kPi / 2, 0.12}, {0, 0, 0.12}};
@@ -53,8 +53,8 @@ PlanTouchesOptions small() {
 
 // Choice ------------------------------------------------------------------------------------------
 
-TouchDesign random_design(int count, std::uint64_t seed, bool worst) {
-  TouchDesign design;
+OptimalDesign random_design(int count, std::uint64_t seed, bool worst) {
+  OptimalDesign design;
   RandomStream random(seed);
   const auto fill = [&](Index rows, Index columns) {
     Eigen::MatrixXd matrix(rows, columns);
@@ -70,7 +70,7 @@ TouchDesign random_design(int count, std::uint64_t seed, bool worst) {
 }
 
 /// What a choice is worth, by the definition: ln det, or the worst variance, of the columns.
-double worth(const TouchDesign& design, const std::vector<int>& chosen) {
+double worth(const OptimalDesign& design, const std::vector<int>& chosen) {
   Eigen::MatrixXd information = design.prior;
   for (const int touch : chosen) {
     Eigen::MatrixXd rows(6, 3);
@@ -88,7 +88,7 @@ double worth(const TouchDesign& design, const std::vector<int>& chosen) {
 }
 
 /// Every choice of five touches among twelve.
-std::vector<double> all_worths(const TouchDesign& design) {
+std::vector<double> all_worths(const OptimalDesign& design) {
   std::vector<double> out;
   for (int bits = 0; bits < 1 << 12; ++bits) {
     std::vector<int> chosen;
@@ -105,16 +105,16 @@ class Choice : public testing::TestWithParam<bool> {};
 
 TEST_P(Choice, IsAmongTheBestTwentiethOfAll) {
   for (std::uint64_t seed = 0; seed < 6; ++seed) {
-    const TouchDesign design = random_design(12, seed, GetParam());
+    const OptimalDesign design = random_design(12, seed, GetParam());
     const std::vector<double> all = all_worths(design);
     ASSERT_EQ(all.size(), 792U);
-    const std::vector<int> chosen = select_touches(design, 5, 10, 1);
+    const std::vector<int> chosen = exchange_select(design, 5, 10, 1);
     EXPECT_LE(worth(design, chosen), all[all.size() / 20]) << "seed " << seed;
   }
 }
 
 TEST_P(Choice, TakesNoTouchTwiceAndAllWhereThereAreNoMore) {
-  std::vector<int> chosen = select_touches(random_design(9, 1, GetParam()), 12, 3, 1);
+  std::vector<int> chosen = exchange_select(random_design(9, 1, GetParam()), 12, 3, 1);
   std::sort(chosen.begin(), chosen.end());
   EXPECT_EQ(chosen, (std::vector<int>{0, 1, 2, 3, 4, 5, 6, 7, 8}));
 }
@@ -123,13 +123,13 @@ INSTANTIATE_TEST_SUITE_P(Of, Choice, testing::Bool());
 
 TEST(Choice, LeavesNoPointWithOneTouch) {
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
-    TouchDesign design = random_design(30, seed, false);
+    OptimalDesign design = random_design(30, seed, false);
     for (std::size_t i = 0; i < 30; ++i) design.point[i] = static_cast<int>(i) % 3;
     design.points = 3;
     design.prior = 1e-3 * Eigen::MatrixXd::Identity(12, 12);
     const auto touched = [&](int count) {
       std::vector<int> by_point(3, 0);
-      for (const int touch : select_touches(design, count, 10, 1)) ++by_point[design.point[touch]];
+      for (const int touch : exchange_select(design, count, 10, 1)) ++by_point[design.point[touch]];
       return by_point;
     };
     for (const int count : touched(6)) EXPECT_GE(count, 2) << "seed " << seed;

@@ -50,7 +50,7 @@ TOUCHES: dict[str, tuple[Any, Any, dict[str, Any], str]] = {
         Q,
         [0, 0, 0],
         {"known_distances": {(0, 7): 0.1}},
-        "`known_distances`: expected labels that stand in `point`, got 7",
+        "`known_distances`: expected labels that occur in `point`, got 7",
     ),
     "pair_of_one": (
         Q,

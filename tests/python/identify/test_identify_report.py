@@ -115,7 +115,7 @@ def test_labels_of_planes_and_known_points(tmp_path):
 
 
 def test_names_are_of_labels_that_were_touched():
-    with pytest.raises(ValueError, match=r"`names`: expected labels that stand in `point`, got 5"):
+    with pytest.raises(ValueError, match=r"`names`: expected labels that occur in `point`, got 5"):
         bathyal.Touches([[0, 1], [1, 0]], [0, 0], names={5: "left"})
     with pytest.raises(ValueError, match="`names`: expected a dict"):
         bathyal.Touches([[0, 1], [1, 0]], [0, 0], names=["left"])

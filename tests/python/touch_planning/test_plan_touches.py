@@ -203,11 +203,11 @@ def test_the_size_and_what_would_tell_it(arm):
     assert plan.forecast.rank == plan.forecast.free - 1
     (unseen,) = plan.forecast.unseen
     assert "a of row 2" in unseen
-    (size,) = [w for w in plan.warnings if "smaller one" in w]
+    (size,) = [w for w in plan.warnings if "the scale of the arm" in w]
     assert "2 mm" in size
     assert "distance between points" in size
     measured = bathyal.plan_touches(arm, 40, points=POINTS, known_distances=[(0, 1)])
-    assert not [w for w in measured.warnings if "smaller one" in w]
+    assert not [w for w in measured.warnings if "the scale of the arm" in w]
     assert measured.worst_tip_std < 0.4 * plan.worst_tip_std
     placed = bathyal.plan_touches(arm, 40, points=POINTS, known_points=[0, 1, 2])
     assert placed.forecast.rank == placed.forecast.free == 23
@@ -306,7 +306,7 @@ def test_too_few_touches(arm):
     text = str(plan)
     assert "only 2 points will be touched" in text
     assert "5 touches of 2 points give 9 numbers for 21 unknowns" in text
-    assert "cannot tell 12 combinations" in text
+    assert "do not determine 12 combinations" in text
     assert plan.worst_tip_std < 0.02  # the priors hold what touches do not tell
     assert len(bathyal.plan_touches(arm, 2, points=POINTS, candidates=50)) == 2
 
@@ -392,5 +392,5 @@ def test_words(plan):
     assert text == str(plan)
     assert f"Touch 3 points in {COUNT} poses" in text
     assert f"{1e3 * plan.worst_tip_std:.3g} mm at the worst of 400 poses" in text
-    assert "tell 21 of the 21" in text
+    assert "determine 21 of the 21" in text
     assert repr(plan).startswith("TouchPlan(63 touches of 3 points, worst 0.")

@@ -9,11 +9,16 @@
 namespace bathyal {
 
 std::vector<std::shared_ptr<const Effect>> library_effects() {
+  using namespace effects;
   return {joint_harmonic(),   joint_map(),       joint_scale(), joint_coupling(), backlash(),
           joint_compliance(), link_compliance(), payload(),     base_shift(),     base_compliance(),
           tool_slip(),        tool_change(),     thermal(),     drift(),          clock_shift(),
           outliers(),         range_noise(),     quantisation()};
 }
+
+}  // namespace bathyal
+
+namespace bathyal::effects {
 
 bool slides(const Arm& arm, int coordinate) {
   const auto leads = [coordinate](const Joint& joint) { return joint.coordinate == coordinate; };
@@ -59,17 +64,17 @@ int index_of(const EffectVariant& variant, const std::string& name, Index count)
   return static_cast<int>(number);
 }
 
-Action move_joint(int coordinate, const Eigen::VectorXd& values) {
-  return {Site::kJoint, coordinate, values};
+Perturbation move_joint(int coordinate, const Eigen::VectorXd& values) {
+  return {PerturbationSite::kJoint, coordinate, values};
 }
 
-Action move_frame(int frame, int axis, const Eigen::VectorXd& values) {
+Perturbation move_frame(int frame, int axis, const Eigen::VectorXd& values) {
   if (axis < 0 || axis >= 6) {
     throw_argument("axis of a frame", "one from 0 to 5", std::to_string(axis));
   }
   RowMatrix all = RowMatrix::Zero(values.size(), 6);
   all.col(axis) = values;
-  return {Site::kFrame, frame, std::move(all)};
+  return {PerturbationSite::kFrame, frame, std::move(all)};
 }
 
 std::vector<std::string> frame_axes(const std::string& shift, const std::string& turn, bool turns) {
@@ -80,4 +85,4 @@ std::vector<std::string> frame_axes(const std::string& shift, const std::string&
   return names;
 }
 
-}  // namespace bathyal
+}  // namespace bathyal::effects

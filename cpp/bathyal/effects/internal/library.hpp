@@ -7,40 +7,40 @@
 
 #include "bathyal/effects/effect.hpp"
 
-// The effects of the library and what they share. For use inside the room.
+// The effects of the library and what they share.
 
-namespace bathyal {
+namespace bathyal::effects {
 
-// effects_of_joints.cpp
+// joints.cpp
 std::shared_ptr<const Effect> joint_harmonic();
 std::shared_ptr<const Effect> joint_map();
 std::shared_ptr<const Effect> joint_scale();
 std::shared_ptr<const Effect> joint_coupling();
 std::shared_ptr<const Effect> backlash();
-// effects_of_gravity.cpp
+// gravity.cpp
 std::shared_ptr<const Effect> joint_compliance();
 std::shared_ptr<const Effect> payload();
-// effects_of_bending.cpp
+// bending.cpp
 std::shared_ptr<const Effect> link_compliance();
 std::shared_ptr<const Effect> base_compliance();
-// effects_of_sessions.cpp
+// sessions.cpp
 std::shared_ptr<const Effect> base_shift();
 std::shared_ptr<const Effect> tool_slip();
 std::shared_ptr<const Effect> tool_change();
-// effects_of_conditions.cpp
+// conditions.cpp
 std::shared_ptr<const Effect> thermal();
 std::shared_ptr<const Effect> drift();
 std::shared_ptr<const Effect> clock_shift();
-// effects_of_rows.cpp
+// noise.cpp
 std::shared_ptr<const Effect> outliers();
 std::shared_ptr<const Effect> range_noise();
 std::shared_ptr<const Effect> quantisation();
 
-inline constexpr double kOrdinaryError = 1e-3;  ///< [m] or [rad]
+inline constexpr double kTypicalError = 1e-3;  ///< [m] or [rad]
 
-using Actions = std::vector<std::vector<Action>>;
+using Perturbations = std::vector<std::vector<Perturbation>>;
 
-/// Whether the joint that leads a coordinate slides.
+/// Whether the joint that defines a coordinate is prismatic.
 bool slides(const Arm& arm, int coordinate);
 /// "rad" or "m"
 std::string unit_of(const Arm& arm, int coordinate);
@@ -48,20 +48,20 @@ std::string unit_of(const Arm& arm, int coordinate);
 bool varies(const Eigen::VectorXd& numbers);
 inline bool moves(const EffectData& data, int coordinate) { return varies(data.q.col(coordinate)); }
 
-// A variant may come from a file that somebody wrote: what does not fit the arm is refused.
+// A variant may come from a file: what does not fit the arm is refused.
 /// \throw std::invalid_argument for a variant without a joint, or with one that the arm has not
 int joint_of(const EffectVariant& variant, const EffectData& data);
 /// \throw std::invalid_argument where there is none
 double setting_of(const EffectVariant& variant, const std::string& name);
-/// A setting that counts something: a whole number from 0 to count - 1.
+/// A setting that is an index: a whole number from 0 to count - 1.
 /// \throw std::invalid_argument for any other, and where there is none
 int index_of(const EffectVariant& variant, const std::string& name, Index count);
 
-Action move_joint(int coordinate, const Eigen::VectorXd& values);
+Perturbation move_joint(int coordinate, const Eigen::VectorXd& values);
 /// The `axis`-th of shift x y z, turn x y z of a frame.
-Action move_frame(int frame, int axis, const Eigen::VectorXd& values);
+Perturbation move_frame(int frame, int axis, const Eigen::VectorXd& values);
 
 /// "shift_x" … "shift_z" and, where turns are wanted, "turn_x" … "turn_z".
 std::vector<std::string> frame_axes(const std::string& shift, const std::string& turn, bool turns);
 
-}  // namespace bathyal
+}  // namespace bathyal::effects

@@ -2,7 +2,7 @@
 // Compiled with -mavx2 -mfma, for machines that have them (base/simd.hpp).
 #include "bathyal/estimation/internal/gram_lanes.hpp"
 
-namespace bathyal::products {
+namespace bathyal::estimation {
 namespace {
 
 struct Avx2 {
@@ -16,4 +16,4 @@ struct Avx2 {
 
 extern const Kernels kAvx2{inner<Avx2>, combine<Avx2>};
 
-}  // namespace bathyal::products
+}  // namespace bathyal::estimation

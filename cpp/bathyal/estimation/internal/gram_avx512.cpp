@@ -2,7 +2,7 @@
 // Compiled for AVX-512, for machines that have it (base/simd.hpp).
 #include "bathyal/estimation/internal/gram_lanes.hpp"
 
-namespace bathyal::products {
+namespace bathyal::estimation {
 namespace {
 
 struct Avx512 {
@@ -16,4 +16,4 @@ struct Avx512 {
 
 extern const Kernels kAvx512{inner<Avx512>, combine<Avx512>};
 
-}  // namespace bathyal::products
+}  // namespace bathyal::estimation

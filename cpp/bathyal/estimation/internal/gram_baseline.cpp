@@ -2,7 +2,7 @@
 // Two rows at a time: SSE on x86-64, and whatever the machine has elsewhere.
 #include "bathyal/estimation/internal/gram_lanes.hpp"
 
-namespace bathyal::products {
+namespace bathyal::estimation {
 namespace {
 
 struct Baseline {
@@ -16,4 +16,4 @@ struct Baseline {
 
 extern const Kernels kBaseline{inner<Baseline>, combine<Baseline>};
 
-}  // namespace bathyal::products
+}  // namespace bathyal::estimation

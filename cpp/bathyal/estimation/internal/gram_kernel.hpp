@@ -3,10 +3,10 @@
 
 #include <cstddef>
 
-// The border between matrices and the kernels that are compiled once for each instruction set:
+// The interface between matrices and the kernels that are compiled once for each instruction set:
 // plain numbers and pointers only.
 
-namespace bathyal::products {
+namespace bathyal::estimation {
 
 /// Columns in memory, `stride` numbers from one to the next.
 struct PlainColumns {
@@ -24,7 +24,7 @@ struct Product {
   double* scratch;  ///< scratch_size(a.count) numbers, of a combination only
 };
 
-inline constexpr std::ptrdiff_t kMostRows = 24;  ///< that a combination makes at once
+inline constexpr std::ptrdiff_t kMostRows = 24;  ///< computed at once by a combination
 
 inline std::ptrdiff_t scratch_size(std::ptrdiff_t columns) { return kMostRows * columns; }
 
@@ -39,4 +39,4 @@ extern const Kernels kAvx2;
 extern const Kernels kAvx512;
 #endif
 
-}  // namespace bathyal::products
+}  // namespace bathyal::estimation

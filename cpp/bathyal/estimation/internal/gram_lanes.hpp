@@ -4,21 +4,20 @@
 #include "bathyal/base/lanes.hpp"
 #include "bathyal/estimation/internal/gram_kernel.hpp"
 
-// Products of tall matrices: written once, compiled for each instruction set. Every number is made
-// by the same sums whatever the width and the tiles, and nothing is contracted, so that all sets
-// give the same bytes.
+// Products of tall matrices: written once, compiled for each instruction set. Every number is the
+// same sum in the same order for any width and tile size, without fused multiply-add, so that all
+// instruction sets give the same bytes.
 
-namespace bathyal::products {
+namespace bathyal::estimation {
 
-/// Up to `N` columns; where there are fewer, the last stands for the others and what comes of them
-/// is not used.
+/// Up to `N` columns; missing ones repeat the last column, and their results are discarded.
 template <int N>
 struct Tile {
   const double* column[N];
   int count;
   Tile(const PlainColumns& from, std::ptrdiff_t first) {
-    const std::ptrdiff_t left = from.count - first;
-    count = left < N ? static_cast<int>(left) : N;
+    const std::ptrdiff_t remaining = from.count - first;
+    count = remaining < N ? static_cast<int>(remaining) : N;
     for (int i = 0; i < N; ++i) {
       column[i] = from.first + (first + (i < count ? i : count - 1)) * from.stride;
     }
@@ -112,4 +111,4 @@ void combine(const Product& p) {
   }
 }
 
-}  // namespace bathyal::products
+}  // namespace bathyal::estimation

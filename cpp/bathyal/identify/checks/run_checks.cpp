@@ -7,16 +7,19 @@
 
 namespace bathyal {
 
-std::vector<std::string> examine(const Measurement& measurement, const ArmSystem& system,
-                                 const Arm& nominal, ArmFit& fit) {
+using namespace identify;
+
+std::vector<std::string> run_checks(const Measurement& measurement, const ArmResiduals& system,
+                                    const Arm& nominal, ArmFit& fit) {
   const OutlierSearch search = find_outliers(system, fit.values);
-  const JointStructure structure =
-      search.hopeless ? JointStructure{} : find_structure(system, search.x, search.trust);
+  const ResidualStructure structure =
+      search.no_consensus ? ResidualStructure{}
+                          : test_residual_structure(system, search.x, search.observation_weights);
   fit.outliers = search.outliers;
   fit.structure_p = structure.p;
-  const Case seen{measurement, system, nominal, fit, structure, search};
-  fit.warnings = find_doubts(seen);
-  return find_gross_doubts(seen);
+  const CheckContext context{measurement, system, nominal, fit, structure, search};
+  fit.warnings = all_warnings(context);
+  return gross_warnings(context);
 }
 
 }  // namespace bathyal

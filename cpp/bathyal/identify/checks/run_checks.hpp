@@ -5,10 +5,9 @@
 
 namespace bathyal {
 
-/// Looks at a fit as a doubting reader would, and writes what is wrong with it into its `outliers`,
-/// `structure_p` and `warnings`. For use inside the room.
-/// \return those of the warnings that stand whatever else than geometry may be wrong
-std::vector<std::string> examine(const Measurement& measurement, const ArmSystem& system,
-                                 const Arm& nominal, ArmFit& fit);
+/// Checks a fit and writes the result into its `outliers`, `structure_p` and `warnings`.
+/// \return those of the warnings that apply whatever effects are considered
+std::vector<std::string> run_checks(const Measurement& measurement, const ArmResiduals& system,
+                                    const Arm& nominal, ArmFit& fit);
 
 }  // namespace bathyal

@@ -10,21 +10,25 @@
 #include "bathyal/identify/model/effect_parameters.hpp"
 
 namespace bathyal {
+
+using namespace identify;
+
 namespace {
 
-bool is_angle(const Place& place) { return is_row(place) && !is_length(place); }
+bool is_angle(const ParameterSlot& place) { return is_row(place) && !is_length(place); }
 
-bool is_tool(const Place& place) {
-  return place.part == Part::kToolShift || place.part == Part::kToolTurn;
+bool is_tool(const ParameterSlot& place) {
+  return place.kind == ParameterKind::kToolShift || place.kind == ParameterKind::kToolTurn;
 }
 
-int column_named(const ArmColumns& columns, const std::string& name, std::string_view argument) {
-  const int column = find_column(columns.columns, name);
+int parameter_named(const ArmParameters& parameters, const std::string& name,
+                    std::string_view argument) {
+  const int column = find_parameter(parameters.parameters, name);
   if (column < 0) throw_argument(argument, "names of parameters, as \"d_1\"", name);
   return column;
 }
 
-bool holds(const std::vector<int>& columns, int column) {
+bool contains(const std::vector<int>& columns, int column) {
   return std::find(columns.begin(), columns.end(), column) != columns.end();
 }
 
@@ -34,150 +38,154 @@ double root_mean_square(const Eigen::Matrix3Xd& errors) {
 
 }  // namespace
 
-ArmProblem::ArmProblem(const Arm& known_arm, const Measurement& data, const IdentifyOptions& asked,
-                       const std::vector<HeldEffect>& effects)
+CalibrationProblem::CalibrationProblem(const Arm& known_arm, const Measurement& data,
+                                       const IdentifyOptions& given_options,
+                                       const std::vector<FixedEffect>& effects)
     : arm(known_arm),
       measurement(data),
-      options(asked),
-      base_free(asked.base == BaseChoice::kFree ||
-                (asked.base == BaseChoice::kAuto && data.tracked)),
-      columns{known_arm, {}, {}, {}, {}, {}},
-      size_told(data.tells_scale()) {
+      options(given_options),
+      base_free(given_options.base == BaseChoice::kFree ||
+                (given_options.base == BaseChoice::kAuto && data.tracked)),
+      parameters{known_arm, {}, {}, {}, {}, {}},
+      scale_observed(data.observes_scale()) {
   if (base_free && !measurement.in_world()) {
-    throw_argument("base", "\"fixed\" or \"auto\" for touches of points that nobody told",
+    throw_argument("base", "\"fixed\" or \"auto\" for touches of points with unknown positions",
                    "\"free\"");
   }
   find_columns();
-  hold(effects);
-  gauge = find_gauge(columns, measurement, choice(), measurement.in_world() && !base_free, fixed);
+  fix_effects(effects);
+  redundant = find_redundant(parameters, measurement, choice(),
+                             measurement.in_world() && !base_free, fixed);
   set_priors();
-  system.emplace(columns, measurement, options.criterion, options.pair_weights,
+  system.emplace(parameters, measurement, options.criterion, options.pair_weights,
                  options.num_threads);
-  settle_frames();
-  free_the_rest();
-  set_first_noise();
+  fit_frames();
+  free_remaining();
+  set_initial_noise();
 }
 
-ColumnChoice ArmProblem::choice() const {
+ParameterChoice CalibrationProblem::choice() const {
   return {options.parametrization, options.nearly_parallel, base_free};
 }
 
-void ArmProblem::find_columns() {
+void CalibrationProblem::find_columns() {
   const bool tool_given =
       options.tool_start == ToolStart::kArm ||
       (options.tool_start == ToolStart::kAuto && arm.tool().translation() != Vec3::Zero());
-  Start found = find_start(arm, measurement, tool_given, base_free);
-  columns = make_columns(arm, measurement, std::move(found.bases), std::move(found.tools),
-                         std::move(found.planes), choice());
-  start = columns.nominal();
+  InitialGuess found = find_initial_guess(arm, measurement, tool_given, base_free);
+  parameters = make_parameters(arm, measurement, std::move(found.bases), std::move(found.tools),
+                               std::move(found.planes), choice());
+  start = parameters.nominal();
   for (const std::string& name : options.fixed) {
-    fixed.push_back(column_named(columns, name, "fixed"));
+    fixed.push_back(parameter_named(parameters, name, "fixed"));
   }
 }
 
-void ArmProblem::hold(const std::vector<HeldEffect>& effects) {
-  for (const HeldEffect& held : effects) {
-    const int first = add_effect(columns, held.variant, held.actions);
-    for (Index p = 0; p < held.values.size(); ++p) {
-      columns.columns[first + p].nominal = held.values[p];
+void CalibrationProblem::fix_effects(const std::vector<FixedEffect>& effects) {
+  for (const FixedEffect& effect : effects) {
+    const int first = add_effect(parameters, effect.variant, effect.perturbations);
+    for (Index p = 0; p < effect.values.size(); ++p) {
+      parameters.parameters[first + p].nominal = effect.values[p];
       fixed.push_back(first + static_cast<int>(p));
     }
   }
-  start = columns.nominal();
+  start = parameters.nominal();
 }
 
-void ArmProblem::set_length_prior(double std) {
-  for (std::size_t i = 0; i < columns.columns.size(); ++i) {
-    Column& column = columns.columns[i];
-    if (is_length(columns.places[i]) && !options.priors.contains(column.name)) {
+void CalibrationProblem::set_length_prior(double std) {
+  for (std::size_t i = 0; i < parameters.parameters.size(); ++i) {
+    Parameter& column = parameters.parameters[i];
+    if (is_length(parameters.slots[i]) && !options.priors.contains(column.name)) {
       column.prior_std = std;
     }
   }
 }
 
-void ArmProblem::set_priors() {
+void CalibrationProblem::set_priors() {
   length_prior = options.length_prior;
-  if (!length_prior && !size_told) length_prior = options.size_prior;
+  if (!length_prior && !scale_observed) length_prior = options.size_prior;
   if (length_prior) set_length_prior(*length_prior);
-  for (std::size_t i = 0; options.angle_prior && i < columns.columns.size(); ++i) {
-    if (is_angle(columns.places[i])) columns.columns[i].prior_std = *options.angle_prior;
+  for (std::size_t i = 0; options.angle_prior && i < parameters.parameters.size(); ++i) {
+    if (is_angle(parameters.slots[i])) parameters.parameters[i].prior_std = *options.angle_prior;
   }
   for (const auto& [name, std] : options.priors) {
-    columns.columns[column_named(columns, name, "priors")].prior_std = std;
+    parameters.parameters[parameter_named(parameters, name, "priors")].prior_std = std;
   }
 }
 
-bool ArmProblem::drop_size_prior(const Eigen::MatrixXd& unseen) {
-  // A length that the caller holds hides the change of size from what is unseen.
-  const bool length_held =
-      std::any_of(fixed.begin(), fixed.end(), [&](int c) { return is_length(columns.places[c]); });
-  const bool slides = std::any_of(arm.joints().begin(), arm.joints().end(), [](const Joint& joint) {
-    return joint.type == JointType::kPrismatic;
-  });
-  if (size_told || length_held || !slides) return false;
-  Eigen::VectorXd size = size_derivative(columns);
-  for (Index i = 0; i < size.size(); ++i) size[i] *= columns.columns[i].scale;
-  if ((unseen.transpose() * size).norm() > kUnseenShare * size.norm()) return false;
-  size_told = true;
+bool CalibrationProblem::drop_scale_prior(const Eigen::MatrixXd& null_space) {
+  // A length fixed by the caller removes the change of scale from the null space.
+  const bool length_fixed = std::any_of(fixed.begin(), fixed.end(),
+                                        [&](int c) { return is_length(parameters.slots[c]); });
+  const bool has_prismatic =
+      std::any_of(arm.joints().begin(), arm.joints().end(),
+                  [](const Joint& joint) { return joint.type == JointType::kPrismatic; });
+  if (scale_observed || length_fixed || !has_prismatic) return false;
+  Eigen::VectorXd size = scale_derivative(parameters);
+  for (Index i = 0; i < size.size(); ++i) size[i] *= parameters.parameters[i].scale;
+  if ((null_space.transpose() * size).norm() > kNullSpaceShare * size.norm()) return false;
+  scale_observed = true;
   if (options.length_prior) return false;
   length_prior.reset();
-  set_length_prior(Column::kNoPrior);
+  set_length_prior(Parameter::kNoPrior);
   return true;
 }
 
-/// Bases, tools of tracked poses and planes for the nominal rows: what a user who identifies
-/// nothing would find, and the frames about which turns are then told.
-void ArmProblem::settle_frames() {
+/// Bases, tools of tracked poses and planes for the nominal rows: the result without
+/// identification, and the frames that rotations then refer to.
+void CalibrationProblem::fit_frames() {
   std::vector<int> frames;
-  for (int i = 0; i < static_cast<int>(columns.places.size()); ++i) {
+  for (int i = 0; i < static_cast<int>(parameters.slots.size()); ++i) {
     const bool wanted =
-        !is_row(columns.places[i]) && (measurement.tracked || !is_tool(columns.places[i]));
-    if (wanted && !holds(fixed, i)) frames.push_back(i);
+        !is_row(parameters.slots[i]) && (measurement.tracked || !is_tool(parameters.slots[i]));
+    if (wanted && !contains(fixed, i)) frames.push_back(i);
   }
   if (frames.empty()) return;
   system->set_free(frames);
   system->set_use_priors(false);
   const Eigen::VectorXd nothing = Eigen::VectorXd::Zero(system->columns());
-  ArmState state = state_at(columns, system->values(solve_least_squares(*system, nothing).y));
-  const ArmColumns settled =
-      make_columns(arm, measurement, std::move(state.bases), std::move(state.tools),
-                   std::move(state.planes), choice());
-  for (std::size_t i = 0; i < settled.columns.size(); ++i) {
-    columns.columns[i].nominal = settled.columns[i].nominal;
+  ArmState state = state_at(parameters, system->values(solve_least_squares(*system, nothing).y));
+  const ArmParameters fitted =
+      make_parameters(arm, measurement, std::move(state.bases), std::move(state.tools),
+                      std::move(state.planes), choice());
+  for (std::size_t i = 0; i < fitted.parameters.size(); ++i) {
+    parameters.parameters[i].nominal = fitted.parameters[i].nominal;
   }
-  columns.bases = settled.bases;
-  columns.tools = settled.tools;
-  columns.planes = settled.planes;
-  start = columns.nominal();
+  parameters.bases = fitted.bases;
+  parameters.tools = fitted.tools;
+  parameters.planes = fitted.planes;
+  start = parameters.nominal();
 }
 
-void ArmProblem::free_the_rest() {
+void CalibrationProblem::free_remaining() {
   std::vector<int> free;
-  for (int i = 0; i < static_cast<int>(columns.columns.size()); ++i) {
-    const bool superfluous = std::any_of(gauge.begin(), gauge.end(),
-                                         [i](const GaugeColumn& g) { return g.column == i; });
-    if (!superfluous && !holds(fixed, i)) free.push_back(i);
+  for (int i = 0; i < static_cast<int>(parameters.parameters.size()); ++i) {
+    const bool is_redundant =
+        std::any_of(redundant.begin(), redundant.end(),
+                    [i](const RedundantParameter& g) { return g.column == i; });
+    if (!is_redundant && !contains(fixed, i)) free.push_back(i);
   }
   system->set_free(std::move(free));
   system->set_use_priors(true);
 }
 
-/// As if all that the nominal arm misses were noise: priors then count, but not for too much.
-void ArmProblem::set_first_noise() {
+/// Initially all residuals of the nominal arm are taken as noise: priors then count, but not too
+/// much.
+void CalibrationProblem::set_initial_noise() {
   Noise noise;
   noise.position =
       options.noise.value_or(std::max(root_mean_square(system->deviations(start)), kLeastNoise));
   if (measurement.has_rotation()) {
     noise.rotation = options.rotation_noise.value_or(
-        std::max(root_mean_square(system->turns(start)), kLeastNoise));
+        std::max(root_mean_square(system->rotation_deviations(start)), kLeastNoise));
   }
   system->set_noise(noise, start);
 }
 
-Eigen::VectorXd size_derivative(const ArmColumns& columns) {
-  Eigen::VectorXd derivative = columns.nominal();
+Eigen::VectorXd scale_derivative(const ArmParameters& parameters) {
+  Eigen::VectorXd derivative = parameters.nominal();
   for (Index i = 0; i < derivative.size(); ++i) {
-    if (!is_length(columns.places[i])) derivative[i] = 0.0;
+    if (!is_length(parameters.slots[i])) derivative[i] = 0.0;
   }
   const double square = derivative.squaredNorm();
   return square > 0.0 ? Eigen::VectorXd(derivative / square) : derivative;

@@ -8,66 +8,67 @@
 namespace bathyal {
 namespace {
 
-constexpr int kMostRounds = 12;
-constexpr int kMostTrustRounds = 60;
-constexpr double kNoiseSettled = 1e-4;  ///< relative
-constexpr double kTrustSettled = 1e-4;
-constexpr double kSizeSettled = 1e-6;  ///< in units of the columns' scale: nm and nrad
+constexpr int kMaxRounds = 12;
+constexpr int kMaxReweightings = 60;
+constexpr double kNoiseConverged = 1e-4;  ///< relative
+constexpr double kWeightsConverged = 1e-4;
+constexpr double kScaleConverged = 1e-6;  ///< in units of the parameter scales: nm and nrad
 constexpr double kWidthByNoise = 3.0;
 
-class Search {
+class CalibrationSearch {
  public:
-  Search(ArmProblem& problem, const Observability& seen)
+  CalibrationSearch(CalibrationProblem& problem, const Observability& observability)
       : problem_(problem),
-        seen_(seen),
+        observability_(observability),
         options_(problem.options),
         m_(problem.measurement),
         system_(*problem.system),
         result_{problem.start, {}, true, {}} {}
 
-  SearchResult run();
+  CalibrationResult run();
 
  private:
   void solve() { solve(options_.max_iterations); }
   void solve(int max_iterations);
   void solve_with_noise();
-  void solve_with_trust();
+  void solve_reweighted();
   void prune();
-  void undo_size_draw();
-  bool noise_is_told() const;
+  void remove_scale_bias();
+  bool noise_is_given() const;
   bool noise_matters() const;
   bool update_noise();
   Noise estimate_noise() const;
-  double trust_in(double distance_by_width) const;
-  Index least_sure() const;
+  double loss_weight(double distance_by_width) const;
+  Index least_significant() const;
 
-  ArmProblem& problem_;
-  const Observability& seen_;
+  CalibrationProblem& problem_;
+  const Observability& observability_;
   const IdentifyOptions& options_;
   const Measurement& m_;
-  ArmSystem& system_;
-  SearchResult result_;
+  ArmResiduals& system_;
+  CalibrationResult result_;
 };
 
-SearchResult Search::run() {
-  system_.set_linear_rows(rows_to_hold(seen_.blind, problem_.columns.columns));
-  // Where a loose prior alone holds the size, the noise that it is weighed against is found with a
-  // firm one: else both shrink together.
+CalibrationResult CalibrationSearch::run() {
+  system_.set_linear_constraints(
+      undetermined_constraints(observability_.undetermined, problem_.parameters.parameters));
+  // Where a loose prior alone determines the scale, the noise is estimated with a tight one:
+  // otherwise both would shrink together.
   const bool loose =
-      !noise_is_told() && !problem_.size_told && *problem_.length_prior > options_.size_prior;
+      !noise_is_given() && !problem_.scale_observed && *problem_.length_prior > options_.size_prior;
   if (loose) problem_.set_length_prior(options_.size_prior);
   solve_with_noise();
   if (loose) {
     problem_.set_length_prior(*problem_.length_prior);
     solve();
   }
-  if (options_.loss != Loss::kSquare) solve_with_trust();
+  if (options_.loss != Loss::kSquare) solve_reweighted();
   if (options_.prune_sigma) prune();
-  if (!m_.tracked && problem_.size_told) undo_size_draw();
+  if (!m_.tracked && problem_.scale_observed) remove_scale_bias();
   return std::move(result_);
 }
 
-void Search::solve(int max_iterations) {
+void CalibrationSearch::solve(int max_iterations) {
   const LeastSquaresOptions options{.solver = options_.solver, .max_iterations = max_iterations};
   const LeastSquaresResult found = solve_least_squares(system_, system_.scaled(result_.x), options);
   result_.x = system_.values(found.y);
@@ -78,61 +79,61 @@ void Search::solve(int max_iterations) {
   }
 }
 
-/// The first noise is a guess, and what it is weighed into is worth no more than a step: noise and
-/// numbers are found together, a step each, until the noise stands.
-void Search::solve_with_noise() {
-  const bool together = noise_matters() && !noise_is_told();
-  for (int round = 0; together && round < kMostRounds; ++round) {
+/// The initial noise is a guess: noise and parameters are estimated alternately, one step each,
+/// until the noise has converged.
+void CalibrationSearch::solve_with_noise() {
+  const bool together = noise_matters() && !noise_is_given();
+  for (int round = 0; together && round < kMaxRounds; ++round) {
     solve(1);
     if (!update_noise()) break;
   }
   solve();
-  for (int round = 0; round < kMostRounds && update_noise(); ++round) solve();
+  for (int round = 0; round < kMaxRounds && update_noise(); ++round) solve();
 }
 
-bool Search::noise_is_told() const {
+bool CalibrationSearch::noise_is_given() const {
   return options_.noise && (options_.rotation_noise || !m_.has_rotation());
 }
 
-/// Whether anything is weighed against positions.
-bool Search::noise_matters() const {
-  const auto held = static_cast<Index>(system_.linear_rows().size());
-  return system_.rows() > system_.position_rows() + held;
+/// Whether other rows are weighted against positions.
+bool CalibrationSearch::noise_matters() const {
+  const auto constraints = static_cast<Index>(system_.linear_constraints().size());
+  return system_.rows() > system_.position_rows() + constraints;
 }
 
-/// False when nothing changed that the solution depends on.
-bool Search::update_noise() {
-  if (noise_is_told()) return false;
+/// False when the change does not affect the solution.
+bool CalibrationSearch::update_noise() {
+  if (noise_is_given()) return false;
   const Noise old = system_.noise();
   const Noise noise = estimate_noise();
   system_.set_noise(noise, result_.x);
-  return noise_matters() && (std::abs(noise.position / old.position - 1.0) > kNoiseSettled ||
-                             std::abs(noise.rotation / old.rotation - 1.0) > kNoiseSettled);
+  return noise_matters() && (std::abs(noise.position / old.position - 1.0) > kNoiseConverged ||
+                             std::abs(noise.rotation / old.rotation - 1.0) > kNoiseConverged);
 }
 
-/// Each kind of row by its own residuals: σ² = Σ r² / (rows - what the columns take of them).
-Noise Search::estimate_noise() const {
+/// Each kind of row by its own residuals: σ² = Σ r² / (rows - trace of their hat matrix).
+Noise CalibrationSearch::estimate_noise() const {
   const Eigen::MatrixXd jacobian = system_.jacobian(result_.x);
   const Index wide = jacobian.cols();
   const Index positions = system_.position_rows();
   const Index rotations = system_.rotation_rows();
   const Index others = jacobian.rows() - positions - rotations;
   const int threads = system_.num_threads();
-  const Eigen::MatrixXd of_positions = triangle_of(jacobian.topRows(positions), threads);
+  const Eigen::MatrixXd of_positions = qr_factor(jacobian.topRows(positions), threads);
   const Eigen::MatrixXd of_rotations =
-      triangle_of(jacobian.middleRows(positions, rotations), threads);
+      qr_factor(jacobian.middleRows(positions, rotations), threads);
   Eigen::MatrixXd together(2 * wide + others, wide);
   together << of_positions, of_rotations, jacobian.bottomRows(others);
-  const Eigen::MatrixXd all = triangle_of(together);
+  const Eigen::MatrixXd all = qr_factor(together);
   const auto estimate = [&](const Eigen::Matrix3Xd& residuals, const Eigen::MatrixXd& part,
                             double rows, double old) {
     double sum = 0.0;
     for (Index i = 0; i < m_.rows(); ++i) sum += system_.weight(i) * residuals.col(i).squaredNorm();
-    // Every direction is held by something, so that the triangle can be inverted.
-    const Eigen::MatrixXd taken =
+    // Every direction is determined by some row, so that the R factor is invertible.
+    const Eigen::MatrixXd projected =
         all.triangularView<Eigen::Upper>().transpose().solve(part.transpose());
-    const double freedom = rows - taken.squaredNorm();
-    return freedom > 0.5 ? std::max(std::sqrt(sum / freedom), kLeastNoise) : old;
+    const double dof = rows - projected.squaredNorm();
+    return dof > 0.5 ? std::max(std::sqrt(sum / dof), kLeastNoise) : old;
   };
   Noise noise = system_.noise();
   if (!options_.noise) {
@@ -140,66 +141,67 @@ Noise Search::estimate_noise() const {
                               noise.position);
   }
   if (m_.has_rotation() && !options_.rotation_noise) {
-    noise.rotation = estimate(system_.turns(result_.x), of_rotations,
+    noise.rotation = estimate(system_.rotation_deviations(result_.x), of_rotations,
                               static_cast<double>(3 * m_.rows()), noise.rotation);
   }
   return noise;
 }
 
 /// Iteratively reweighted least squares.
-void Search::solve_with_trust() {
-  for (int round = 0; round < kMostTrustRounds; ++round) {
+void CalibrationSearch::solve_reweighted() {
+  for (int round = 0; round < kMaxReweightings; ++round) {
     Eigen::VectorXd distances = system_.deviations(result_.x).colwise().norm();
     for (Index i = 0; i < distances.size(); ++i) distances[i] *= std::sqrt(m_.weights[i]);
     const double noise =
         options_.noise.value_or(std::max(median_noise(system_, distances), kLeastNoise));
     const double width = options_.loss_width.value_or(kWidthByNoise * noise);
-    std::vector<double> trust = system_.trust();
+    std::vector<double> observation_weights = system_.observation_weights();
     double change = 0.0;
     for (Index i = 0; i < distances.size(); ++i) {
-      const double next = trust_in(distances[i] / width);
-      change = std::max(change, std::abs(next - trust[i]));
-      trust[i] = next;
+      const double next = loss_weight(distances[i] / width);
+      change = std::max(change, std::abs(next - observation_weights[i]));
+      observation_weights[i] = next;
     }
-    system_.set_trust(std::move(trust));
+    system_.set_observation_weights(std::move(observation_weights));
     system_.set_noise({noise, system_.noise().rotation}, result_.x);
-    if (change < kTrustSettled) break;
+    if (change < kWeightsConverged) break;
     solve();
   }
 }
 
-/// The weight that the loss gives a row, by its distance in widths.
-double Search::trust_in(double ratio) const {
+/// Weight of a row by the loss, from its distance in widths.
+double CalibrationSearch::loss_weight(double ratio) const {
   if (options_.loss == Loss::kHuber) return ratio > 1.0 ? 1.0 / ratio : 1.0;
   return 1.0 / (1.0 + ratio * ratio);
 }
 
-/// One at a time, the one that is least of its std first.
-void Search::prune() {
-  for (Index least = least_sure(); least >= 0; least = least_sure()) {
+/// One at a time, the least significant first.
+void CalibrationSearch::prune() {
+  for (Index least = least_significant(); least >= 0; least = least_significant()) {
     std::vector<int> free = system_.free();
     const int column = free[least];
     free.erase(free.begin() + least);
     result_.pruned.push_back(column);
-    result_.x[column] = problem_.columns.columns[column].nominal;
+    result_.x[column] = problem_.parameters.parameters[column].nominal;
     system_.set_free(std::move(free));
     solve();
     if (options_.loss == Loss::kSquare) update_noise();
   }
 }
 
-/// Position among the free columns of the row's number that lies the fewest std from nominal; -1
-/// when all lie beyond `prune_sigma`.
-Index Search::least_sure() const {
-  const Eigen::MatrixXd covariance = free_covariance(system_, result_.x, seen_.blind);
+/// Index among the free parameters of the row parameter with the fewest std from nominal; -1 when
+/// all lie beyond `prune_sigma`.
+Index CalibrationSearch::least_significant() const {
+  const Eigen::MatrixXd covariance =
+      free_covariance(system_, result_.x, observability_.undetermined);
   const Eigen::VectorXd y = system_.scaled(result_.x);
   Index least = -1;
   double least_ratio = *options_.prune_sigma;
   for (Index i = 0; i < y.size(); ++i) {
     const int column = system_.free()[i];
     const double std = std::sqrt(covariance(i, i));
-    const bool seen = !takes_part(column, seen_.unseen);
-    if (!is_row(problem_.columns.places[column]) || !seen || !(std > 0.0)) continue;
+    const bool observable = !takes_part(column, observability_.null_space);
+    if (!is_row(problem_.parameters.slots[column]) || !observable || !(std > 0.0)) continue;
     if (std::abs(y[i]) / std < least_ratio) {
       least = i;
       least_ratio = std::abs(y[i]) / std;
@@ -208,23 +210,23 @@ Index Search::least_sure() const {
   return least;
 }
 
-/// Scatter is recorded in joint values, and a smaller arm shows less of it: the least sum of
-/// squares is that of an arm too small by (degrees of freedom) · (relative std of its size)², many
-/// std where hundreds of touches lean on a short known distance. The derivatives of exact touches
-/// know nothing of the scatter, so that steps along them end where what is known of the size is
-/// met. Data that no arm fits may let the steps grow: least squares stand then.
-void Search::undo_size_draw() {
-  const Eigen::VectorXd least = result_.x;
+/// Scatter is recorded in joint values, and a smaller arm maps it to a smaller one: least squares
+/// underestimates the scale by (degrees of freedom) · (relative std of the scale)², many std where
+/// hundreds of touches rely on a short known distance. The derivatives of consistent touches do not
+/// depend on the scatter, so that steps along them converge to the observed scale. For data that no
+/// arm fits the steps may grow: the least-squares solution is then kept.
+void CalibrationSearch::remove_scale_bias() {
+  const Eigen::VectorXd minimum = result_.x;
   Eigen::VectorXd residuals(system_.rows());
   double last = std::numeric_limits<double>::infinity();
-  while (last > kSizeSettled) {
-    ArmSystem exact = system_;
-    exact.set_joints(exact_joints(system_, result_.x));
+  while (last > kScaleConverged) {
+    ArmResiduals consistent = system_;
+    consistent.set_joints(consistent_joints(system_, result_.x));
     const Eigen::VectorXd y = system_.scaled(result_.x);
     system_.evaluate(y.data(), residuals.data(), nullptr);
-    const Eigen::VectorXd step = exact.jacobian(result_.x).householderQr().solve(-residuals);
+    const Eigen::VectorXd step = consistent.jacobian(result_.x).householderQr().solve(-residuals);
     if (!(step.norm() < last)) {
-      result_.x = least;
+      result_.x = minimum;
       return;
     }
     last = step.norm();
@@ -234,8 +236,8 @@ void Search::undo_size_draw() {
 
 }  // namespace
 
-SearchResult search(ArmProblem& problem, const Observability& seen) {
-  return Search(problem, seen).run();
+CalibrationResult search(CalibrationProblem& problem, const Observability& observability) {
+  return CalibrationSearch(problem, observability).run();
 }
 
 }  // namespace bathyal

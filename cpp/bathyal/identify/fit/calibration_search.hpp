@@ -8,16 +8,15 @@
 
 namespace bathyal {
 
-struct SearchResult {
-  Eigen::VectorXd x;            ///< values of all columns
+struct CalibrationResult {
+  Eigen::VectorXd x;            ///< values of all parameters
   std::vector<double> history;  ///< sum of squares [m²] at the start and after each step
   bool converged = true;
-  std::vector<int> pruned;  ///< columns put back to nominal
+  std::vector<int> pruned;  ///< parameters reset to nominal
 };
 
-/// Finds the columns that fit the data best, and with them the noise, the trust in each row (where
-/// a robust loss is asked for) and the columns to prune; all but the columns' values and the pruned
-/// ones is left in `problem.system`. For use inside the room.
-SearchResult search(ArmProblem& problem, const Observability& seen);
+/// Estimates the parameters, the noise, the observation weights (for a robust loss) and the
+/// parameters to prune; all but the values and the pruned parameters is left in `problem.system`.
+CalibrationResult search(CalibrationProblem& problem, const Observability& observability);
 
 }  // namespace bathyal

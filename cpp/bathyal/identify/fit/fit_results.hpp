@@ -6,7 +6,8 @@
 
 namespace bathyal {
 
-/// All that is told of an identification but warnings and outliers. For use inside the room.
-ArmFit report(const ArmProblem& problem, const Observability& seen, const SearchResult& found);
+/// The result of an identification without warnings and outliers.
+ArmFit make_arm_fit(const CalibrationProblem& problem, const Observability& observability,
+                    const CalibrationResult& found);
 
 }  // namespace bathyal

@@ -14,8 +14,8 @@ int count(const ArmFit& fit, Status status) {
                     [status](const FitParameter& p) { return p.status == status; }));
 }
 
-/// The least surely known of the identified ones in a unit; null when there is none.
-const FitParameter* least_sure(const ArmFit& fit, const std::string& unit) {
+/// The identified parameter of a unit with the largest std; null when there is none.
+const FitParameter* least_certain(const ArmFit& fit, const std::string& unit) {
   const FitParameter* worst = nullptr;
   for (const FitParameter& p : fit.parameters) {
     if (p.status != Status::kIdentified || p.unit != unit) continue;
@@ -24,7 +24,7 @@ const FitParameter* least_sure(const ArmFit& fit, const std::string& unit) {
   return worst;
 }
 
-std::string what_was_found(const ArmFit& fit) {
+std::string residuals_text(const ArmFit& fit) {
   std::string text = counted(fit.residuals.cols(), "pose");
   const auto points = static_cast<long>(fit.point_labels.size());
   if (points > 0) text += " at " + counted(points, "point");
@@ -32,43 +32,43 @@ std::string what_was_found(const ArmFit& fit) {
          millimetres(fit.rms_after) + " rms (3-D).";
 }
 
-std::string how_many(const ArmFit& fit) {
-  const int gauge = count(fit, Status::kGauge);
+std::string parameters_text(const ArmFit& fit) {
+  const int redundant = count(fit, Status::kGauge);
   const int prior = count(fit, Status::kPrior);
   const int lost = count(fit, Status::kNotIdentifiable);
   const int held = count(fit, Status::kFixed) + count(fit, Status::kPruned);
   std::vector<std::string> kinds{std::to_string(count(fit, Status::kIdentified)) +
-                                 " told by the data"};
-  if (prior > 0) kinds.push_back(std::to_string(prior) + " resting on a prior");
-  if (lost > 0) kinds.push_back(std::to_string(lost) + " not found");
-  if (gauge > 0) {
-    kinds.push_back(std::to_string(gauge) + " left to base and tool, which loses nothing (gauge)");
+                                 " determined by the data"};
+  if (prior > 0) kinds.push_back(std::to_string(prior) + " determined by a prior");
+  if (lost > 0) kinds.push_back(std::to_string(lost) + " not identifiable");
+  if (redundant > 0) {
+    kinds.push_back(std::to_string(redundant) +
+                    " redundant with base and tool, without loss of accuracy (gauge)");
   }
   if (held > 0) kinds.push_back(std::to_string(held) + " held at nominal");
   return " Of " + counted(static_cast<long>(fit.parameters.size()), "parameter") + ": " +
          listed(kinds) + ".";
 }
 
-std::string how_surely(const ArmFit& fit) {
+std::string uncertainty_text(const ArmFit& fit) {
   std::vector<std::string> worst;
   for (const char* unit : {"m", "rad"}) {
-    const FitParameter* p = least_sure(fit, unit);
-    if (p != nullptr) worst.push_back(p->words + " ± " + in_its_unit(p->std, unit));
+    const FitParameter* p = least_certain(fit, unit);
+    if (p != nullptr) worst.push_back(p->description + " ± " + in_its_unit(p->std, unit));
   }
   std::string text = " Noise " + millimetres(fit.noise) + " per axis.";
-  if (!worst.empty()) text += " Least sure of what was told: " + listed(worst) + " (1 sigma).";
-  return text + " The arm's size, " + three_digits(100.0 * fit.scale) + " % of nominal ± " +
-         three_digits(100.0 * fit.scale_std) + " %, rests on: " + fit.scale_source + ".";
+  if (!worst.empty()) text += " Least certain of these: " + listed(worst) + " (1 sigma).";
+  return text + " The scale of the arm, " + three_digits(100.0 * fit.scale) + " % of nominal ± " +
+         three_digits(100.0 * fit.scale_std) + " %, is determined by: " + fit.scale_source + ".";
 }
 
-std::string what_speaks_against(const ArmFit& fit) {
+std::string warnings_text(const ArmFit& fit) {
   if (fit.warnings.empty()) {
-    return " Nothing in the data speaks against it. To be sure, touch a few poses more that were "
-           "not used and compare.";
+    return " No check raised a warning. To verify it, touch a few more poses that were not used "
+           "and compare.";
   }
-  if (fit.warnings.size() == 1) return " But: " + fit.warnings[0];
-  std::string text =
-      " But " + std::to_string(fit.warnings.size()) + " things speak against taking it as it is.";
+  if (fit.warnings.size() == 1) return " Warning: " + fit.warnings[0];
+  std::string text = " " + std::to_string(fit.warnings.size()) + " warnings.";
   for (std::size_t i = 0; i < fit.warnings.size(); ++i) {
     text += " (" + std::to_string(i + 1) + ") " + fit.warnings[i];
   }
@@ -78,8 +78,8 @@ std::string what_speaks_against(const ArmFit& fit) {
 }  // namespace
 
 std::string summarize(const ArmFit& fit, bool with_warnings) {
-  const std::string found = what_was_found(fit) + how_many(fit) + how_surely(fit);
-  return fit.warnings.empty() || with_warnings ? found + what_speaks_against(fit) : found;
+  const std::string text = residuals_text(fit) + parameters_text(fit) + uncertainty_text(fit);
+  return fit.warnings.empty() || with_warnings ? text + warnings_text(fit) : text;
 }
 
 }  // namespace bathyal

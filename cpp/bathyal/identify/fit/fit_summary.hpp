@@ -7,8 +7,8 @@
 
 namespace bathyal {
 
-/// One paragraph in plain words: what was found, how surely, what the size rests on, what could not
-/// be told, and every warning unless these are told elsewhere.
+/// One paragraph: the result, its uncertainty, what determines the scale, what is undetermined, and
+/// every warning unless the caller reports them elsewhere.
 std::string summarize(const ArmFit& fit, bool with_warnings = true);
 
 }  // namespace bathyal

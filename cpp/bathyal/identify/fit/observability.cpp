@@ -8,10 +8,10 @@
 namespace bathyal {
 namespace {
 
-constexpr double kEqualNoise = 1e-3;     ///< [m] and [rad]: what a singular value of 1 stands for
-constexpr double kHeldDirection = 1e-3;  ///< in units of the columns' scale
+constexpr double kEqualNoise = 1e-3;     ///< [m] and [rad]: unit of the singular values
+constexpr double kConstraintStd = 1e-3;  ///< in units of the parameter scales
 
-/// Directions of the free columns as those of all, of which the others take no part.
+/// Directions of the free parameters among all parameters.
 Eigen::MatrixXd among_all(const Eigen::MatrixXd& rows, const std::vector<int>& free, Index count) {
   Eigen::MatrixXd all = Eigen::MatrixXd::Zero(count, rows.cols());
   all(free, Eigen::all) = rows;
@@ -34,65 +34,66 @@ Vec3 miss_of(const Measurement& m, Index row, const Vec3& tip, const Eigen::Matr
 
 }  // namespace
 
-Observability observe(const ArmSystem& system, const Eigen::VectorXd& x) {
-  const auto count = static_cast<Index>(system.arm_columns().columns.size());
+Observability observe(const ArmResiduals& system, const Eigen::VectorXd& x) {
+  const auto count = static_cast<Index>(system.arm_parameters().parameters.size());
   std::vector<int> all(static_cast<std::size_t>(count));
   std::iota(all.begin(), all.end(), 0);
-  ArmSystem data = system;
-  data.set_joints(exact_joints(system, x));
+  ArmResiduals data = system;
+  data.set_joints(consistent_joints(system, x));
   data.set_criterion(Criterion::kCentroid, false);
   data.set_free(all);
   data.set_equal_noise(kEqualNoise);
   data.set_use_priors(false);
-  data.set_linear_rows({});
-  const Eigen::MatrixXd jacobian = triangle_of(data.jacobian(x), system.num_threads());
+  data.set_linear_constraints({});
+  const Eigen::MatrixXd jacobian = qr_factor(data.jacobian(x), system.num_threads());
 
   const std::vector<int>& free = system.free();
-  const Eigen::MatrixXd unseen = unseen_of(jacobian(Eigen::all, free));
+  const Eigen::MatrixXd null_space = null_space_of(jacobian(Eigen::all, free));
 
-  // Of what the data do not see, priors hold what moves any of them.
-  const Eigen::MatrixXd told = system.linear_jacobian().rowwise().normalized() * unseen;
-  const Eigen::MatrixXd blind = unseen * unseen_of(told);
-  return {reveal_rank(jacobian), among_all(unseen, free, count), among_all(blind, free, count)};
+  // Of what the data do not observe, priors determine what changes any of them.
+  const Eigen::MatrixXd by_priors = system.linear_jacobian().rowwise().normalized() * null_space;
+  const Eigen::MatrixXd undetermined = null_space * null_space_of(by_priors);
+  return {numerical_rank(jacobian), among_all(null_space, free, count),
+          among_all(undetermined, free, count)};
 }
 
-std::vector<LinearRow> rows_to_hold(const Eigen::MatrixXd& blind,
-                                    const std::vector<Column>& columns) {
-  std::vector<LinearRow> rows;
-  for (Index k = 0; k < blind.cols(); ++k) {
-    LinearRow row{blind.col(k), kHeldDirection};
-    for (Index i = 0; i < blind.rows(); ++i) row.coefficients[i] /= columns[i].scale;
+std::vector<LinearConstraint> undetermined_constraints(const Eigen::MatrixXd& undetermined,
+                                                       const std::vector<Parameter>& parameters) {
+  std::vector<LinearConstraint> rows;
+  for (Index k = 0; k < undetermined.cols(); ++k) {
+    LinearConstraint row{undetermined.col(k), kConstraintStd};
+    for (Index i = 0; i < undetermined.rows(); ++i) row.coefficients[i] /= parameters[i].scale;
     rows.push_back(std::move(row));
   }
   return rows;
 }
 
-Eigen::MatrixXd free_covariance(const ArmSystem& system, const Eigen::VectorXd& x,
-                                const Eigen::MatrixXd& blind) {
-  ArmSystem exact = system;
-  exact.set_joints(exact_joints(system, x));
-  // Pair residuals are correlated; those about a centroid lose one touch to it, and no more.
-  exact.set_criterion(Criterion::kCentroid, false);
-  exact.set_linear_rows({});
-  const Eigen::MatrixXd jacobian = triangle_of(exact.jacobian(x), system.num_threads());
-  if (blind.cols() == 0) return inverse_square(jacobian);
-  const Eigen::MatrixXd left = complement(blind(system.free(), Eigen::all));
-  return left * inverse_square(jacobian * left) * left.transpose();
+Eigen::MatrixXd free_covariance(const ArmResiduals& system, const Eigen::VectorXd& x,
+                                const Eigen::MatrixXd& undetermined) {
+  ArmResiduals consistent = system;
+  consistent.set_joints(consistent_joints(system, x));
+  // Pair residuals are correlated; those about a centroid lose exactly one touch.
+  consistent.set_criterion(Criterion::kCentroid, false);
+  consistent.set_linear_constraints({});
+  const Eigen::MatrixXd jacobian = qr_factor(consistent.jacobian(x), system.num_threads());
+  if (undetermined.cols() == 0) return covariance_from_qr(jacobian);
+  const Eigen::MatrixXd basis = complement(undetermined(system.free(), Eigen::all));
+  return basis * covariance_from_qr(jacobian * basis) * basis.transpose();
 }
 
-RowMatrix exact_joints(const ArmSystem& system, const Eigen::VectorXd& x) {
+RowMatrix consistent_joints(const ArmResiduals& system, const Eigen::VectorXd& x) {
   const Measurement& m = system.measurement();
   RowMatrix q = m.q;
   if (m.tracked) return q;
   const Eigen::Matrix3Xd centers = system.centroids(x);
-  const TipWalk walk(system.arm_columns(), x, {});
-  WalkFrames frames;
+  const ChainDerivatives chain(system.arm_parameters(), x, {});
+  ChainFrames frames;
   for (Index i = 0; i < q.rows(); ++i) {
     const auto miss = [&](const Vec3& tip) {
-      return miss_of(m, i, tip, centers, walk.state().planes);
+      return miss_of(m, i, tip, centers, chain.state().planes);
     };
-    q.row(i) =
-        nearest_pose(walk, m.q.row(i), m.action_row(i), m.tool[i], m.station[i], frames, miss);
+    q.row(i) = nearest_pose(chain, m.q.row(i), m.perturbation_row(i), m.tool[i], m.station[i],
+                            frames, miss);
   }
   return q;
 }

@@ -6,31 +6,33 @@
 #include "bathyal/estimation/rank.hpp"
 #include "bathyal/identify/model/arm_residuals.hpp"
 
-// What touches or tracked poses can tell of an arm's columns. For use inside the room.
+// Observability of the parameters of an arm by touches or tracked poses.
 
 namespace bathyal {
 
-/// Directions are of all columns, in units of their scale.
+/// Directions are of all parameters, in units of their scale.
 struct Observability {
-  RankReport rank;         ///< of all columns, by the data alone
-  Eigen::MatrixXd unseen;  ///< (P, k) changes of the free columns that the data do not see
-  Eigen::MatrixXd blind;   ///< (P, l) those of them that no prior holds either
+  RankReport rank;  ///< of all parameters, by the data alone
+  Eigen::MatrixXd
+      null_space;  ///< (P, k) changes of the free parameters that the data do not observe
+  Eigen::MatrixXd undetermined;  ///< (P, l) those of them that no prior determines either
 };
 
-/// Asked at `x` for exact touches.
-Observability observe(const ArmSystem& system, const Eigen::VectorXd& x);
+/// Evaluated at `x` for consistent touches.
+Observability observe(const ArmResiduals& system, const Eigen::VectorXd& x);
 
-/// Rows that keep what is blind at nominal.
-std::vector<LinearRow> rows_to_hold(const Eigen::MatrixXd& blind,
-                                    const std::vector<Column>& columns);
+/// Constraints that keep `undetermined` directions at nominal.
+std::vector<LinearConstraint> undetermined_constraints(const Eigen::MatrixXd& undetermined,
+                                                       const std::vector<Parameter>& parameters);
 
-/// Covariance of the free columns (free, free), in units of their scale, for exact touches; what is
-/// `blind` counts nothing.
-Eigen::MatrixXd free_covariance(const ArmSystem& system, const Eigen::VectorXd& x,
-                                const Eigen::MatrixXd& blind);
+/// Covariance of the free parameters (free, free), in units of their scale, for consistent touches;
+/// without `undetermined` directions.
+Eigen::MatrixXd free_covariance(const ArmResiduals& system, const Eigen::VectorXd& x,
+                                const Eigen::MatrixXd& undetermined);
 
-/// The joint values nearest to those recorded at which every tip is where it should be: scatter of
-/// touches would pass for information about the arm's size. Of tracked poses: those recorded.
-RowMatrix exact_joints(const ArmSystem& system, const Eigen::VectorXd& x);
+/// The joint values nearest to those recorded at which every tip is where it should be, as in
+/// errors-in-variables: scatter of touches would otherwise count as information on the scale. Of
+/// tracked poses: those recorded.
+RowMatrix consistent_joints(const ArmResiduals& system, const Eigen::VectorXd& x);
 
 }  // namespace bathyal

@@ -11,7 +11,7 @@ namespace bathyal {
 namespace {
 
 constexpr std::uint64_t kSeed = 1;
-constexpr double kClearly = 1e-3;  ///< share of a column that those before it cannot do
+constexpr double kClearly = 1e-3;  ///< independent share of a column
 
 /// Poses all over the joints' range, for each tool and station in turn, as if tracked.
 Measurement random_poses(const Measurement& like, const Arm& arm, Index count) {
@@ -40,49 +40,51 @@ Measurement random_poses(const Measurement& like, const Arm& arm, Index count) {
   return m;
 }
 
-/// Three rows each: more of them than there are columns.
-Index enough_poses(const ArmColumns& columns) {
-  return static_cast<Index>(columns.columns.size()) / 2 + 4;
+/// Three rows each: more rows than parameters.
+Index enough_poses(const ArmParameters& parameters) {
+  return static_cast<Index>(parameters.parameters.size()) / 2 + 4;
 }
 
-Eigen::MatrixXd jacobian_at(const ArmColumns& columns, const Measurement& poses,
+Eigen::MatrixXd jacobian_at(const ArmParameters& parameters, const Measurement& poses,
                             const Eigen::VectorXd& x) {
-  ArmSystem system(columns, poses, Criterion::kCentroid, false, 1);
+  ArmResiduals system(parameters, poses, Criterion::kCentroid, false, 1);
   system.set_use_priors(false);
   return system.jacobian(x);
 }
 
 /// Rows without right angles, parallel axes or lengths of zero.
-Eigen::VectorXd without_chance(const ArmColumns& columns) {
-  Eigen::VectorXd x = columns.nominal();
+Eigen::VectorXd without_special_angles(const ArmParameters& parameters) {
+  Eigen::VectorXd x = parameters.nominal();
   RandomStream random(kSeed, 1);
   for (Index i = 0; i < x.size(); ++i) {
-    const Part part = columns.places[i].part;
+    const ParameterKind part = parameters.slots[i].kind;
     const double size = random.uniform(0.1, 0.3) * (random.uniform() < 0.5 ? -1.0 : 1.0);
-    if (is_row(columns.places[i]) || part == Part::kToolShift) x[i] += size;
+    if (is_row(parameters.slots[i]) || part == ParameterKind::kToolShift) x[i] += size;
   }
   return x;
 }
 
-/// The base and the tool first: what they can do, rows need not.
-std::vector<int> order_of(const ArmColumns& columns, bool base_known) {
+/// Base and tool first: what they can represent, rows need not.
+std::vector<int> order_of(const ArmParameters& parameters, bool base_known) {
   std::vector<int> order;
   const auto take = [&](auto wanted) {
-    for (int i = 0; i < static_cast<int>(columns.places.size()); ++i) {
-      if (wanted(columns.places[i])) order.push_back(i);
+    for (int i = 0; i < static_cast<int>(parameters.slots.size()); ++i) {
+      if (wanted(parameters.slots[i])) order.push_back(i);
     }
   };
-  take([&](const Place& p) {
-    const bool base = p.part == Part::kBaseShift || p.part == Part::kBaseTurn;
+  take([&](const ParameterSlot& p) {
+    const bool base = p.kind == ParameterKind::kBaseShift || p.kind == ParameterKind::kBaseTurn;
     return base && !(base_known && p.index == 0);
   });
-  take([](const Place& p) { return p.part == Part::kToolShift || p.part == Part::kToolTurn; });
+  take([](const ParameterSlot& p) {
+    return p.kind == ParameterKind::kToolShift || p.kind == ParameterKind::kToolTurn;
+  });
   take(is_row);
   return order;
 }
 
-/// The columns that were kept, then those that were not.
-std::vector<int> preferred(Selection selection) {
+/// The selected parameters, then the others.
+std::vector<int> preferred(IndependentColumns selection) {
   std::vector<int> order = std::move(selection.kept);
   order.insert(order.end(), selection.dependent.begin(), selection.dependent.end());
   return order;
@@ -90,56 +92,61 @@ std::vector<int> preferred(Selection selection) {
 
 }  // namespace
 
-std::vector<GaugeColumn> find_gauge(const ArmColumns& columns, const Measurement& measurement,
-                                    const ColumnChoice& choice, bool base_known,
-                                    const std::vector<int>& fixed) {
-  ColumnChoice with_base = choice;
+std::vector<RedundantParameter> find_redundant(const ArmParameters& parameters,
+                                               const Measurement& measurement,
+                                               const ParameterChoice& choice, bool base_known,
+                                               const std::vector<int>& fixed) {
+  ParameterChoice with_base = choice;
   with_base.free_base = true;
   Measurement no_planes = measurement;
   no_planes.plane_names.clear();
-  const ArmColumns all =
-      make_columns(columns.arm, no_planes, columns.bases, columns.tools, {}, with_base);
-  const Measurement poses = random_poses(measurement, columns.arm, enough_poses(all));
+  const ArmParameters all =
+      make_parameters(parameters.arm, no_planes, parameters.bases, parameters.tools, {}, with_base);
+  const Measurement poses = random_poses(measurement, parameters.arm, enough_poses(all));
   std::vector<int> order = order_of(all, base_known);
   for (const int column : fixed) {
-    std::erase(order, find_column(all.columns, columns.columns[column].name));
+    std::erase(order, find_parameter(all.parameters, parameters.parameters[column].name));
   }
-  // Where the arm stands, a column can be dark that has light anywhere else (parallel axes, sliding
-  // joints at right angles): held in its stead, one that has light here would be missed. So what
-  // brings something new here comes first, and the clearest of that before what a rounded angle
-  // alone lets through; whatever else is new elsewhere may then be kept beside it.
+  // At the actual arm a parameter can be unobservable that is observable at any other one (parallel
+  // axes, prismatic joints at right angles): if it were kept, one that is observable here would be
+  // missing. So parameters that are independent here come first, the clearly independent ones
+  // before those that are so only by a rounded angle; whatever else is independent elsewhere may
+  // then be kept in addition.
   const Eigen::MatrixXd jacobian = jacobian_at(all, poses, all.nominal());
   order = preferred(select_independent(jacobian, order, {kClearly, kRankTolerance}));
-  const Selection selection =
-      select_independent(jacobian_at(all, poses, without_chance(all)), order);
+  const IndependentColumns selection =
+      select_independent(jacobian_at(all, poses, without_special_angles(all)), order);
   if (selection.dependent.empty()) return {};
 
-  // What takes a gauge column's part is told for the arm as it is.
+  // The equivalents of a redundant parameter are those at the actual arm.
   Eigen::MatrixXd kept(jacobian.rows(), static_cast<Index>(selection.kept.size()));
   for (Index k = 0; k < kept.cols(); ++k) kept.col(k) = jacobian.col(selection.kept[k]);
   Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decomposition;
   decomposition.setThreshold(kRankTolerance);
   decomposition.compute(kept);
 
-  std::vector<GaugeColumn> gauge;
+  std::vector<RedundantParameter> redundant;
   for (const int dependent : selection.dependent) {
-    const Column& column = all.columns[dependent];
-    GaugeColumn found{find_column(columns.columns, column.name), {}};
+    const Parameter& column = all.parameters[dependent];
+    RedundantParameter found{find_parameter(parameters.parameters, column.name), {}};
     const Eigen::VectorXd share = decomposition.solve(jacobian.col(dependent));
     for (Index k = 0; k < share.size(); ++k) {
-      const Column& other = all.columns[selection.kept[k]];
+      const Parameter& other = all.parameters[selection.kept[k]];
       if (std::abs(share[k]) > 1e-6) {
-        found.trades.push_back({other.name, other.words, -share[k] * other.scale / column.scale});
+        found.partners.push_back(
+            {other.name, other.description, -share[k] * other.scale / column.scale});
       }
     }
-    std::stable_sort(found.trades.begin(), found.trades.end(), [](const Trade& a, const Trade& b) {
-      return std::abs(a.factor) > std::abs(b.factor);
-    });
-    gauge.push_back(std::move(found));
+    std::stable_sort(found.partners.begin(), found.partners.end(),
+                     [](const NullSpacePartner& a, const NullSpacePartner& b) {
+                       return std::abs(a.factor) > std::abs(b.factor);
+                     });
+    redundant.push_back(std::move(found));
   }
-  std::sort(gauge.begin(), gauge.end(),
-            [](const GaugeColumn& a, const GaugeColumn& b) { return a.column < b.column; });
-  return gauge;
+  std::sort(
+      redundant.begin(), redundant.end(),
+      [](const RedundantParameter& a, const RedundantParameter& b) { return a.column < b.column; });
+  return redundant;
 }
 
 }  // namespace bathyal

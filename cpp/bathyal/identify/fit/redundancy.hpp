@@ -8,20 +8,21 @@
 
 namespace bathyal {
 
-/// A column that no measurement of this kind can ever tell from the base, the tool and the columns
-/// that are kept: it stays at its nominal value, and loses nothing by it.
-struct GaugeColumn {
+/// A parameter that no measurement of this kind can distinguish from the base, the tool and the
+/// parameters that are kept: it stays at its nominal value without loss of accuracy.
+struct RedundantParameter {
   int column = 0;
-  std::vector<Trade> trades;  ///< what can do the same, and how much of it per unit
+  std::vector<NullSpacePartner> partners;  ///< equivalent changes of others, per unit
 };
 
-/// Found by trial, not by rule: the tip's derivatives over random poses of an arm with rows like
-/// this one's but no special angles or lengths. Which of the columns that do the same is kept, the
-/// arm as it stands decides: together those see all that can be seen of it there, too. With
-/// `base_known` the base takes nothing over, and columns that are `fixed` neither take over nor are
-/// gauge. For use inside the room.
-std::vector<GaugeColumn> find_gauge(const ArmColumns& columns, const Measurement& measurement,
-                                    const ColumnChoice& choice, bool base_known,
-                                    const std::vector<int>& fixed);
+/// Determined numerically, not by rules: from the derivatives of the tip over random poses of an
+/// arm with rows like those of this one but without special angles or lengths. Which of several
+/// equivalent parameters is kept is decided at the actual arm: together they observe all that is
+/// observable there, too. With `base_known` the base is not free to absorb anything, and `fixed`
+/// parameters neither absorb nor are redundant.
+std::vector<RedundantParameter> find_redundant(const ArmParameters& parameters,
+                                               const Measurement& measurement,
+                                               const ParameterChoice& choice, bool base_known,
+                                               const std::vector<int>& fixed);
 
 }  // namespace bathyal

@@ -27,21 +27,21 @@ bool has_next_axis(const Arm& arm, std::size_t k) {
   return false;
 }
 
-class ColumnMaker {
+class ParameterMaker {
  public:
-  explicit ColumnMaker(ArmColumns& out) : out_(out) {}
+  explicit ParameterMaker(ArmParameters& out) : out_(out) {}
 
-  void row(std::size_t joint, Part part, const std::string& symbol, double nominal) {
-    const bool length = part == Part::kD || part == Part::kA;
+  void row(std::size_t joint, ParameterKind kind, const std::string& symbol, double nominal) {
+    const bool length = kind == ParameterKind::kD || kind == ParameterKind::kA;
     const std::string number = std::to_string(joint + 1);
     add({symbol + "_" + number, symbol + " of row " + number, length ? "m" : "rad", "row " + number,
          nominal, kScale},
-        {part, static_cast<int>(joint), 0});
+        {kind, static_cast<int>(joint), 0});
   }
 
   /// Three shifts and, where wanted, three turns of the frame `name`.
-  void frame(const std::string& name, int index, bool turns, Part shift, Part turn,
-             const Vec3& nominal) {
+  void frame(const std::string& name, int index, bool turns, ParameterKind shift,
+             ParameterKind turn, const Vec3& nominal) {
     static constexpr std::array<const char*, 3> kAxes{"x", "y", "z"};
     const std::string number = index == 0 ? "" : std::to_string(index + 1);
     const std::string group = name + (index == 0 ? "" : " " + number);
@@ -62,25 +62,25 @@ class ColumnMaker {
     for (int axis = 0; axis < 2; ++axis) {
       add({"plane" + name + "_r" + std::to_string(axis + 1),
            "tilt " + std::to_string(axis + 1) + " of " + group, "rad", group, 0.0, kScale},
-          {Part::kPlaneTurn, index, axis});
+          {ParameterKind::kPlaneTurn, index, axis});
     }
     add({"plane" + name + "_offset", "offset of " + group, "m", group, offset, kScale},
-        {Part::kPlaneShift, index, 0});
+        {ParameterKind::kPlaneShift, index, 0});
   }
 
  private:
-  /// An ordinary error of an arm is a millimetre or a milliradian.
+  /// Typical errors of an arm are a millimetre or a milliradian.
   static constexpr double kScale = 1e-3;
 
-  void add(Column column, Place place) {
-    out_.columns.push_back(std::move(column));
-    out_.places.push_back(place);
+  void add(Parameter parameter, ParameterSlot slot) {
+    out_.parameters.push_back(std::move(parameter));
+    out_.slots.push_back(slot);
   }
 
-  ArmColumns& out_;
+  ArmParameters& out_;
 };
 
-void add_rows(const Arm& arm, const ColumnChoice& choice, ColumnMaker& maker) {
+void add_rows(const Arm& arm, const ParameterChoice& choice, ParameterMaker& maker) {
   for (std::size_t k = 0; k < arm.joints().size(); ++k) {
     const Joint& joint = arm.joints()[k];
     if (joint.type == JointType::kFixed) continue;
@@ -88,11 +88,11 @@ void add_rows(const Arm& arm, const ColumnChoice& choice, ColumnMaker& maker) {
     const bool parallel = choice.parametrization == Parametrization::kHayati &&
                           has_next_axis(arm, k) &&
                           std::hypot(next.x(), next.y()) < choice.nearly_parallel;
-    maker.row(k, Part::kTheta, "theta", joint.row.theta);
-    if (!parallel) maker.row(k, Part::kD, "d", joint.row.d);
-    maker.row(k, Part::kA, "a", joint.row.a);
-    maker.row(k, Part::kAlpha, "alpha", joint.row.alpha);
-    if (parallel) maker.row(k, Part::kBeta, "beta", joint.row.beta);
+    maker.row(k, ParameterKind::kTheta, "theta", joint.row.theta);
+    if (!parallel) maker.row(k, ParameterKind::kD, "d", joint.row.d);
+    maker.row(k, ParameterKind::kA, "a", joint.row.a);
+    maker.row(k, ParameterKind::kAlpha, "alpha", joint.row.alpha);
+    if (parallel) maker.row(k, ParameterKind::kBeta, "beta", joint.row.beta);
   }
 }
 
@@ -102,15 +102,15 @@ Arm with_joints(const Arm& arm, std::vector<Joint> joints) {
   return changed;
 }
 
-double& number_of(DhRow& row, Part part) {
-  switch (part) {
-    case Part::kTheta:
+double& number_of(DhRow& row, ParameterKind kind) {
+  switch (kind) {
+    case ParameterKind::kTheta:
       return row.theta;
-    case Part::kD:
+    case ParameterKind::kD:
       return row.d;
-    case Part::kA:
+    case ParameterKind::kA:
       return row.a;
-    case Part::kAlpha:
+    case ParameterKind::kAlpha:
       return row.alpha;
     default:
       return row.beta;
@@ -124,26 +124,27 @@ std::array<Vec3, 2> tilt_axes(const PlaneGuess& plane) {
   return {first, plane.normal.cross(first)};
 }
 
-Eigen::VectorXd ArmColumns::nominal() const {
-  Eigen::VectorXd x(static_cast<Index>(columns.size()));
-  for (Index i = 0; i < x.size(); ++i) x[i] = columns[i].nominal;
+Eigen::VectorXd ArmParameters::nominal() const {
+  Eigen::VectorXd x(static_cast<Index>(parameters.size()));
+  for (Index i = 0; i < x.size(); ++i) x[i] = parameters[i].nominal;
   return x;
 }
 
-ArmColumns make_columns(const Arm& arm, const Measurement& measurement, std::vector<Pose> bases,
-                        std::vector<Pose> tools, std::vector<PlaneGuess> planes,
-                        const ColumnChoice& choice) {
-  ArmColumns out{arm, std::move(bases), std::move(tools), std::move(planes), {}, {}};
+ArmParameters make_parameters(const Arm& arm, const Measurement& measurement,
+                              std::vector<Pose> bases, std::vector<Pose> tools,
+                              std::vector<PlaneGuess> planes, const ParameterChoice& choice) {
+  ArmParameters out{arm, std::move(bases), std::move(tools), std::move(planes), {}, {}};
   out.arm.set_base(Pose::Identity());
   out.arm.set_tool(Pose::Identity());
-  ColumnMaker maker(out);
+  ParameterMaker maker(out);
   add_rows(arm, choice, maker);
   for (int i = 0; i < measurement.tools; ++i) {
-    maker.frame("tool", i, measurement.has_rotation(), Part::kToolShift, Part::kToolTurn,
-                out.tools[i].translation());
+    maker.frame("tool", i, measurement.has_rotation(), ParameterKind::kToolShift,
+                ParameterKind::kToolTurn, out.tools[i].translation());
   }
   for (int i = choice.free_base ? 0 : 1; i < measurement.stations; ++i) {
-    maker.frame("base", i, true, Part::kBaseShift, Part::kBaseTurn, out.bases[i].translation());
+    maker.frame("base", i, true, ParameterKind::kBaseShift, ParameterKind::kBaseTurn,
+                out.bases[i].translation());
   }
   for (std::size_t i = 0; i < measurement.plane_names.size(); ++i) {
     maker.plane(measurement.plane_names[i], static_cast<int>(i), out.planes[i].offset);
@@ -151,38 +152,38 @@ ArmColumns make_columns(const Arm& arm, const Measurement& measurement, std::vec
   return out;
 }
 
-ArmState state_at(const ArmColumns& columns, const Eigen::VectorXd& x) {
-  ArmState state{columns.arm, columns.bases, columns.tools, columns.planes};
-  std::vector<Joint> joints = columns.arm.joints();
-  std::vector<Vec3> base_turn(columns.bases.size(), Vec3::Zero());
-  std::vector<Vec3> tool_turn(columns.tools.size(), Vec3::Zero());
-  std::vector<Vec3> plane_turn(columns.planes.size(), Vec3::Zero());
-  for (std::size_t i = 0; i < columns.columns.size(); ++i) {
-    const auto [part, index, axis] = columns.places[i];
+ArmState state_at(const ArmParameters& parameters, const Eigen::VectorXd& x) {
+  ArmState state{parameters.arm, parameters.bases, parameters.tools, parameters.planes};
+  std::vector<Joint> joints = parameters.arm.joints();
+  std::vector<Vec3> base_turn(parameters.bases.size(), Vec3::Zero());
+  std::vector<Vec3> tool_turn(parameters.tools.size(), Vec3::Zero());
+  std::vector<Vec3> plane_turn(parameters.planes.size(), Vec3::Zero());
+  for (std::size_t i = 0; i < parameters.parameters.size(); ++i) {
+    const auto [kind, index, axis] = parameters.slots[i];
     const double value = x[static_cast<Index>(i)];
-    switch (part) {
-      case Part::kToolShift:
+    switch (kind) {
+      case ParameterKind::kToolShift:
         state.tools[index].translation()[axis] = value;
         break;
-      case Part::kToolTurn:
+      case ParameterKind::kToolTurn:
         tool_turn[index][axis] = value;
         break;
-      case Part::kBaseShift:
+      case ParameterKind::kBaseShift:
         state.bases[index].translation()[axis] = value;
         break;
-      case Part::kBaseTurn:
+      case ParameterKind::kBaseTurn:
         base_turn[index][axis] = value;
         break;
-      case Part::kPlaneTurn:
-        plane_turn[index] += value * tilt_axes(columns.planes[index])[axis];
+      case ParameterKind::kPlaneTurn:
+        plane_turn[index] += value * tilt_axes(parameters.planes[index])[axis];
         break;
-      case Part::kPlaneShift:
+      case ParameterKind::kPlaneShift:
         state.planes[index].offset = value;
         break;
-      case Part::kEffect:
+      case ParameterKind::kEffect:
         break;
       default:
-        number_of(joints[index].row, part) = value;
+        number_of(joints[index].row, kind) = value;
     }
   }
   for (std::size_t i = 0; i < base_turn.size(); ++i) {
@@ -194,7 +195,7 @@ ArmState state_at(const ArmColumns& columns, const Eigen::VectorXd& x) {
   for (std::size_t i = 0; i < plane_turn.size(); ++i) {
     state.planes[i].normal = rotation_of(plane_turn[i]) * state.planes[i].normal;
   }
-  state.arm = with_joints(columns.arm, std::move(joints));
+  state.arm = with_joints(parameters.arm, std::move(joints));
   return state;
 }
 

@@ -10,8 +10,7 @@
 #include "bathyal/estimation/parameter.hpp"
 #include "bathyal/identify/model/calibration_data.hpp"
 
-// The unknowns of an arm as columns; what each does to the tip: tip_walk.hpp. For use inside the
-// room.
+// The unknown parameters of an arm; their derivatives: chain_derivatives.hpp.
 
 namespace bathyal {
 
@@ -20,8 +19,8 @@ enum class Parametrization {
   kDh,      ///< theta, d, a, alpha in every row
 };
 
-/// Which number of the arm a column is.
-enum class Part {
+/// What a parameter changes.
+enum class ParameterKind {
   kTheta,
   kD,
   kA,
@@ -36,62 +35,63 @@ enum class Part {
   kEffect
 };
 
-struct Place {
-  Part part = Part::kTheta;
-  int index = 0;  ///< joint, tool, station, plane or list of actions
+struct ParameterSlot {
+  ParameterKind kind = ParameterKind::kTheta;
+  int index = 0;  ///< joint, tool, station, plane or list of perturbations
   int axis = 0;   ///< 0, 1, 2 of shifts and turns
 };
 
-/// Whether a column belongs to a row of the arm, and whether it is one of the row's lengths.
-inline bool is_row(const Place& place) { return place.part <= Part::kBeta; }
-inline bool is_length(const Place& place) {
-  return place.part == Part::kD || place.part == Part::kA;
+/// Whether a parameter belongs to a row of the arm, and whether it is one of its lengths.
+inline bool is_row(const ParameterSlot& place) { return place.kind <= ParameterKind::kBeta; }
+inline bool is_length(const ParameterSlot& place) {
+  return place.kind == ParameterKind::kD || place.kind == ParameterKind::kA;
 }
 
-/// A plane that was touched: normal · (X - center) = offset.
+/// Estimate of a touched plane: normal · (X - center) = offset.
 struct PlaneGuess {
   Vec3 normal = Vec3::UnitZ();
-  Vec3 center = Vec3::Zero();  ///< among its touches, so that a tilt does not move them far
+  Vec3 center = Vec3::Zero();  ///< near its touches, so that a tilt does not move them far
   double offset = 0.0;
 };
 
-/// The two axes about which a plane's columns tilt it.
+/// The two axes of rotation of the tilt parameters of a plane.
 std::array<Vec3, 2> tilt_axes(const PlaneGuess& plane);
 
-/// An arm with everything about it that may be unknown.
-struct ArmColumns {
+/// An arm with all its unknown parameters.
+struct ArmParameters {
   Arm arm;                  ///< nominal, with base and tool at identity
   std::vector<Pose> bases;  ///< of each station, world_from_base, at the start
   std::vector<Pose> tools;  ///< of each tool, flange_from_tool, at the start
   std::vector<PlaneGuess> planes;
-  std::vector<Column> columns;
-  std::vector<Place> places;  ///< of each column
-  /// What effects' columns do (effect_columns.hpp), a list for each; their columns stand last.
-  /// Copies share them: a number for each row of the data is much.
-  std::vector<std::shared_ptr<const std::vector<Action>>> actions = {};
+  std::vector<Parameter> parameters;
+  std::vector<ParameterSlot> slots;  ///< of each parameter
+  /// Perturbations of the effect parameters (effect_parameters.hpp), a list for each; these are the
+  /// last parameters. Copies share them, as each holds numbers for every row of the data.
+  std::vector<std::shared_ptr<const std::vector<Perturbation>>> perturbations = {};
 
   Eigen::VectorXd nominal() const;
 };
 
-struct ColumnChoice {
+struct ParameterChoice {
   Parametrization parametrization = Parametrization::kHayati;
   double nearly_parallel = kNearlyParallel;  ///< sine between axes
-  bool free_base = false;                    ///< columns for the base of the first station
+  bool free_base = false;                    ///< parameters for the base of the first station
 };
 
-/// Columns in the order rows, tools, bases, planes. Fixed joints have none: their neighbours' rows
-/// say the same. `arm` gives nominal rows; bases, tools and planes are where the search starts.
-ArmColumns make_columns(const Arm& arm, const Measurement& measurement, std::vector<Pose> bases,
-                        std::vector<Pose> tools, std::vector<PlaneGuess> planes,
-                        const ColumnChoice& choice);
+/// Parameters in the order rows, tools, bases, planes. Fixed joints have none: those of
+/// neighbouring rows are equivalent. `arm` gives nominal rows; bases, tools and planes are the
+/// starting point of the search.
+ArmParameters make_parameters(const Arm& arm, const Measurement& measurement,
+                              std::vector<Pose> bases, std::vector<Pose> tools,
+                              std::vector<PlaneGuess> planes, const ParameterChoice& choice);
 
-/// The arm, bases, tools and planes at the values `x` of all columns.
+/// The arm, bases, tools and planes at the values `x` of all parameters.
 struct ArmState {
   Arm arm;
   std::vector<Pose> bases;
   std::vector<Pose> tools;
   std::vector<PlaneGuess> planes;
 };
-ArmState state_at(const ArmColumns& columns, const Eigen::VectorXd& x);
+ArmState state_at(const ArmParameters& parameters, const Eigen::VectorXd& x);
 
 }  // namespace bathyal

@@ -4,21 +4,21 @@
 
 #include "bathyal/identify/model/arm_residuals.hpp"
 
-// What stands beside the measurements: known distances and points, priors, linear rows; and the
-// noise by which all of it is weighed.
+// Rows other than measurements: known distances and points, priors, linear constraints; and the
+// noise that weights them.
 
 namespace bathyal {
 
 /// Residuals of the known distances and points, and the derivative of each by the centroids.
-void ArmSystem::known_residuals(const Eigen::Matrix3Xd& centers, Eigen::VectorXd& residuals,
-                                Eigen::MatrixXd& by_center) const {
+void ArmResiduals::known_residuals(const Eigen::Matrix3Xd& centers, Eigen::VectorXd& residuals,
+                                   Eigen::MatrixXd& by_center) const {
   residuals.resize(known_rows());
   by_center.setZero(known_rows(), 3 * m_.points());
   Index row = 0;
   for (const KnownDistance& known : m_.distances) {
     const Vec3 apart = centers.col(known.second) - centers.col(known.first);
     const double length = apart.norm();
-    // Coinciding centroids have no direction; any will do to part them.
+    // Coinciding centroids have no direction: any one separates them.
     const Vec3 unit = length > 0.0 ? Vec3(apart / length) : Vec3(Vec3::UnitX());
     residuals[row] = length - known.distance;
     by_center.row(row).segment<3>(3 * known.second) = unit.transpose();
@@ -32,41 +32,41 @@ void ArmSystem::known_residuals(const Eigen::Matrix3Xd& centers, Eigen::VectorXd
   }
 }
 
-Eigen::VectorXd ArmSystem::scales() const {
+Eigen::VectorXd ArmResiduals::scales() const {
   Eigen::VectorXd out(columns());
-  for (Index c = 0; c < columns(); ++c) out[c] = columns_.columns[free_[c]].scale;
+  for (Index c = 0; c < columns(); ++c) out[c] = parameters_.parameters[free_[c]].scale;
   return out;
 }
 
-Eigen::MatrixXd ArmSystem::linear_jacobian() const {
+Eigen::MatrixXd ArmResiduals::linear_jacobian() const {
   const Eigen::VectorXd start = Eigen::VectorXd::Zero(columns());
   return linear_rows_at(start.data()).leftCols(columns()) * scales().asDiagonal();
 }
 
-/// [J r] of priors and linear rows; J in the columns' own units.
-Eigen::MatrixXd ArmSystem::linear_rows_at(const double* y) const {
+/// [J r] of priors and constraints; J in the units of the parameters.
+Eigen::MatrixXd ArmResiduals::linear_rows_at(const double* y) const {
   Eigen::MatrixXd out = Eigen::MatrixXd::Zero(rows() - data_rows(), columns() + 1);
   Index row = 0;
   for (Index c = 0; use_priors_ && c < columns(); ++c) {
-    const Column& column = columns_.columns[free_[c]];
-    if (column.prior_std == Column::kNoPrior) continue;
+    const Parameter& column = parameters_.parameters[free_[c]];
+    if (column.prior_std == Parameter::kNoPrior) continue;
     out(row, c) = 1.0 / column.prior_std;
     out(row, columns()) = column.scale * y[c] / column.prior_std;
     ++row;
   }
-  for (const LinearRow& linear : linear_) {
+  for (const LinearConstraint& linear : linear_) {
     for (Index c = 0; c < columns(); ++c) {
       if (free_[c] >= linear.coefficients.size()) continue;
       const double factor = linear.coefficients[free_[c]] / linear.std;
       out(row, c) = factor;
-      out(row, columns()) += factor * columns_.columns[free_[c]].scale * y[c];
+      out(row, columns()) += factor * parameters_.parameters[free_[c]].scale * y[c];
     }
     ++row;
   }
   return out;
 }
 
-void ArmSystem::set_noise(const Noise& noise, const Eigen::VectorXd& x) {
+void ArmResiduals::set_noise(const Noise& noise, const Eigen::VectorXd& x) {
   noise_ = noise;
   if (known_rows() == 0) return;
   Eigen::VectorXd residuals;
@@ -86,19 +86,19 @@ void ArmSystem::set_noise(const Noise& noise, const Eigen::VectorXd& x) {
   whitening_ = root.matrixL().solve(Eigen::MatrixXd::Identity(known_rows(), known_rows()));
 }
 
-void ArmSystem::set_equal_noise(double unit) {
+void ArmResiduals::set_equal_noise(double unit) {
   noise_ = {unit, unit};
   whitening_ = Eigen::MatrixXd::Identity(known_rows(), known_rows()) / unit;
 }
 
-double median_noise(const ArmSystem& system, const Eigen::VectorXd& distances) {
+double median_noise(const ArmResiduals& system, const Eigen::VectorXd& distances) {
   std::vector<double> sorted(distances.begin(), distances.end());
   const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
   std::nth_element(sorted.begin(), middle, sorted.end());
-  const auto taken = static_cast<double>(system.columns());
+  const auto estimated = static_cast<double>(system.columns());
   const double rows = free_position_rows(system.measurement());
   const auto all = static_cast<double>(3 * system.measurement().rows());
-  const double share = rows > taken ? std::sqrt(all / (rows - taken)) : 1.0;
+  const double share = rows > estimated ? std::sqrt(all / (rows - estimated)) : 1.0;
   return *middle / kMedianOfNorm * share;
 }
 

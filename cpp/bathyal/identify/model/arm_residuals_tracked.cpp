@@ -6,11 +6,11 @@
 #include "bathyal/estimation/gram.hpp"
 #include "bathyal/identify/model/arm_residuals.hpp"
 
-// The rows of tracked poses, each pose by itself.
+// The rows of tracked poses, one pose at a time.
 
 namespace bathyal {
 
-void ArmSystem::compare_tracked(Index begin, Index end, const TipRows& out) const {
+void ArmResiduals::compare_tracked(Index begin, Index end, const TipRows& out) const {
   const Index count = 3 * (end - begin);
   Eigen::Map<Eigen::Matrix3Xd>(out.tips, 3, end - begin) -=
       m_.position.middleCols(begin, end - begin);
@@ -32,49 +32,49 @@ void ArmSystem::compare_tracked(Index begin, Index end, const TipRows& out) cons
   if (m_.has_rotation()) weigh(out.rotations, out.rotation_jacobian, noise_.rotation);
 }
 
-/// Tracked poses do not know of each other: their rows are made, used and forgotten chunk by chunk.
-/// `body(chunk, rows)` gets [J r] of a chunk, J in the columns' own units.
+/// Tracked poses are independent: their rows are computed, used and discarded chunk by chunk.
+/// `body(chunk, rows)` receives [J r] of a chunk, J in the units of the parameters.
 template <class Body>
-void ArmSystem::for_each_tracked(const double* y, bool derive, const Body& body) const {
+void ArmResiduals::for_each_tracked(const double* y, bool derive, const Body& body) const {
   const Eigen::VectorXd x = values(Eigen::Map<const Eigen::VectorXd>(y, columns()));
-  const TipWalk walk(columns_, x, free_);
+  const ChainDerivatives chain(parameters_, x, free_);
   const Index kinds = m_.has_rotation() ? 2 : 1;
   parallel_for(static_cast<std::size_t>(m_.rows()), kPosesPerChunk, num_threads_,
                [&](std::size_t begin, std::size_t end) {
                  const auto count = static_cast<Index>(end - begin);
-                 const Index wide = derive ? columns() : 0;
-                 Eigen::MatrixXd rows(3 * kinds * count, wide + 1);
-                 TipRows out{rows.col(wide).data(), derive ? rows.data() : nullptr, nullptr,
+                 const Index width = derive ? columns() : 0;
+                 Eigen::MatrixXd rows(3 * kinds * count, width + 1);
+                 TipRows out{rows.col(width).data(), derive ? rows.data() : nullptr, nullptr,
                              nullptr, rows.rows()};
                  if (kinds == 2) {
                    out.rotations = out.tips + 3 * count;
                    out.rotation_jacobian = derive ? out.jacobian + 3 * count : nullptr;
                  }
-                 fill_tips(walk, static_cast<Index>(begin), static_cast<Index>(end), out);
+                 fill_tips(chain, static_cast<Index>(begin), static_cast<Index>(end), out);
                  compare_tracked(static_cast<Index>(begin), static_cast<Index>(end), out);
                  body(begin / kPosesPerChunk, rows);
                });
 }
 
 /// Sums of each chunk, added in order.
-Eigen::MatrixXd ArmSystem::square(const double* y) const {
-  if (!m_.tracked) return ResidualModel::square(y);
-  const Index wide = columns() + 1;
+Eigen::MatrixXd ArmResiduals::normal_equations(const double* y) const {
+  if (!m_.tracked) return ResidualModel::normal_equations(y);
+  const Index width = columns() + 1;
   std::vector<Eigen::MatrixXd> parts((static_cast<std::size_t>(m_.rows()) - 1) / kPosesPerChunk +
                                      1);
   for_each_tracked(y, true, [&](std::size_t chunk, const Eigen::MatrixXd& rows) {
     parts[chunk] = inner_products(rows, 1);
   });
-  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(wide, wide);
-  for (const Eigen::MatrixXd& part : parts) sum += part;
+  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(width, width);
+  for (const Eigen::MatrixXd& kind : parts) sum += kind;
   const Eigen::MatrixXd linear = linear_rows_at(y);
   if (linear.rows() > 0) sum += inner_products(linear, num_threads_);
-  Eigen::VectorXd factors(wide);
+  Eigen::VectorXd factors(width);
   factors << scales(), 1.0;
   return factors.asDiagonal() * sum * factors.asDiagonal();
 }
 
-double ArmSystem::cost(const double* y) const {
+double ArmResiduals::cost(const double* y) const {
   if (!m_.tracked) return ResidualModel::cost(y);
   std::vector<double> parts((static_cast<std::size_t>(m_.rows()) - 1) / kPosesPerChunk + 1);
   for_each_tracked(y, false, [&](std::size_t chunk, const Eigen::MatrixXd& rows) {

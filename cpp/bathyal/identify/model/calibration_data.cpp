@@ -64,7 +64,7 @@ double pair_sum(const Measurement& m, const Eigen::Matrix3Xd& deviations) {
   return sum;
 }
 
-Measurement some_of(const Measurement& m, const std::vector<int>& rows) {
+Measurement subset(const Measurement& m, const std::vector<int>& rows) {
   Measurement out = m;
   out.weights = picked(m.weights, rows);
   out.tool = picked(m.tool, rows);
@@ -72,8 +72,9 @@ Measurement some_of(const Measurement& m, const std::vector<int>& rows) {
   out.point = picked(m.point, rows);
   out.plane = picked(m.plane, rows);
   out.rotation = picked(m.rotation, rows);
-  out.actions.clear();
-  for (const int row : rows) out.actions.push_back(static_cast<int>(m.action_row(row)));
+  out.perturbation_rows.clear();
+  for (const int row : rows)
+    out.perturbation_rows.push_back(static_cast<int>(m.perturbation_row(row)));
   out.q = m.q(rows, Eigen::all);
   if (m.tracked) out.position = m.position(Eigen::all, rows);
   return out;

@@ -8,8 +8,9 @@
 
 namespace bathyal {
 
-TipWalk::TipWalk(const ArmColumns& columns, const Eigen::VectorXd& x, std::vector<int> wanted)
-    : columns_(columns), wanted_(std::move(wanted)), state_(state_at(columns, x)) {
+ChainDerivatives::ChainDerivatives(const ArmParameters& parameters, const Eigen::VectorXd& x,
+                                   std::vector<int> wanted)
+    : parameters_(parameters), wanted_(std::move(wanted)), state_(state_at(parameters, x)) {
   for (const Joint& joint : state_.arm.joints()) {
     const double beta = joint.row.beta;
     steps_.push_back(
@@ -17,42 +18,45 @@ TipWalk::TipWalk(const ArmColumns& columns, const Eigen::VectorXd& x, std::vecto
   }
   for (const Pose& tool : state_.tools) row_from_tool_.push_back(state_.arm.flange() * tool);
   find_turn_axes(x);
-  find_pulls(x);
+  find_effect_terms(x);
 }
 
-void TipWalk::find_turn_axes(const Eigen::VectorXd& x) {
+void ChainDerivatives::find_turn_axes(const Eigen::VectorXd& x) {
   turn_axes_.assign(wanted_.size(), Vec3::Zero());
   for (std::size_t w = 0; w < wanted_.size(); ++w) {
-    const auto [part, index, axis] = columns_.places[wanted_[w]];
-    if (part != Part::kBaseTurn && part != Part::kToolTurn && part != Part::kPlaneTurn) continue;
+    const auto [kind, index, axis] = parameters_.slots[wanted_[w]];
+    if (kind != ParameterKind::kBaseTurn && kind != ParameterKind::kToolTurn &&
+        kind != ParameterKind::kPlaneTurn)
+      continue;
     Vec3 turn = Vec3::Zero();
-    for (std::size_t i = 0; i < columns_.places.size(); ++i) {
-      const Place& other = columns_.places[i];
-      if (other.part == part && other.index == index) turn[other.axis] = x[static_cast<Index>(i)];
+    for (std::size_t i = 0; i < parameters_.slots.size(); ++i) {
+      const ParameterSlot& other = parameters_.slots[i];
+      if (other.kind == kind && other.index == index) turn[other.axis] = x[static_cast<Index>(i)];
     }
-    if (part == Part::kBaseTurn) {
+    if (kind == ParameterKind::kBaseTurn) {
       turn_axes_[w] = left_jacobian(turn).col(axis);
-    } else if (part == Part::kToolTurn) {
-      turn_axes_[w] = columns_.tools[index].linear() * left_jacobian(turn).col(axis);
+    } else if (kind == ParameterKind::kToolTurn) {
+      turn_axes_[w] = parameters_.tools[index].linear() * left_jacobian(turn).col(axis);
     } else {
-      const std::array<Vec3, 2> tilts = tilt_axes(columns_.planes[index]);
+      const std::array<Vec3, 2> tilts = tilt_axes(parameters_.planes[index]);
       turn_axes_[w] = left_jacobian(turn[0] * tilts[0] + turn[1] * tilts[1]) * tilts[axis];
     }
   }
 }
 
-Pose TipWalk::walk(const PoseJoints& pose, Index row, int tool, int station,
-                   WalkFrames& frames) const {
+Pose ChainDerivatives::forward(const ChainPose& pose, Index row, int tool, int station,
+                               ChainFrames& frames) const {
   if (!acts(row)) {
-    walk_plain(pose, station, frames);
+    forward_rigid(pose, station, frames);
     return frames.world_from_row.back() * row_from_tool_[tool];
   }
-  walk_with_effects(pose.q, row, station, frames);
-  return frames.left.back() * state_.tools[tool];
+  forward_with_effects(pose.q, row, station, frames);
+  return frames.behind.back() * state_.tools[tool];
 }
 
-/// As compute_row_frames, with all that one pose shares with the next worked out before.
-void TipWalk::walk_plain(const PoseJoints& pose, int station, WalkFrames& frames) const {
+/// As compute_row_frames, with everything that all poses share precomputed.
+void ChainDerivatives::forward_rigid(const ChainPose& pose, int station,
+                                     ChainFrames& frames) const {
   const std::vector<Joint>& joints = state_.arm.joints();
   const auto coordinates = static_cast<std::size_t>(state_.arm.size());
   frames.world_from_row.resize(joints.size() + 1);
@@ -71,8 +75,8 @@ JointMotion motion_of(const Joint& joint, double value) {
   return {std::cos(value), std::sin(value)};
 }
 
-void TipWalk::pass_row(std::size_t k, const JointMotion& motion, const Pose& before,
-                       Pose& behind) const {
+void ChainDerivatives::pass_row(std::size_t k, const JointMotion& motion, const Pose& before,
+                                Pose& behind) const {
   Pose moved = before;
   if (state_.arm.joints()[k].type == JointType::kRevolute) {
     const auto [cosine, sine] = motion;
@@ -87,72 +91,72 @@ void TipWalk::pass_row(std::size_t k, const JointMotion& motion, const Pose& bef
   behind.translation() = moved.linear() * step.translation() + moved.translation();
 }
 
-Pose TipWalk::tip(const PoseJoints& joints, Index row, int tool, int station, WalkFrames& frames,
-                  double* shift, double* turn, Index stride) const {
-  const Pose world_from_tool = walk(joints, row, tool, station, frames);
+Pose ChainDerivatives::tip(const ChainPose& joints, Index row, int tool, int station,
+                           ChainFrames& frames, double* shift, double* turn, Index stride) const {
+  const Pose world_from_tool = forward(joints, row, tool, station, frames);
   if (shift == nullptr) return world_from_tool;
 
   const Vec3 tip = world_from_tool.translation();
   const bool effects = acts(row);
   if (effects) find_unit_moves(tip, turn != nullptr, frames);
-  const std::vector<Pose>& behind_row = effects ? frames.reached : frames.world_from_row;
+  const std::vector<Pose>& behind_row = effects ? frames.before : frames.world_from_row;
   const double growth = effects ? 1.0 + frames.growth : 1.0;
   const Eigen::Matrix3d flange =
       effects
-          ? Eigen::Matrix3d(frames.left.back().linear())
+          ? Eigen::Matrix3d(frames.behind.back().linear())
           : Eigen::Matrix3d(frames.world_from_row.back().linear() * state_.arm.flange().linear());
   for (std::size_t i = 0; i < wanted_.size(); ++i) {
-    const auto [part, index, axis] = columns_.places[wanted_[i]];
+    const auto [kind, index, axis] = parameters_.slots[wanted_[i]];
     Vec3 move = Vec3::Zero();
     Vec3 turned = Vec3::Zero();
     const auto about = [&](const Vec3& direction, const Vec3& center) {
       turned = direction;
       move = direction.cross(tip - center);
     };
-    switch (part) {
-      case Part::kTheta: {
+    switch (kind) {
+      case ParameterKind::kTheta: {
         const Pose& before = frames.world_from_row[index];
         about(before.linear().col(2), before.translation());
         break;
       }
-      case Part::kD:
+      case ParameterKind::kD:
         move = growth * frames.world_from_row[index].linear().col(2);
         break;
-      case Part::kA:
-      case Part::kAlpha: {
+      case ParameterKind::kA:
+      case ParameterKind::kAlpha: {
         const Pose& behind = behind_row[index + 1];
         const Vec3 x = behind.linear() * steps_[index].x_of_row;
-        if (part == Part::kA) move = growth * x;
-        if (part == Part::kAlpha) about(x, behind.translation());
+        if (kind == ParameterKind::kA) move = growth * x;
+        if (kind == ParameterKind::kAlpha) about(x, behind.translation());
         break;
       }
-      case Part::kBeta: {
+      case ParameterKind::kBeta: {
         // Ry(beta) is the last turn of the row, and leaves y.
         const Pose& behind = behind_row[index + 1];
         about(behind.linear().col(1), behind.translation());
         break;
       }
-      case Part::kToolShift:
+      case ParameterKind::kToolShift:
         if (index == tool) move = flange.col(axis);
         break;
-      case Part::kToolTurn:
+      case ParameterKind::kToolTurn:
         if (index == tool) turned = flange * turn_axes_[i];
         break;
-      case Part::kBaseShift:
+      case ParameterKind::kBaseShift:
         if (index == station) move = Vec3::Unit(axis);
         break;
-      case Part::kBaseTurn:
+      case ParameterKind::kBaseTurn:
         if (index == station) about(turn_axes_[i], state_.bases[station].translation());
         break;
-      case Part::kEffect:
+      case ParameterKind::kEffect:
         if (effects) {
           const Eigen::Matrix<double, 6, 1> both = move_of_effect(i, row, frames);
           move = both.head<3>();
           turned = both.tail<3>();
         }
         break;
-      case Part::kPlaneTurn:
-      case Part::kPlaneShift:
+      case ParameterKind::kPlaneTurn:
+      case ParameterKind::kPlaneShift:
         break;
     }
     Eigen::Map<Vec3>(shift + static_cast<Index>(i) * stride) = move;
@@ -161,9 +165,9 @@ Pose TipWalk::tip(const PoseJoints& joints, Index row, int tool, int station, Wa
   return world_from_tool;
 }
 
-Eigen::Matrix3Xd TipWalk::joint_jacobian(const double* q, Index row, int tool, int station,
-                                         WalkFrames& frames, Vec3& tip) const {
-  tip = walk(q, row, tool, station, frames).translation();
+Eigen::Matrix3Xd ChainDerivatives::joint_jacobian(const double* q, Index row, int tool, int station,
+                                                  ChainFrames& frames, Vec3& tip) const {
+  tip = forward(q, row, tool, station, frames).translation();
   Eigen::Matrix3Xd jacobian = Eigen::Matrix3Xd::Zero(3, state_.arm.size());
   for (std::size_t k = 0; k < state_.arm.joints().size(); ++k) {
     const Joint& joint = state_.arm.joints()[k];

@@ -27,7 +27,7 @@ std::vector<ScannedForm> scan(const Subject& subject, const std::vector<int>& fo
     const std::vector<Eigen::MatrixXd> columns =
         subject.columns(std::span(forms).subspan(begin, end - begin));
     // All at once: a product with a few columns costs as much as one with many.
-    const Eigen::MatrixXd all = side_by_side(columns);
+    const Eigen::MatrixXd all = concatenate_columns(columns);
     const Eigen::MatrixXd all_shared = inner_products(basis, all, num_threads);
     const Eigen::VectorXd all_against = all.transpose() * left;
     Index first = 0;

@@ -8,7 +8,7 @@
 
 #include "bathyal/base/text.hpp"
 
-namespace bathyal {
+namespace bathyal::touch_planning {
 namespace {
 
 std::string poses(std::size_t count) { return counted(static_cast<long>(count), "pose"); }
@@ -20,7 +20,7 @@ std::map<int, int> touches_by_point(const TouchPlan& plan) {
   return count;
 }
 
-bool tells_size(const PlanTouchesOptions& options) {
+bool scale_is_given(const PlanTouchesOptions& options) {
   return !options.known_distances.empty() || !options.known_points.empty();
 }
 
@@ -38,7 +38,7 @@ void warn_of_poses(const TouchPlan& plan, int count, const PlanTouchesOptions& o
   } else if (static_cast<std::size_t>(plan.candidates) <
              static_cast<std::size_t>(options.candidates) * placed) {
     out.push_back("There were only " + poses(static_cast<std::size_t>(plan.candidates)) +
-                  " to choose from: few of those that touch the points may be held.");
+                  " to choose from: few of the poses that touch the points are feasible.");
   }
   if (touched < placed) {
     out.push_back(std::to_string(count) + " touches are too few for two of each of " +
@@ -56,25 +56,26 @@ void warn_of_unknowns(const TouchPlan& plan, const PlanTouchesOptions& options,
                   std::to_string(numbers) + " numbers for " + std::to_string(forecast.free) +
                   " unknowns: more touches are needed.");
   }
-  const std::size_t expected = tells_size(options) ? 0 : 1;
-  if (forecast.unseen.size() > expected) {
-    std::string text = "These touches cannot tell " +
-                       counted(static_cast<long>(forecast.unseen.size()), "combination") +
-                       " of the arm's parameters; with the priors stay ";
-    for (std::size_t i = 0; i < forecast.unseen.size(); ++i) {
-      // A direction's words begin with what leads it.
-      text += (i == 0 ? "" : ", ") + forecast.unseen[i].substr(0, forecast.unseen[i].find(" +1"));
+  const std::size_t expected = scale_is_given(options) ? 0 : 1;
+  if (forecast.null_space.size() > expected) {
+    std::string text = "These touches do not determine " +
+                       counted(static_cast<long>(forecast.null_space.size()), "combination") +
+                       " of the arm's parameters; the priors determine ";
+    for (std::size_t i = 0; i < forecast.null_space.size(); ++i) {
+      // A description begins with its leading parameter.
+      text += (i == 0 ? "" : ", ") +
+              forecast.null_space[i].substr(0, forecast.null_space[i].find(" +1"));
     }
-    out.push_back(text + ", each with others.");
+    out.push_back(text + ", each together with others.");
   }
 }
 
-void warn_of_size(const TouchPlan& plan, const PlanTouchesOptions& options,
-                  const std::optional<DistanceAdvice>& advice, std::vector<std::string>& out) {
-  if (tells_size(options)) return;
+void warn_of_scale(const TouchPlan& plan, const PlanTouchesOptions& options,
+                   const std::optional<DistanceAdvice>& advice, std::vector<std::string>& out) {
+  if (scale_is_given(options)) return;
   std::string text =
-      "Touches alone cannot tell the arm from a smaller one: its size will rest on "
-      "the prior of " +
+      "Touches alone do not determine the scale of the arm: it will be determined by the "
+      "prior of " +
       millimetres(options.forecast.length_prior) + " on its lengths.";
   if (advice) {
     const double apart = (plan.points.col(advice->first) - plan.points.col(advice->second)).norm();
@@ -99,7 +100,7 @@ void warn_of_joints(const Arm& arm, const TouchPlan& plan, std::vector<std::stri
     const std::string moved = in_its_unit(range, slides ? "m" : "rad");
     out.push_back("Joint " + std::to_string(joint.coordinate + 1) +
                   (joint.name.empty() ? "" : " (" + joint.name + ")") + " moves by " + moved +
-                  " only: what is wrong behind it cannot be told from what is wrong before it.");
+                  " only: errors behind it cannot be distinguished from errors before it.");
   }
 }
 
@@ -111,7 +112,7 @@ std::vector<std::string> warnings_of(const Arm& arm, const TouchPlan& plan, int 
   std::vector<std::string> out;
   warn_of_poses(plan, count, options, out);
   warn_of_unknowns(plan, options, out);
-  warn_of_size(plan, options, advice, out);
+  warn_of_scale(plan, options, advice, out);
   warn_of_joints(arm, plan, out);
   if (arm.tool().translation() == Vec3::Zero()) {
     out.push_back(
@@ -121,7 +122,12 @@ std::vector<std::string> warnings_of(const Arm& arm, const TouchPlan& plan, int 
   return out;
 }
 
+}  // namespace bathyal::touch_planning
+
+namespace bathyal {
+
 std::string summarize(const TouchPlan& plan, bool with_warnings) {
+  using namespace touch_planning;
   const TouchForecast& forecast = plan.forecast;
   const std::map<int, int> touches = touches_by_point(plan);
   std::string shares;
@@ -131,12 +137,13 @@ std::string summarize(const TouchPlan& plan, bool with_warnings) {
   std::string text =
       "Touch " + points(touches.size()) + " in " + poses(plan.point.size()) +
       (touches.size() > 1 ? " (" + shares + ")" : "") +
-      ", each held still. An arm identified from them is foretold to stray " +
+      ", each held still. The predicted deviation of an arm identified from them is " +
       millimetres(forecast.worst_tip_std) + " at the worst of " + poses(forecast.tip_std.size()) +
-      " all over its workspace and " + millimetres(forecast.median_tip_std) +
-      " at the median one (one standard deviation, 3-D), where a touch is true to " +
-      millimetres(plan.noise) + " per axis. Touches tell " + std::to_string(forecast.rank) +
-      " of the " + std::to_string(forecast.free) + " parameters that base and tool leave.";
+      " over its workspace and " + millimetres(forecast.median_tip_std) +
+      " at the median one (one standard deviation, 3-D), for touches accurate to " +
+      millimetres(plan.noise) + " per axis. The touches determine " +
+      std::to_string(forecast.rank) + " of the " + std::to_string(forecast.free) +
+      " parameters that base and tool do not represent.";
   if (!with_warnings) return text;
   for (const std::string& warning : plan.warnings) text += " " + warning;
   return text;

@@ -7,18 +7,18 @@
 
 #include "bathyal/touch_planning/plan_touches.hpp"
 
-namespace bathyal {
+namespace bathyal::touch_planning {
 
-/// What one more known distance would bring.
+/// The predicted gain of one more known distance.
 struct DistanceAdvice {
   int first = 0;
   int second = 0;
   double worst_tip_std = 0.0;  ///< [m]
 };
 
-/// What the one who asked for `count` touches should know, in sentences. For use inside the room.
+/// Warnings about a plan of `count` touches, as sentences.
 std::vector<std::string> warnings_of(const Arm& arm, const TouchPlan& plan, int count,
                                      const PlanTouchesOptions& options,
                                      const std::optional<DistanceAdvice>& advice);
 
-}  // namespace bathyal
+}  // namespace bathyal::touch_planning

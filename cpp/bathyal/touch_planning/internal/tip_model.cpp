@@ -11,17 +11,17 @@
 #include "bathyal/identify/fit/redundancy.hpp"
 #include "bathyal/identify/model/nearest_pose.hpp"
 
-namespace bathyal {
+namespace bathyal::touch_planning {
 namespace {
 
 constexpr std::size_t kPosesPerChunk = 128;
 
-void set_priors(ArmColumns& columns, const ForecastOptions& options) {
-  for (std::size_t i = 0; i < columns.columns.size(); ++i) {
-    const Place& place = columns.places[i];
-    columns.columns[i].prior_std = !is_row(place)     ? options.tool_prior
-                                   : is_length(place) ? options.length_prior
-                                                      : options.angle_prior;
+void set_priors(ArmParameters& parameters, const ForecastOptions& options) {
+  for (std::size_t i = 0; i < parameters.parameters.size(); ++i) {
+    const ParameterSlot& place = parameters.slots[i];
+    parameters.parameters[i].prior_std = !is_row(place)     ? options.tool_prior
+                                         : is_length(place) ? options.length_prior
+                                                            : options.angle_prior;
   }
 }
 
@@ -56,46 +56,48 @@ void check_workspace(const Arm& arm, const ForecastOptions& options) {
 
 TouchModel make_touch_model(const Arm& arm, const Measurement& measurement,
                             const ForecastOptions& options) {
-  const ColumnChoice choice{options.parametrization, options.nearly_parallel, false};
-  TouchModel model{make_columns(arm, measurement, {arm.base()}, {arm.tool()}, {}, choice), {}};
-  set_priors(model.columns, options);
-  const std::vector<GaugeColumn> gauge =
-      find_gauge(model.columns, measurement, choice, measurement.in_world(), {});
-  for (int i = 0; i < static_cast<int>(model.columns.columns.size()); ++i) {
-    const bool left = std::any_of(gauge.begin(), gauge.end(),
-                                  [i](const GaugeColumn& g) { return g.column == i; });
-    if (!left) model.free.push_back(i);
+  const ParameterChoice choice{options.parametrization, options.nearly_parallel, false};
+  TouchModel model{make_parameters(arm, measurement, {arm.base()}, {arm.tool()}, {}, choice), {}};
+  set_priors(model.parameters, options);
+  const std::vector<RedundantParameter> redundant =
+      find_redundant(model.parameters, measurement, choice, measurement.in_world(), {});
+  for (int i = 0; i < static_cast<int>(model.parameters.parameters.size()); ++i) {
+    const bool is_redundant =
+        std::any_of(redundant.begin(), redundant.end(),
+                    [i](const RedundantParameter& g) { return g.column == i; });
+    if (!is_redundant) model.free.push_back(i);
   }
   return model;
 }
 
 Eigen::MatrixXd tip_derivatives(const TouchModel& model, const RowMatrix& q, int num_threads) {
   const auto columns = static_cast<Index>(model.free.size());
-  const TipWalk walk(model.columns, model.columns.nominal(), model.free);
+  const ChainDerivatives chain(model.parameters, model.parameters.nominal(), model.free);
   Eigen::MatrixXd out(columns, 3 * q.rows());
   parallel_for(static_cast<std::size_t>(q.rows()), kPosesPerChunk, num_threads,
                [&](std::size_t begin, std::size_t end) {
-                 WalkFrames frames;
+                 ChainFrames frames;
                  Eigen::Matrix3Xd shift(3, columns);
                  for (auto i = static_cast<Index>(begin); i < static_cast<Index>(end); ++i) {
-                   walk.tip(q.row(i).data(), kNoRow, 0, 0, frames, shift.data(), nullptr, 3);
+                   chain.tip(q.row(i).data(), kNoRow, 0, 0, frames, shift.data(), nullptr, 3);
                    out.middleCols<3>(3 * i) = shift.transpose();
                  }
                });
-  for (Index c = 0; c < columns; ++c) out.row(c) *= model.columns.columns[model.free[c]].scale;
+  for (Index c = 0; c < columns; ++c)
+    out.row(c) *= model.parameters.parameters[model.free[c]].scale;
   return out;
 }
 
-RowMatrix settled_on(const TouchModel& model, const RowMatrix& q, const Eigen::Matrix3Xd& targets,
-                     int num_threads) {
+RowMatrix joints_on_targets(const TouchModel& model, const RowMatrix& q,
+                            const Eigen::Matrix3Xd& targets, int num_threads) {
   RowMatrix out(q.rows(), q.cols());
-  const TipWalk walk(model.columns, model.columns.nominal(), {});
+  const ChainDerivatives chain(model.parameters, model.parameters.nominal(), {});
   parallel_for(static_cast<std::size_t>(q.rows()), kPosesPerChunk, num_threads,
                [&](std::size_t begin, std::size_t end) {
-                 WalkFrames frames;
+                 ChainFrames frames;
                  for (auto i = static_cast<Index>(begin); i < static_cast<Index>(end); ++i) {
                    const auto miss = [&](const Vec3& tip) { return Vec3(targets.col(i) - tip); };
-                   out.row(i) = nearest_pose(walk, q.row(i), kNoRow, 0, 0, frames, miss);
+                   out.row(i) = nearest_pose(chain, q.row(i), kNoRow, 0, 0, frames, miss);
                  }
                });
   return out;
@@ -103,14 +105,14 @@ RowMatrix settled_on(const TouchModel& model, const RowMatrix& q, const Eigen::M
 
 Eigen::Matrix3Xd tips_of(const TouchModel& model, const RowMatrix& q, int num_threads) {
   Eigen::Matrix3Xd tips(3, q.rows());
-  const TipWalk walk(model.columns, model.columns.nominal(), {});
+  const ChainDerivatives chain(model.parameters, model.parameters.nominal(), {});
   parallel_for(
       static_cast<std::size_t>(q.rows()), kPosesPerChunk, num_threads,
       [&](std::size_t begin, std::size_t end) {
-        WalkFrames frames;
+        ChainFrames frames;
         for (auto i = static_cast<Index>(begin); i < static_cast<Index>(end); ++i) {
           tips.col(i) =
-              walk.tip(q.row(i).data(), kNoRow, 0, 0, frames, nullptr, nullptr, 0).translation();
+              chain.tip(q.row(i).data(), kNoRow, 0, 0, frames, nullptr, nullptr, 0).translation();
         }
       });
   return tips;
@@ -133,4 +135,4 @@ RowMatrix random_poses(const Arm& arm, Index count, std::uint64_t seed) {
   return q;
 }
 
-}  // namespace bathyal
+}  // namespace bathyal::touch_planning

@@ -99,12 +99,13 @@ class ProbeMaker {
     probes_.push_back({std::move(against), std::move(words), family, trials,
                        [frame, functions = std::move(functions)] {
                          const Functions f = functions();
-                         std::vector<Action> out;
+                         std::vector<Perturbation> out;
                          for (Eigen::Index c = 0; c < f.cols(); ++c) {
                            for (int axis = 0; axis < 3; ++axis) {
-                             Action action{Site::kFrame, frame, RowMatrix::Zero(f.rows(), 6)};
-                             action.values.col(axis) = f.col(c);
-                             out.push_back(std::move(action));
+                             Perturbation perturbation{PerturbationSite::kFrame, frame,
+                                                       RowMatrix::Zero(f.rows(), 6)};
+                             perturbation.values.col(axis) = f.col(c);
+                             out.push_back(std::move(perturbation));
                            }
                          }
                          return out;
@@ -116,9 +117,9 @@ class ProbeMaker {
     probes_.push_back({std::move(against), std::move(words), family, trials,
                        [joint, functions = std::move(functions)] {
                          const Functions f = functions();
-                         std::vector<Action> out;
+                         std::vector<Perturbation> out;
                          for (Eigen::Index c = 0; c < f.cols(); ++c) {
-                           out.push_back({Site::kJoint, joint, RowMatrix(f.col(c))});
+                           out.push_back({PerturbationSite::kJoint, joint, RowMatrix(f.col(c))});
                          }
                          return out;
                        }});
@@ -308,7 +309,9 @@ std::vector<Probe> make_probes(const EffectData& data, const Eigen::Matrix3Xd& p
   std::vector<Probe> probes = maker->make();
   for (Probe& probe : probes) {
     // The maker's arrays live as long as any probe.
-    probe.actions = [maker, actions = std::move(probe.actions)] { return actions(); };
+    probe.perturbations = [maker, perturbations = std::move(probe.perturbations)] {
+      return perturbations();
+    };
   }
   return probes;
 }

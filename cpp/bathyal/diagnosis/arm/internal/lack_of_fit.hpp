@@ -19,7 +19,7 @@ struct Probe {
   /// Probes of one family are alternatives over one number (a period), in its order; else -1.
   int family = -1;
   double trials = 1.0;
-  std::function<std::vector<Action>()> actions;  ///< one for each column
+  std::function<std::vector<Perturbation>()> perturbations;  ///< one for each column
 };
 
 /// All that can be asked of these data. `position` (3, N) is where the model has the tips, in

@@ -57,18 +57,19 @@ ArmSubject::ArmSubject(const Arm& arm, const Measurement& measurement,
       seen_(observe(*problem_.system, problem_.start)),
       fit_(arm),
       effects_arm_(arm) {
-  if (problem_.drop_size_prior(seen_.unseen)) seen_ = observe(*problem_.system, problem_.start);
+  if (problem_.drop_scale_prior(seen_.null_space))
+    seen_ = observe(*problem_.system, problem_.start);
   start_ = search(problem_, seen_);
-  fit_ = report(problem_, seen_, start_);
+  fit_ = make_arm_fit(problem_, seen_, start_);
   effects_arm_ = fit_.arm;
-  geometry_ = problem_.columns.columns.size();
+  geometry_ = problem_.parameters.parameters.size();
   free_what_is_seen();
 }
 
 ArmSubject::ArmSubject(const Arm& arm, const Measurement& measurement, const Covariates& covariates,
                        const IdentifyOptions& options, const Effects& effects)
     : ArmSubject(arm, measurement, nullptr, options) {
-  geometry_doubts_ = examine(measurement, *problem_.system, arm, fit_);
+  geometry_doubts_ = run_checks(measurement, *problem_.system, arm, fit_);
   gather_data(covariates);
   gather_units();
   gather_forms(effects);
@@ -86,13 +87,13 @@ void ArmSubject::free_what_is_seen() {
       base_free_.push_back(c);
     }
   }
-  ArmSystem& system = *problem_.system;
-  system.set_linear_rows({});
+  ArmResiduals& system = *problem_.system;
+  system.set_linear_constraints({});
   system.set_free(base_free_);
   x_ = start_.x;
-  exact_ = exact_joints(system, x_);
+  exact_ = consistent_joints(system, x_);
   const RankReport rank =
-      reveal_rank(triangle_of(derivatives(x_), system.num_threads()), kSeenDirection);
+      numerical_rank(qr_factor(derivatives(x_), system.num_threads()), kSeenDirection);
   held_ = rank.directions.leftCols(rank.rank);
 }
 
@@ -124,8 +125,8 @@ void ArmSubject::gather_noise_forms() {
   const double step = logged_step(m_.q, nominal_);
   if (!(step > 0.0)) return;
   Eigen::MatrixXd loads(3 * m_.rows(), m_.q.cols());
-  const TipWalk walk(problem_.columns, x_, {});
-  WalkFrames frames;
+  const ChainDerivatives walk(problem_.parameters, x_, {});
+  ChainFrames frames;
   Vec3 tip;
   for (Index i = 0; i < m_.rows(); ++i) {
     const double evenly = std::sqrt(m_.weights[i] / 12.0);  // over a step of 1
@@ -143,10 +144,11 @@ void ArmSubject::gather_forms(const Effects& effects) {
     std::erase_if(variants, [this](const EffectVariant& variant) { return is_too_wide(variant); });
     std::map<std::pair<int, std::string>, std::vector<int>> by_cause;
     for (EffectVariant& variant : variants) {
-      by_cause[{variant.joint, variant.cause}].push_back(static_cast<int>(forms_.size()));
-      forms_.push_back({variant.effect, variant.joint, variant.cause, words_of(variant, nominal_),
-                        static_cast<double>(variants.size()), has_whole_order(variant)});
-      forms_.back().shares = effect->info().adds_up;
+      by_cause[{variant.joint, variant.alias_group}].push_back(static_cast<int>(forms_.size()));
+      forms_.push_back({variant.effect, variant.joint, variant.alias_group,
+                        words_of(variant, nominal_), static_cast<double>(variants.size()),
+                        has_whole_order(variant)});
+      forms_.back().shares = effect->info().combinable;
       forms_.back().moves = variant.settings.contains("order") && !has_whole_order(variant);
       sources_.push_back({effect, std::move(variant), -1});
     }
@@ -227,11 +229,12 @@ std::vector<int> ArmSubject::finer(int form) {
   return chain;
 }
 
-std::vector<std::vector<Action>> ArmSubject::actions_of(int form) const {
+std::vector<std::vector<Perturbation>> ArmSubject::perturbations_of(int form) const {
   const Source& source = sources_[form];
-  if (source.probe < 0) return actions_of(*source.effect, source.variant);
-  std::vector<std::vector<Action>> out;
-  for (Action& action : probes_[source.probe].actions()) out.push_back({std::move(action)});
+  if (source.probe < 0) return perturbations_of(*source.effect, source.variant);
+  std::vector<std::vector<Perturbation>> out;
+  for (Perturbation& perturbation : probes_[source.probe].perturbations())
+    out.push_back({std::move(perturbation)});
   return out;
 }
 
@@ -252,14 +255,14 @@ std::vector<Eigen::MatrixXd> ArmSubject::columns(std::span<const int> forms) con
   std::vector<ActingVariant> acting;
   for (const int form : forms) {
     EffectVariant variant = sources_[form].variant;
-    std::vector<std::vector<Action>> actions = actions_of(form);
+    std::vector<std::vector<Perturbation>> perturbations = perturbations_of(form);
     if (sources_[form].probe >= 0) {
       variant.effect = forms_[form].words;
-      for (std::size_t c = 0; c < actions.size(); ++c) {
+      for (std::size_t c = 0; c < perturbations.size(); ++c) {
         variant.parameters.push_back({std::to_string(c), "", 1.0});
       }
     }
-    acting.push_back({std::move(variant), std::move(actions)});
+    acting.push_back({std::move(variant), std::move(perturbations)});
   }
   std::vector<Eigen::MatrixXd> out;
   for (ParameterColumns& one : columns_of(std::move(acting))) {
@@ -274,19 +277,19 @@ std::vector<Eigen::MatrixXd> ArmSubject::columns(std::span<const int> forms) con
 
 std::vector<ArmSubject::ParameterColumns> ArmSubject::columns_of(
     std::vector<ActingVariant> acting) const {
-  ArmColumns columns = problem_.columns;
-  const auto before = static_cast<Index>(columns.columns.size());
+  ArmParameters parameters = problem_.parameters;
+  const auto before = static_cast<Index>(parameters.parameters.size());
   std::vector<Index> first{0};
   for (ActingVariant& one : acting) {
-    add_effect(columns, one.variant, std::move(one.actions));
-    first.push_back(static_cast<Index>(columns.columns.size()) - before);
+    add_effect(parameters, one.variant, std::move(one.perturbations));
+    first.push_back(static_cast<Index>(parameters.parameters.size()) - before);
   }
   std::vector<int> wanted(static_cast<std::size_t>(first.back()));
   std::iota(wanted.begin(), wanted.end(), static_cast<int>(before));
-  Eigen::VectorXd x = columns.nominal();
+  Eigen::VectorXd x = parameters.nominal();
   x.head(x_.size()) = x_;
-  ArmSystem system(columns, m_, Criterion::kCentroid, false, problem_.system->num_threads());
-  system.set_trust(problem_.system->trust());
+  ArmResiduals system(parameters, m_, Criterion::kCentroid, false, problem_.system->num_threads());
+  system.set_observation_weights(problem_.system->observation_weights());
   system.set_row_whitening(problem_.system->row_whitening());
   system.set_noise(problem_.system->noise(), x);
   system.set_joints(exact_);
@@ -299,7 +302,7 @@ std::vector<ArmSubject::ParameterColumns> ArmSubject::columns_of(
   const double ordinary = kOrdinaryMove / system.noise().position * std::sqrt(double(m_.rows()));
   Eigen::VectorXd scale(all.cols());
   for (Index c = 0; c < all.cols(); ++c) {
-    scale[c] = columns.columns[static_cast<std::size_t>(before + c)].scale;
+    scale[c] = parameters.parameters[static_cast<std::size_t>(before + c)].scale;
     if (all.col(c).norm() < kRounding * ordinary) {
       all.col(c).setZero();
     } else {
@@ -316,8 +319,8 @@ std::vector<ArmSubject::ParameterColumns> ArmSubject::columns_of(
 
 std::vector<Vec3> ArmSubject::tips() const {
   std::vector<Vec3> tips;
-  const TipWalk walk(problem_.columns, x_, {});
-  WalkFrames frames;
+  const ChainDerivatives walk(problem_.parameters, x_, {});
+  ChainFrames frames;
   for (Index i = 0; i < m_.rows(); ++i) {
     tips.push_back(
         walk.tip(m_.q.row(i).data(), i, m_.tool[i], m_.station[i], frames, nullptr, nullptr, 0)

@@ -92,7 +92,7 @@ class ArmSubject final : public Subject {
   struct ArmPlace;
   struct ActingVariant {
     EffectVariant variant;
-    std::vector<std::vector<Action>> actions;
+    std::vector<std::vector<Perturbation>> perturbations;
   };
   /// What parameters do to the rows, (M, k) per unit of each, and an ordinary change of each.
   struct ParameterColumns {
@@ -122,11 +122,11 @@ class ArmSubject final : public Subject {
   void gather_forms(const Effects& effects);
   void gather_noise_forms();
   bool is_too_wide(const EffectVariant& variant);
-  std::vector<std::vector<Action>> actions_of(int form) const;
-  std::vector<std::vector<Action>> actions_of(const Effect& effect,
-                                              const EffectVariant& variant) const;
-  std::vector<std::vector<Action>> actions_in_record(const Effect& effect,
-                                                     const EffectVariant& variant) const;
+  std::vector<std::vector<Perturbation>> perturbations_of(int form) const;
+  std::vector<std::vector<Perturbation>> perturbations_of(const Effect& effect,
+                                                          const EffectVariant& variant) const;
+  std::vector<std::vector<Perturbation>> actions_in_record(const Effect& effect,
+                                                           const EffectVariant& variant) const;
   void find_those_that_need_the_record();
   double plausible(int form, std::size_t parameter, double scale) const;
   std::vector<ParameterColumns> columns_of(std::vector<ActingVariant> acting) const;
@@ -146,9 +146,9 @@ class ArmSubject final : public Subject {
   const Arm& nominal_;
   std::unique_ptr<const Measurement> own_;  ///< of a subject beside some rows of another's
   const Measurement& m_;
-  ArmProblem problem_;
+  CalibrationProblem problem_;
   Observability seen_;
-  SearchResult start_;
+  CalibrationResult start_;
   ArmFit fit_;
   Arm effects_arm_;  ///< at which effects are evaluated: that of `data_` and `record_`
   EffectData data_;

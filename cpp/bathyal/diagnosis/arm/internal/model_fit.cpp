@@ -47,9 +47,9 @@ bool ArmSubject::move_orders() {
   const int threads = problem_.system->num_threads();
   Eigen::MatrixXd basis = linearization_.base.leftCols(held_.cols());
   append(basis, by_standing_);
-  scale_to_length_1(basis);
+  normalize_columns(basis);
   Eigen::MatrixXd square = inner_products(basis, threads);
-  square.diagonal().array() += kSwallowed * kSwallowed;
+  square.diagonal().array() += kCollinearityTolerance * kCollinearityTolerance;
   Eigen::MatrixXd beside = by_order;
   add_product(basis, -square.llt().solve(inner_products(basis, by_order, threads)), beside,
               threads);
@@ -122,13 +122,14 @@ void ArmSubject::fit(const std::vector<int>& forms) {
 /// The columns of `forms` behind those of the geometry, held to what is plausible.
 void ArmSubject::stand_with(const std::vector<int>& forms) {
   standing_ = forms;
-  truncate_columns(problem_.columns, geometry_);
+  truncate_parameters(problem_.parameters, geometry_);
   std::vector<int> free = base_free_;
   for (const int form : forms) {
-    const int begin = add_effect(problem_.columns, sources_[form].variant, actions_of(form));
-    const auto end = static_cast<int>(problem_.columns.columns.size());
+    const int begin =
+        add_effect(problem_.parameters, sources_[form].variant, perturbations_of(form));
+    const auto end = static_cast<int>(problem_.parameters.parameters.size());
     for (int c = begin; c < end; ++c) {
-      Column& column = problem_.columns.columns[c];
+      Parameter& column = problem_.parameters.parameters[c];
       column.prior_std = plausible(form, static_cast<std::size_t>(c - begin), column.scale);
       free.push_back(c);
     }
@@ -137,9 +138,9 @@ void ArmSubject::stand_with(const std::vector<int>& forms) {
 }
 
 double ArmSubject::evaluate_effects_at(const Eigen::VectorXd& x) {
-  const ArmSystem& system = *problem_.system;
+  const ArmResiduals& system = *problem_.system;
   effects_arm_ = arm_at(x);
-  exact_ = exact_joints(system, x);
+  exact_ = consistent_joints(system, x);
   // What follows recorded joints would follow their scatter, and explain it by itself.
   if (!m_.tracked) data_.q = exact_;
   if (!effects_changed()) return 0.0;
@@ -155,12 +156,15 @@ double ArmSubject::evaluate_effects_at(const Eigen::VectorXd& x) {
 
 /// Whether those that stand do another thing by now than their columns say.
 bool ArmSubject::effects_changed() const {
-  const auto same = [](const Action& a, const Action& b) { return a.values == b.values; };
+  const auto same = [](const Perturbation& a, const Perturbation& b) {
+    return a.values == b.values;
+  };
   std::size_t column = 0;
   for (const int form : standing_) {
-    for (const std::vector<Action>& actions : actions_of(form)) {
-      const std::vector<Action>& stands = *problem_.columns.actions[column++];
-      if (!std::equal(actions.begin(), actions.end(), stands.begin(), stands.end(), same)) {
+    for (const std::vector<Perturbation>& perturbations : perturbations_of(form)) {
+      const std::vector<Perturbation>& stands = *problem_.parameters.perturbations[column++];
+      if (!std::equal(perturbations.begin(), perturbations.end(), stands.begin(), stands.end(),
+                      same)) {
         return true;
       }
     }
@@ -181,7 +185,7 @@ struct ArmSubject::ArmPlace final : Place {
   RowMatrix effects_q;  ///< the same
   RowMatrix exact;
   std::vector<double> trust;
-  ArmSystem::Whitening whitening;
+  ArmResiduals::Whitening whitening;
   Noise noise;
 };
 
@@ -191,7 +195,7 @@ std::shared_ptr<const Subject::Place> ArmSubject::place() const {
   for (const int form : standing_) out->variants.push_back(sources_[form].variant);
   out->sizes = sizes_;
   out->x = x_;
-  out->trust = problem_.system->trust();
+  out->trust = problem_.system->observation_weights();
   out->whitening = problem_.system->row_whitening();
   out->noise = problem_.system->noise();
   return out;
@@ -208,7 +212,7 @@ void ArmSubject::return_to(const Place& place) {
   data_.q = to.effects_q;
   exact_ = to.exact;
   stand_with(to.standing);
-  problem_.system->set_trust(to.trust);
+  problem_.system->set_observation_weights(to.trust);
   problem_.system->set_row_whitening(to.whitening);
   problem_.system->set_noise(to.noise, to.x);
   stand_at(to.x);
@@ -217,7 +221,7 @@ void ArmSubject::return_to(const Place& place) {
 /// Derivatives of exact touches: scatter would pass for information about the arm's size (see
 /// arm_search.cpp).
 Eigen::MatrixXd ArmSubject::derivatives(const Eigen::VectorXd& x) const {
-  ArmSystem exact = *problem_.system;
+  ArmResiduals exact = *problem_.system;
   exact.set_joints(exact_);
   return exact.jacobian(x);
 }
@@ -225,12 +229,12 @@ Eigen::MatrixXd ArmSubject::derivatives(const Eigen::VectorXd& x) const {
 /// Least squares of touches lie at an arm too small; steps along the derivatives of exact touches
 /// end where what is known of the size is met.
 Eigen::VectorXd ArmSubject::without_size_draw(Eigen::VectorXd x) {
-  const ArmSystem& system = *problem_.system;
+  const ArmResiduals& system = *problem_.system;
   const Eigen::VectorXd least = x;
   Eigen::VectorXd residuals(system.rows());
   double last = std::numeric_limits<double>::infinity();
   for (int step = 0; step < kMostSteps; ++step) {
-    exact_ = exact_joints(system, x);
+    exact_ = consistent_joints(system, x);
     const Eigen::VectorXd y = system.scaled(x);
     system.evaluate(y.data(), residuals.data(), nullptr);
     Eigen::MatrixXd both(system.rows(), system.columns() + 1);
@@ -255,7 +259,7 @@ Eigen::VectorXd ArmSubject::step_of(const Eigen::MatrixXd& square, double dampin
   const Eigen::VectorXd scale = own.diagonal().unaryExpr(
       [](double value) { return value > 0.0 ? 1.0 / std::sqrt(value) : 0.0; });
   own = scale.asDiagonal() * own * scale.asDiagonal();
-  own.diagonal().array() += kSwallowed * kSwallowed;
+  own.diagonal().array() += kCollinearityTolerance * kCollinearityTolerance;
   const Eigen::VectorXd against =
       scale.asDiagonal() * (to_free.transpose() * square.col(wide).head(wide));
   return to_free * (scale.asDiagonal() * own.ldlt().solve(-against));
@@ -265,11 +269,11 @@ Eigen::VectorXd ArmSubject::step_of(const Eigen::MatrixXd& square, double dampin
 /// hardly tell (a valley that is curved, along which a full step leads out of it) goes no farther
 /// than arms differ, and all else goes as Gauss and Newton have it.
 Eigen::VectorXd ArmSubject::nearest_minimum(Eigen::VectorXd x) const {
-  const ArmSystem& system = *problem_.system;
+  const ArmResiduals& system = *problem_.system;
   Eigen::VectorXd y = system.scaled(x);
   double damping = kFirstDamping;
   for (int step = 0; step < kMostSteps; ++step) {
-    const Eigen::MatrixXd square = system.square(y.data());
+    const Eigen::MatrixXd square = system.normal_equations(y.data());
     const double before = square(square.rows() - 1, square.cols() - 1);
     Eigen::VectorXd next;
     double after = std::numeric_limits<double>::infinity();
@@ -298,7 +302,7 @@ Eigen::MatrixXd ArmSubject::moves() const {
 
 void ArmSubject::stand_at(const Eigen::VectorXd& x) {
   x_ = x;
-  ArmSystem& system = *problem_.system;
+  ArmResiduals& system = *problem_.system;
   const Index rows = system.rows();
   const auto wide = static_cast<Index>(base_free_.size());
   Eigen::VectorXd residuals(rows);
@@ -338,7 +342,7 @@ void ArmSubject::stand_at(const Eigen::VectorXd& x) {
 }
 
 bool ArmSubject::is_left_out(Index row) const {
-  return problem_.system->trust()[row] < kLeftOut * 2.0;
+  return problem_.system->observation_weights()[row] < kLeftOut * 2.0;
 }
 
 Eigen::Array2d ArmSubject::free_rows() const {
@@ -353,7 +357,7 @@ Eigen::Array2d ArmSubject::free_rows() const {
 }
 
 bool ArmSubject::update_noise() {
-  ArmSystem& system = *problem_.system;
+  ArmResiduals& system = *problem_.system;
   const auto taken = static_cast<double>(system.columns() - held_.rows() + held_.cols());
   const Index positions = system.position_rows();
   Eigen::VectorXd residuals(system.rows());
@@ -386,7 +390,7 @@ void ArmSubject::set_trust(const Eigen::VectorXd& trust) {
   for (Index i = 0; i < trust.size(); ++i) {
     factors[i] = trust[i] > 0.0 ? std::max(trust[i], kLeftOut) : kLeftOut;
   }
-  problem_.system->set_trust(std::move(factors));
+  problem_.system->set_observation_weights(std::move(factors));
 }
 
 /// Errors of a pose's rows have the covariance 1 + Σ ratio · loads loadsᵀ.
@@ -422,8 +426,8 @@ Eigen::MatrixXd ArmSubject::by_scanned() const {
       for (const double change : {changes.back(), -changes.back()}) {
         EffectVariant other = here;
         other.settings["order"] += change;
-        auto actions = actions_of(*sources_[form].effect, other);
-        acting.push_back({std::move(other), std::move(actions)});
+        auto perturbations = perturbations_of(*sources_[form].effect, other);
+        acting.push_back({std::move(other), std::move(perturbations)});
       }
     }
     at += wide;

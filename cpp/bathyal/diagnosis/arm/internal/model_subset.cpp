@@ -24,8 +24,8 @@ EffectData some_of(const EffectData& all, const std::vector<int>& rows) {
 }
 
 std::unique_ptr<const Measurement> own_rows(const Measurement& all, const std::vector<int>& rows) {
-  auto out = std::make_unique<Measurement>(some_of(all, rows));
-  out->actions.clear();
+  auto out = std::make_unique<Measurement>(subset(all, rows));
+  out->perturbation_rows.clear();
   return out;
 }
 
@@ -55,18 +55,19 @@ void ArmSubject::take_forms(const ArmSubject& some) {
   neighbours_ = some.neighbours_;
 }
 
-std::vector<std::vector<Action>> ArmSubject::actions_of(const Effect& effect,
-                                                        const EffectVariant& variant) const {
-  if (!needs_record_.contains(&effect)) return bathyal::actions_of(effect, variant, data_);
+std::vector<std::vector<Perturbation>> ArmSubject::perturbations_of(
+    const Effect& effect, const EffectVariant& variant) const {
+  if (!needs_record_.contains(&effect)) return bathyal::perturbations_of(effect, variant, data_);
   return actions_in_record(effect, variant);
 }
 
 /// Of a row that is seen among all rows of the record.
-std::vector<std::vector<Action>> ArmSubject::actions_in_record(const Effect& effect,
-                                                               const EffectVariant& variant) const {
-  std::vector<std::vector<Action>> out = bathyal::actions_of(effect, variant, *record_);
-  for (std::vector<Action>& actions : out) {
-    for (Action& action : actions) action.values = RowMatrix(action.values(rows_, Eigen::all));
+std::vector<std::vector<Perturbation>> ArmSubject::actions_in_record(
+    const Effect& effect, const EffectVariant& variant) const {
+  std::vector<std::vector<Perturbation>> out = bathyal::perturbations_of(effect, variant, *record_);
+  for (std::vector<Perturbation>& perturbations : out) {
+    for (Perturbation& perturbation : perturbations)
+      perturbation.values = RowMatrix(perturbation.values(rows_, Eigen::all));
   }
   return out;
 }
@@ -78,16 +79,17 @@ void ArmSubject::find_those_that_need_the_record() {
   for (const Source& source : sources_) {
     if (source.effect) forms[source.effect.get()].push_back(&source.variant);
   }
-  const auto same = [](const std::vector<std::vector<Action>>& a,
-                       const std::vector<std::vector<Action>>& b) {
+  const auto same = [](const std::vector<std::vector<Perturbation>>& a,
+                       const std::vector<std::vector<Perturbation>>& b) {
     return std::equal(a.begin(), a.end(), b.begin(), [](const auto& first, const auto& second) {
-      return std::equal(first.begin(), first.end(), second.begin(),
-                        [](const Action& x, const Action& y) { return x.values == y.values; });
+      return std::equal(
+          first.begin(), first.end(), second.begin(),
+          [](const Perturbation& x, const Perturbation& y) { return x.values == y.values; });
     });
   };
   for (const auto& [effect, variants] : forms) {
     for (const EffectVariant* variant : {variants.front(), variants.back()}) {
-      if (!same(bathyal::actions_of(*effect, *variant, data_),
+      if (!same(bathyal::perturbations_of(*effect, *variant, data_),
                 actions_in_record(*effect, *variant))) {
         needs_record_.insert(effect);
       }

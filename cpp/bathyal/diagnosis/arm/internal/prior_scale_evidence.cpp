@@ -64,7 +64,7 @@ class LinearEffects {
   Eigen::LLT<Eigen::MatrixXd> root() const {
     Eigen::MatrixXd square = told_.topLeftCorner(last_, last_) / (noise_ * noise_);
     square.diagonal().tail(weight_.size()) += weight_;
-    square.diagonal() *= 1.0 + kSwallowed * kSwallowed;
+    square.diagonal() *= 1.0 + kCollinearityTolerance * kCollinearityTolerance;
     return Eigen::LLT<Eigen::MatrixXd>(square);
   }
 
@@ -94,14 +94,15 @@ std::map<ArmSubject::Family, std::vector<Index>> ArmSubject::large_families() co
 /// the data alone. `weight`: what the system holds effects' values with.
 Eigen::MatrixXd ArmSubject::told_by_data(const Eigen::VectorXd& x,
                                          const Eigen::VectorXd& weight) const {
-  const ArmSystem& system = *problem_.system;
+  const ArmResiduals& system = *problem_.system;
   const Eigen::VectorXd y = system.scaled(x);
   const Eigen::MatrixXd to_free = moves();
   const Index wide = to_free.rows(), last = to_free.cols(), effects = weight.size();
   Eigen::MatrixXd to_all = Eigen::MatrixXd::Zero(wide + 1, last + 1);
   to_all.topLeftCorner(wide, last) = to_free;
   to_all(wide, last) = 1.0;
-  Eigen::MatrixXd told = inner_products(to_all, product(system.square(y.data()), to_all, 1), 1);
+  Eigen::MatrixXd told =
+      inner_products(to_all, product(system.normal_equations(y.data()), to_all, 1), 1);
   const Eigen::VectorXd values = y.tail(effects);
   const auto own = Eigen::seqN(last - effects, effects);
   told.diagonal()(own) -= weight;
@@ -119,10 +120,10 @@ Eigen::MatrixXd ArmSubject::told_by_data(const Eigen::VectorXd& x,
 bool ArmSubject::learn_sizes(const Eigen::VectorXd& x) {
   const auto families = large_families();
   if (families.empty()) return false;
-  std::vector<Column>& columns = problem_.columns.columns;
+  std::vector<Parameter>& columns = problem_.parameters.parameters;
   Eigen::VectorXd weight(problem_.system->columns() - held_.rows());
   for (Index i = 0; i < weight.size(); ++i) {
-    const Column& column = columns[geometry_ + static_cast<std::size_t>(i)];
+    const Parameter& column = columns[geometry_ + static_cast<std::size_t>(i)];
     weight[i] = std::pow(column.scale / column.prior_std, 2);
   }
   LinearEffects model(told_by_data(x, weight), weight);

@@ -24,12 +24,12 @@ std::vector<FoundEffect> ArmSubject::found() const {
 
 double ArmSubject::freedom() const {
   const Eigen::MatrixXd& base = linearization_.base;
-  const auto effects = static_cast<Index>(problem_.columns.columns.size() - geometry_);
+  const auto effects = static_cast<Index>(problem_.parameters.parameters.size() - geometry_);
   return static_cast<double>(base.rows() - base.cols() - effects) - linearization_.lost;
 }
 
 Eigen::MatrixXd ArmSubject::covariance() const {
-  const ArmSystem& system = *problem_.system;
+  const ArmResiduals& system = *problem_.system;
   const Eigen::MatrixXd jacobian = derivatives(x_);
   const Index effects = jacobian.cols() - held_.rows();
   const Eigen::MatrixXd scanned = by_scanned();
@@ -41,17 +41,19 @@ Eigen::MatrixXd ArmSubject::covariance() const {
     scale[c] = length > 0.0 ? 1.0 / length : 0.0;
     all.col(c) *= scale[c];
   }
-  const RankReport rank = reveal_rank(triangle_of(all, system.num_threads()), kSwallowed);
+  const RankReport rank =
+      numerical_rank(qr_factor(all, system.num_threads()), kCollinearityTolerance);
   const Eigen::MatrixXd root = scale.asDiagonal() * rank.directions.leftCols(rank.rank) *
                                rank.singular_values.head(rank.rank).cwiseInverse().asDiagonal();
   Eigen::MatrixXd own = root.middleRows(held_.cols(), effects);
   for (Index i = 0; i < effects; ++i) {
-    own.row(i) *= problem_.columns.columns[geometry_ + static_cast<std::size_t>(i)].scale;
+    own.row(i) *= problem_.parameters.parameters[geometry_ + static_cast<std::size_t>(i)].scale;
   }
   const Eigen::VectorXd y = system.scaled(x_);
   double squares = system.cost(y.data());
   for (Index i = 0; i < effects; ++i) {  // what holds them measures nothing
-    const Column& column = problem_.columns.columns[geometry_ + static_cast<std::size_t>(i)];
+    const Parameter& column =
+        problem_.parameters.parameters[geometry_ + static_cast<std::size_t>(i)];
     squares -= std::pow(y[held_.rows() + i] * column.scale / column.prior_std, 2);
   }
   return squares / freedom() * (own * own.transpose());
@@ -60,7 +62,7 @@ Eigen::MatrixXd ArmSubject::covariance() const {
 Arm ArmSubject::arm() const { return arm_at(x_); }
 
 Arm ArmSubject::arm_at(const Eigen::VectorXd& x) const {
-  const ArmState state = state_at(problem_.columns, x);
+  const ArmState state = state_at(problem_.parameters, x);
   Arm arm = state.arm;
   arm.set_base(state.bases[0]);
   arm.set_tool(state.tools[0]);
@@ -71,15 +73,15 @@ Eigen::Matrix3Xd ArmSubject::deviations() const {
   if (m_.tracked || standing_.empty()) return problem_.system->deviations(x_);
   EffectData recorded = data_;
   recorded.q = m_.q;
-  ArmColumns columns = problem_.columns;
-  truncate_columns(columns, geometry_);
+  ArmParameters parameters = problem_.parameters;
+  truncate_parameters(parameters, geometry_);
   for (const int form : standing_) {
     const Source& source = sources_[form];
-    add_effect(columns, source.variant,
-               bathyal::actions_of(*source.effect, source.variant, recorded));
+    add_effect(parameters, source.variant,
+               bathyal::perturbations_of(*source.effect, source.variant, recorded));
   }
-  ArmSystem system(columns, m_, Criterion::kCentroid, false, problem_.system->num_threads());
-  system.set_trust(problem_.system->trust());
+  ArmResiduals system(parameters, m_, Criterion::kCentroid, false, problem_.system->num_threads());
+  system.set_observation_weights(problem_.system->observation_weights());
   system.set_row_whitening(problem_.system->row_whitening());
   return system.deviations(x_);
 }

@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bathyal/identify/checks/internal/checks.hpp"
 
-namespace bathyal {
+namespace bathyal::identify {
 
-std::vector<std::string> find_doubts(const Case& seen) {
+std::vector<std::string> all_warnings(const CheckContext& context) {
   std::vector<std::string> warnings;
-  doubt_fit(seen, warnings);
-  doubt_data(seen, warnings);
+  check_fit(context, warnings);
+  check_data(context, warnings);
   return warnings;
 }
 
-std::vector<std::string> find_gross_doubts(const Case& seen) {
+std::vector<std::string> gross_warnings(const CheckContext& context) {
   std::vector<std::string> warnings;
-  doubt_arm(seen, warnings);
-  doubt_lengths(seen, warnings);
-  doubt_data(seen, warnings);
+  check_arm(context, warnings);
+  check_lengths(context, warnings);
+  check_data(context, warnings);
   return warnings;
 }
 
-}  // namespace bathyal
+}  // namespace bathyal::identify

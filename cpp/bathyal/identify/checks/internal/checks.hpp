@@ -8,47 +8,46 @@
 #include "bathyal/identify/checks/internal/residual_structure.hpp"
 #include "bathyal/identify/fit/arm_fit.hpp"
 
-// What a doubting reader would say of a fit. For use inside the room.
+// Checks of a fit and of its data, each of which may add warnings.
 
-namespace bathyal {
+namespace bathyal::identify {
 
-/// What there is to look at: a fit with everything but its warnings.
-struct Case {
+/// Input of the checks: a fit with everything but its warnings.
+struct CheckContext {
   const Measurement& measurement;
-  const ArmSystem& system;
+  const ArmResiduals& system;
   const Arm& nominal;
   const ArmFit& fit;
-  const JointStructure& structure;
+  const ResidualStructure& structure;
   const OutlierSearch& search;
 };
 
 /// "joint 3 (elbow)".
-std::string joint_words(const Arm& arm, Index coordinate);
+std::string joint_label(const Arm& arm, Index coordinate);
 
-/// A warning or more each: what it means and what to do next. The gravest first.
-std::vector<std::string> find_doubts(const Case& seen);
+/// All warnings, the most serious first: what is wrong, what it means and what to do next.
+std::vector<std::string> all_warnings(const CheckContext& context);
 
-/// Those of them that no effect beside geometry answers: of the machine, its size and the poses.
-std::vector<std::string> find_gross_doubts(const Case& seen);
+/// The warnings that no effect can explain: about the machine, its scale and the poses.
+std::vector<std::string> gross_warnings(const CheckContext& context);
 
-/// Whether the fit is of another machine, or of an arm that no one would build.
-bool is_unusable(const Case& seen);
+/// Whether the fit is of another machine, or of an arm that is far from its nominal geometry.
+bool is_unusable(const CheckContext& context);
 
-/// Whether outliers make up most of what is left: what else is odd about the numbers of the fit is
-/// their doing, and is not worth telling before they are mended.
-bool is_swamped(const Case& seen);
+/// Whether outliers make up most of the residuals: they then cause whatever else is conspicuous in
+/// the fit, which is not reported until they are corrected.
+bool outliers_dominate(const CheckContext& context);
 
-/// Those that the fit gives: it belongs to another machine, rows contradict each other, it leaves
-/// too much.
-void doubt_fit(const Case& seen, std::vector<std::string>& warnings);
+/// Checks of the fit: another machine, rows that contradict each other, large residuals.
+void check_fit(const CheckContext& context, std::vector<std::string>& warnings);
 
-/// Of these: it belongs to another machine, or to an arm that no one would build.
-void doubt_arm(const Case& seen, std::vector<std::string>& warnings);
+/// Of these: another machine, or an arm that is far from its nominal geometry.
+void check_arm(const CheckContext& context, std::vector<std::string>& warnings);
 
-/// Those about lengths: nothing measured tells the arm's size, or touches contradict what was told.
-void doubt_lengths(const Case& seen, std::vector<std::string>& warnings);
+/// Checks of lengths: no observed scale, touches that contradict known lengths or positions.
+void check_lengths(const CheckContext& context, std::vector<std::string>& warnings);
 
-/// Those that the poses give: too few, too alike, joints that stand still, limits exceeded.
-void doubt_data(const Case& seen, std::vector<std::string>& warnings);
+/// Checks of the poses: too few, too similar, joints at rest, limits exceeded.
+void check_data(const CheckContext& context, std::vector<std::string>& warnings);
 
-}  // namespace bathyal
+}  // namespace bathyal::identify

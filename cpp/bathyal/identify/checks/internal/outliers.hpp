@@ -5,40 +5,40 @@
 
 #include "bathyal/identify/fit/arm_fit.hpp"
 
-// Rows that the others contradict. For use inside the room.
+// Rows that contradict the others.
 
-namespace bathyal {
+namespace bathyal::identify {
 
-/// How far a row's numbers may lie from the drawing before the search has strayed: wide of what
-/// makers and assemblers do.
+/// How far the parameters of a row may lie from nominal before the search counts as diverged: more
+/// than tolerances of makers and assembly.
 inline constexpr double kFarLength = 10e-3;  ///< [m]
 inline constexpr double kFarAngle = 0.05;    ///< [rad]
 
-/// What is left of a fit [m, rms], as a share of the chain's length, from which it cannot be this
+/// Residual of a fit [m, rms], as a share of the length of the chain, from which it cannot be this
 /// arm.
-inline constexpr double kForeignShare = 0.01;
+inline constexpr double kWrongArmShare = 0.01;
 
 struct OutlierSearch {
   std::vector<Outlier> outliers;  ///< by row
-  bool looked_twice = false;      ///< there was reason to find the arm again
-  /// Nothing near the drawing agrees with most rows: none is named.
-  bool hopeless = false;
-  Eigen::VectorXd x;          ///< of all columns, without the outliers
-  std::vector<double> trust;  ///< (N,) 1, or next to nothing for an outlier
-  /// (3, n) touched points by the touches alone, without what was told of them, when looked twice.
+  bool refitted = false;          ///< the arm was estimated again, robustly
+  /// No arm near nominal agrees with most rows: no outlier is reported.
+  bool no_consensus = false;
+  Eigen::VectorXd x;                        ///< of all parameters, without the outliers
+  std::vector<double> observation_weights;  ///< (N,) 1, or almost 0 for an outlier
+  /// (3, n) touched points by the touches alone, without known lengths or positions, if refitted.
   Eigen::Matrix3Xd points;
 };
 
-/// Looks for touches, or measured positions, that lie far from where the others want them.
+/// Finds touches, or measured positions, that contradict the others.
 ///
-/// A row is named when its residual, over the standard deviation that it would have among rows
-/// without it (its leverage counted: a fit bends towards rows that stand alone), is beyond what
-/// chance gives to one fit in a hundred, and above 6. Least squares hides gross errors: it bends to
-/// them and blames the good rows, or it folds the arm until the tip hardly moves, which agrees with
-/// everything. So where residuals look anything but normal, or the arm strayed from its drawing, it
-/// is found again from the drawing, held to it loosely, without what was told of the points: first
-/// with every row's pull bounded (Huber, then Tukey's biweight: Huber, Ronchetti 2009), then by
-/// least squares of the rows that stand the test, until these stay the same.
-OutlierSearch find_outliers(const ArmSystem& fitted, const Eigen::VectorXd& x);
+/// A row is an outlier when its deletion residual (the residual over the standard deviation that it
+/// would have with the row excluded, leverage included) is beyond what chance gives to one fit in a
+/// hundred, and above 6. Least squares masks gross errors: it bends towards them and spreads them
+/// over good rows, or it folds the arm until the tip hardly moves, which agrees with everything. So
+/// where residuals are far from normal, or the arm is far from nominal, it is estimated again from
+/// nominal, with loose priors, without known lengths or positions: first with bounded influence of
+/// every row (Huber, then Tukey's biweight: Huber, Ronchetti 2009), then by least squares of the
+/// rows that pass the test, until these stay the same.
+OutlierSearch find_outliers(const ArmResiduals& fitted, const Eigen::VectorXd& x);
 
-}  // namespace bathyal
+}  // namespace bathyal::identify

@@ -8,17 +8,17 @@
 #include "bathyal/estimation/f_distribution.hpp"
 #include "bathyal/identify/fit/observability.hpp"
 
-namespace bathyal {
+namespace bathyal::identify {
 namespace {
 
 constexpr Index kMaxComparedPoses = 2000;
-constexpr Index kFunctions = 2;           ///< of one joint
-constexpr Index kMoves = 3 * kFunctions;  ///< each along three axes
-constexpr double kBeside = 1e-3;          ///< what is left of a move once the arm took its part
-constexpr double kWorthAsking = 0.01;     ///< which joint it is
-constexpr double kLeastFreedom = 5.0;     ///< left for the noise
+constexpr Index kFunctionsPerJoint = 2;                ///< of one joint
+constexpr Index kRegressors = 3 * kFunctionsPerJoint;  ///< each along three axes
+constexpr double kCollinear = 1e-3;                    ///< independent share of a regressor
+constexpr double kJointThreshold = 0.01;               ///< which joint it is
+constexpr double kLeastDof = 5.0;                      ///< left for the noise
 
-/// What follows joint j alone, at each of its values.
+/// The functions of joint j alone, at each of its values.
 class JointFunctions {
  public:
   JointFunctions(const Arm& arm, const RowMatrix& q)
@@ -30,7 +30,7 @@ class JointFunctions {
     }
   }
 
-  std::array<double, kFunctions> operator()(Index joint, double q) const {
+  std::array<double, kFunctionsPerJoint> operator()(Index joint, double q) const {
     if (!slides_[joint]) return {std::cos(q), std::sin(q)};
     const double range = high_[joint] - low_[joint];
     const double u = range > 0.0 ? 2.0 * (q - low_[joint]) / range - 1.0 : 0.0;
@@ -43,51 +43,52 @@ class JointFunctions {
   std::vector<bool> slides_;
 };
 
-/// Takes from each row of a touched point what the point's centre takes: the weighted mean.
-void center(const ArmSystem& system, Eigen::MatrixXd& moves) {
+/// Subtracts the weighted mean over its point from each row of a touched point.
+void center(const ArmResiduals& system, Eigen::MatrixXd& regressors) {
   const Measurement& m = system.measurement();
   std::vector<double> total(static_cast<std::size_t>(m.points()), 0.0);
-  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(3 * m.points(), moves.cols());
+  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(3 * m.points(), regressors.cols());
   for (Index i = 0; i < m.rows(); ++i) {
     if (m.point[i] < 0) continue;
     total[m.point[i]] += system.weight(i);
-    sum.middleRows(3 * m.point[i], 3) += system.weight(i) * moves.middleRows(3 * i, 3);
+    sum.middleRows(3 * m.point[i], 3) += system.weight(i) * regressors.middleRows(3 * i, 3);
   }
   for (Index i = 0; i < m.rows(); ++i) {
     if (m.point[i] < 0) continue;
-    moves.middleRows(3 * i, 3) -= sum.middleRows(3 * m.point[i], 3) / total[m.point[i]];
+    regressors.middleRows(3 * i, 3) -= sum.middleRows(3 * m.point[i], 3) / total[m.point[i]];
   }
 }
 
-/// (3 N, moves) what errors that follow the joints do to the residuals, as these are weighed.
-Eigen::MatrixXd joint_moves(const ArmSystem& system, const Eigen::VectorXd& x, const RowMatrix& q) {
+/// (3 N, regressors) effect of errors that depend on the joints on the weighted residuals.
+Eigen::MatrixXd joint_regressors(const ArmResiduals& system, const Eigen::VectorXd& x,
+                                 const RowMatrix& q) {
   const Measurement& m = system.measurement();
-  const ArmState state = state_at(system.arm_columns(), x);
+  const ArmState state = state_at(system.arm_parameters(), x);
   const JointFunctions functions(state.arm, q);
-  Eigen::MatrixXd moves(3 * m.rows(), kMoves * m.q.cols());
+  Eigen::MatrixXd regressors(3 * m.rows(), kRegressors * m.q.cols());
   for (Index i = 0; i < m.rows(); ++i) {
     const Eigen::Matrix3d axes = state.bases[m.station[i]].linear();
     for (Index j = 0; j < m.q.cols(); ++j) {
       const auto values = functions(j, q(i, j));
-      for (Index f = 0; f < kFunctions; ++f) {
-        moves.block<3, 3>(3 * i, kMoves * j + 3 * f) = values[f] * axes;
+      for (Index f = 0; f < kFunctionsPerJoint; ++f) {
+        regressors.block<3, 3>(3 * i, kRegressors * j + 3 * f) = values[f] * axes;
       }
     }
   }
-  center(system, moves);
+  center(system, regressors);
   for (Index i = 0; i < m.rows(); ++i) {
-    moves.middleRows(3 * i, 3) *= std::sqrt(system.weight(i));
+    regressors.middleRows(3 * i, 3) *= std::sqrt(system.weight(i));
     if (m.tracked || m.plane[i] < 0) continue;
     const Eigen::RowVectorXd along =
-        state.planes[m.plane[i]].normal.transpose() * moves.middleRows(3 * i, 3);
-    moves.middleRows(3 * i, 3).setZero();
-    moves.row(3 * i) = along;
+        state.planes[m.plane[i]].normal.transpose() * regressors.middleRows(3 * i, 3);
+    regressors.middleRows(3 * i, 3).setZero();
+    regressors.row(3 * i) = along;
   }
-  for (Index c = 0; c < moves.cols(); ++c) {
-    const double length = moves.col(c).norm();
-    if (length > 0.0) moves.col(c) /= length;
+  for (Index c = 0; c < regressors.cols(); ++c) {
+    const double length = regressors.col(c).norm();
+    if (length > 0.0) regressors.col(c) /= length;
   }
-  return moves;
+  return regressors;
 }
 
 struct Explained {
@@ -95,45 +96,46 @@ struct Explained {
   double functions = 0.0;
 };
 
-/// Moves taken one by one, by what each still adds to those before, from their `square` and how
-/// much each goes `along` the residuals. What is asked of a move is far above what a square loses.
+/// Regressors added one at a time, each by its component orthogonal to those before, from their
+/// Gram matrix `square` and their products with the residuals, `along`. The tolerance is far above
+/// the rounding errors of a Gram matrix.
 Explained explain(Eigen::MatrixXd square, Eigen::VectorXd along) {
   Explained out;
   for (Index step = 0; step < along.size(); ++step) {
     Index next = 0;
     const double pivot = square.diagonal().maxCoeff(&next);
-    if (!(pivot > kBeside * kBeside)) break;
+    if (!(pivot > kCollinear * kCollinear)) break;
     const Eigen::VectorXd column = square.col(next) / std::sqrt(pivot);
-    const double taken = along[next] / std::sqrt(pivot);
-    out.squares += taken * taken;
+    const double component = along[next] / std::sqrt(pivot);
+    out.squares += component * component;
     out.functions += 1.0;
     square.noalias() -= column * column.transpose();
-    along -= taken * column;
+    along -= component * column;
   }
   return out;
 }
 
-/// Share of the variance that is gone with the functions.
-double share_of(const Explained& explained, double squares, double freedom) {
-  const double left = (squares - explained.squares) / (freedom - explained.functions);
-  return squares > 0.0 ? std::clamp(1.0 - left * freedom / squares, 0.0, 1.0) : 0.0;
+/// Share of the variance that the functions explain.
+double share_of(const Explained& explained, double squares, double dof) {
+  const double unexplained = (squares - explained.squares) / (dof - explained.functions);
+  return squares > 0.0 ? std::clamp(1.0 - unexplained * dof / squares, 0.0, 1.0) : 0.0;
 }
 
-double rows_trusted(const Measurement& m, const std::vector<double>& trust) {
+double rows_counted(const Measurement& m, const std::vector<double>& weights) {
   double rows = free_position_rows(m);
   for (Index i = 0; i < m.rows(); ++i) {
-    if (trust[i] < 1e-6) rows -= !m.tracked && m.plane[i] >= 0 ? 1.0 : 3.0;
+    if (weights[i] < 1e-6) rows -= !m.tracked && m.plane[i] >= 0 ? 1.0 : 3.0;
   }
   return rows;
 }
 
-/// An orthonormal basis of what the arm's columns can do to the positions. Touches about their
-/// centres are what a growing arm does to them: left in, the arm's size would take all residuals
-/// with it. It is held.
-Eigen::MatrixXd arm_space(Eigen::MatrixXd jacobian, const Eigen::VectorXd& residuals,
-                          bool hold_size) {
+/// An orthonormal basis of the column space of the Jacobian of the positions. Deviations of touches
+/// from their centroids are themselves a change of scale: with the scale included, it would absorb
+/// all residuals, so it is fixed.
+Eigen::MatrixXd parameter_space(Eigen::MatrixXd jacobian, const Eigen::VectorXd& residuals,
+                                bool hold_size) {
   constexpr double kDependent = 1e-9;
-  constexpr double kWeak = 1e-4;  // what moves so little has no part in residuals of this size
+  constexpr double kWeak = 1e-4;  // what regressors so little has no part in residuals of this size
   const Index columns = jacobian.cols();
   const Eigen::HouseholderQR<Eigen::MatrixXd> first(jacobian);
   Eigen::MatrixXd triangle = first.matrixQR().topRows(columns).triangularView<Eigen::Upper>();
@@ -166,48 +168,49 @@ bool slides(const Arm& arm) {
                      [](const Joint& joint) { return joint.type == JointType::kPrismatic; });
 }
 
-JointStructure test(ArmSystem& system, const Eigen::VectorXd& x) {
+ResidualStructure test(ArmResiduals& system, const Eigen::VectorXd& x) {
   const Measurement& m = system.measurement();
   const Index rows = 3 * m.rows();
-  JointStructure out;
+  ResidualStructure out;
   if (system.columns() == 0 || rows <= system.columns()) return out;
   Eigen::VectorXd residuals(system.rows());
   Eigen::MatrixXd jacobian(system.rows(), system.columns());
   system.evaluate(system.scaled(x).data(), residuals.data(), jacobian.data());
   residuals.conservativeResize(rows);
   RowMatrix q = m.q;
-  if (!m.tracked && slides(system.arm_columns().arm)) {
+  if (!m.tracked && slides(system.arm_parameters().arm)) {
     // At joints as they were recorded, travel and an arm that shrinks by as much would together
     // make the residuals of touches, and these would pass for something that follows the joint.
-    q = exact_joints(system, x);
+    q = consistent_joints(system, x);
     system.set_joints(q);
     jacobian = system.jacobian(x);
   }
-  const Eigen::MatrixXd basis = arm_space(jacobian.topRows(rows), residuals, !m.tracked);
-  const Eigen::VectorXd left = residuals - basis * (basis.transpose() * residuals);
+  const Eigen::MatrixXd basis = parameter_space(jacobian.topRows(rows), residuals, !m.tracked);
+  const Eigen::VectorXd projected = residuals - basis * (basis.transpose() * residuals);
 
-  const Eigen::MatrixXd moves = joint_moves(system, x, q);
-  const Eigen::MatrixXd inside = basis.transpose() * moves;
-  Eigen::MatrixXd square = Eigen::MatrixXd::Zero(moves.cols(), moves.cols());
-  square.selfadjointView<Eigen::Lower>().rankUpdate(moves.transpose());
-  square.selfadjointView<Eigen::Lower>().rankUpdate(inside.transpose(), -1.0);
+  const Eigen::MatrixXd regressors = joint_regressors(system, x, q);
+  const Eigen::MatrixXd within = basis.transpose() * regressors;
+  Eigen::MatrixXd square = Eigen::MatrixXd::Zero(regressors.cols(), regressors.cols());
+  square.selfadjointView<Eigen::Lower>().rankUpdate(regressors.transpose());
+  square.selfadjointView<Eigen::Lower>().rankUpdate(within.transpose(), -1.0);
   square.triangularView<Eigen::StrictlyUpper>() = square.transpose();
-  const Eigen::VectorXd along = moves.transpose() * left;
+  const Eigen::VectorXd along = regressors.transpose() * projected;
 
-  const double freedom = rows_trusted(m, system.trust()) - static_cast<double>(basis.cols());
-  const double squares = left.squaredNorm();
+  const double dof =
+      rows_counted(m, system.observation_weights()) - static_cast<double>(basis.cols());
+  const double squares = projected.squaredNorm();
   const Explained all = explain(square, along);
-  const double below = freedom - all.functions;
-  if (all.functions < 1.0 || below < kLeastFreedom) return out;
+  const double below = dof - all.functions;
+  if (all.functions < 1.0 || below < kLeastDof) return out;
   const double noise = std::max(squares - all.squares, 0.0) / below;
   out.p = noise > 0.0 ? f_tail(all.squares / all.functions / noise, all.functions, below) : 1.0;
-  out.share = share_of(all, squares, freedom);
-  if (out.p > kWorthAsking) return out;
+  out.share = share_of(all, squares, dof);
+  if (out.p > kJointThreshold) return out;
   for (int j = 0; j < m.q.cols(); ++j) {
-    const Index at = kMoves * j;
+    const Index at = kRegressors * j;
     const Explained alone =
-        explain(square.block(at, at, kMoves, kMoves), along.segment(at, kMoves));
-    const double share = share_of(alone, squares, freedom);
+        explain(square.block(at, at, kRegressors, kRegressors), along.segment(at, kRegressors));
+    const double share = share_of(alone, squares, dof);
     if (share > out.joint_share) {
       out.coordinate = j;
       out.joint_share = share;
@@ -218,30 +221,30 @@ JointStructure test(ArmSystem& system, const Eigen::VectorXd& x) {
 
 }  // namespace
 
-JointStructure find_structure(const ArmSystem& system, const Eigen::VectorXd& x,
-                              const std::vector<double>& trust) {
+ResidualStructure test_residual_structure(const ArmResiduals& system, const Eigen::VectorXd& x,
+                                          const std::vector<double>& weights) {
   const Measurement& all = system.measurement();
   if (all.rows() <= kMaxComparedPoses) {
-    ArmSystem asked = system;
-    asked.set_criterion(Criterion::kCentroid, false);
-    asked.set_trust(trust);
-    return test(asked, x);
+    ArmResiduals tested = system;
+    tested.set_criterion(Criterion::kCentroid, false);
+    tested.set_observation_weights(weights);
+    return test(tested, x);
   }
   const Index stride = (all.rows() + kMaxComparedPoses - 1) / kMaxComparedPoses;
   std::vector<int> rows;
-  std::vector<double> some_trust;
+  std::vector<double> some_weights;
   for (Index i = 0; i < all.rows(); i += stride) {
     rows.push_back(static_cast<int>(i));
-    some_trust.push_back(trust[i]);
+    some_weights.push_back(weights[i]);
   }
-  Measurement some = some_of(all, rows);
-  some.distances.clear();  // a point may have lost its touches
-  some.known_points.clear();
-  ArmSystem asked(system.arm_columns(), some, Criterion::kCentroid, false, 1);
-  asked.set_free(system.free());
-  asked.set_trust(std::move(some_trust));
-  asked.set_noise(system.noise(), x);
-  return test(asked, x);
+  Measurement sample = subset(all, rows);
+  sample.distances.clear();  // a point may have lost its touches
+  sample.known_points.clear();
+  ArmResiduals tested(system.arm_parameters(), sample, Criterion::kCentroid, false, 1);
+  tested.set_free(system.free());
+  tested.set_observation_weights(std::move(some_weights));
+  tested.set_noise(system.noise(), x);
+  return test(tested, x);
 }
 
-}  // namespace bathyal
+}  // namespace bathyal::identify

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <map>
 
-namespace bathyal {
+namespace bathyal::identify {
 namespace {
 
-/// Poses that a linear start is made from: more would not make it better.
+/// Poses used by the linear estimate: more would not improve it.
 constexpr Index kMostPoses = 500;
 
 std::vector<Pose> flanges(const Arm& arm, const Measurement& m) {
@@ -30,7 +30,7 @@ Eigen::Matrix3d nearest_rotation(const Eigen::Matrix3d& matrix) {
   return svd.matrixU() * flip * svd.matrixV().transpose();
 }
 
-/// Least squares whose undetermined part is the smallest.
+/// Least squares of minimum norm.
 Eigen::VectorXd solve_smallest(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right) {
   Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decomposition;
   decomposition.setThreshold(1e-9);
@@ -59,8 +59,8 @@ struct TipEquations {
   }
 };
 
-/// Eq 12-16: one tool centre point from each point's touches, averaged over the points that tell
-/// it. Where none does by itself, all points together.
+/// Eq 12-16: one tool centre point from the touches of each point, averaged over the points that
+/// determine it. Where none does by itself, from all points together.
 Vec3 touched_tool(const std::vector<Pose>& flange, const Measurement& m, int tool) {
   std::map<std::pair<int, int>, std::vector<int>> by_point;
   for (int i = 0; i < static_cast<int>(m.rows()); ++i) {
@@ -68,7 +68,7 @@ Vec3 touched_tool(const std::vector<Pose>& flange, const Measurement& m, int too
   }
   std::vector<std::vector<int>> groups;
   Vec3 sum = Vec3::Zero();
-  int told = 0;
+  int determined = 0;
   for (const auto& [key, group] : by_point) {
     groups.push_back(group);
     const TipEquations equations(flange, {group});
@@ -77,16 +77,16 @@ Vec3 touched_tool(const std::vector<Pose>& flange, const Measurement& m, int too
     qr.compute(equations.matrix);
     if (qr.rank() < 6) continue;
     sum += qr.solve(equations.right).head<3>();  // eq 15
-    ++told;
+    ++determined;
   }
-  if (told > 0) return sum / told;  // eq 16
+  if (determined > 0) return sum / determined;  // eq 16
   if (groups.empty()) return Vec3::Zero();
   const TipEquations together(flange, groups);
   return solve_smallest(together.matrix, together.right).head<3>();
 }
 
-/// (3, points) centroids of the tips that one station touched, in its base's frame; columns of
-/// points that it did not touch are NaN.
+/// (3, points) centroids of the tips that one station touched, in its base's frame; NaN for
+/// points that it did not touch.
 Eigen::Matrix3Xd station_points(const std::vector<Pose>& flange, const Measurement& m,
                                 const std::vector<Pose>& tools, int station) {
   Eigen::Matrix3Xd sum = Eigen::Matrix3Xd::Zero(3, m.points());
@@ -124,20 +124,20 @@ Pose align(const Eigen::Matrix3Xd& from, const Eigen::Matrix3Xd& to, const Pose&
 }
 
 void start_stations(const std::vector<Pose>& flange, const Measurement& m, bool base_free,
-                    Start& start) {
+                    InitialGuess& start) {
   Eigen::Matrix3Xd world = Eigen::Matrix3Xd::Constant(3, m.points(), std::nan(""));
   for (const KnownPoint& known : m.known_points) world.col(known.label) = known.position;
   for (int station = 0; station < m.stations; ++station) {
     const Eigen::Matrix3Xd own = station_points(flange, m, start.tools, station);
     if (station > 0 || base_free) start.bases[station] = align(own, world, start.bases[station]);
     for (Index p = 0; p < own.cols(); ++p) {
-      const bool unseen = !world.col(p).allFinite();
-      if (unseen && own.col(p).allFinite()) world.col(p) = start.bases[station] * own.col(p);
+      const bool unknown = !world.col(p).allFinite();
+      if (unknown && own.col(p).allFinite()) world.col(p) = start.bases[station] * own.col(p);
     }
   }
 }
 
-void start_planes(const std::vector<Pose>& flange, const Measurement& m, Start& start) {
+void start_planes(const std::vector<Pose>& flange, const Measurement& m, InitialGuess& start) {
   for (std::size_t plane = 0; plane < m.plane_names.size(); ++plane) {
     std::vector<Vec3> tips;
     for (Index i = 0; i < m.rows(); ++i) {
@@ -156,8 +156,9 @@ void start_planes(const std::vector<Pose>& flange, const Measurement& m, Start& 
   }
 }
 
-/// Squares of what tracked tips miss.
-double left_by(const std::vector<Pose>& flange, const Measurement& m, const Start& start) {
+/// Sum of squared errors of the tracked tips.
+double squared_error(const std::vector<Pose>& flange, const Measurement& m,
+                     const InitialGuess& start) {
   double squares = 0.0;
   for (Index i = 0; i < m.rows(); ++i) {
     const Vec3 tip = flange[i] * start.tools[m.tool[i]].translation();
@@ -166,10 +167,10 @@ double left_by(const std::vector<Pose>& flange, const Measurement& m, const Star
   return squares;
 }
 
-/// Bases by the tools of `start`, tools by those bases, and so on: each is the best beside the
-/// other.
-Start found_in_turn(const std::vector<Pose>& flange, const Measurement& m, bool tool_given,
-                    bool base_free, Start start) {
+/// Bases for given tools, tools for given bases, alternately, starting with the tools of `start`:
+/// each is optimal for the other.
+InitialGuess alternate(const std::vector<Pose>& flange, const Measurement& m, bool tool_given,
+                       bool base_free, InitialGuess start) {
   constexpr int kTurns = 20;
   std::vector<std::vector<Index>> of_station(static_cast<std::size_t>(m.stations));
   for (Index i = 0; i < m.rows(); ++i) of_station[m.station[i]].push_back(i);
@@ -201,7 +202,7 @@ Start found_in_turn(const std::vector<Pose>& flange, const Measurement& m, bool 
 /// A p - c - R t = f with A the inverse rotation of a station's base, taken as any matrix, c its
 /// shift and t a tool: linear in all of them.
 void start_tracked(const std::vector<Pose>& flange, const Measurement& m, bool tool_given,
-                   bool base_free, Start& start) {
+                   bool base_free, InitialGuess& start) {
   const Index step = std::max<Index>(1, m.rows() / kMostPoses);
   const Index used = (m.rows() + step - 1) / step;
   const Index frames = base_free ? 12 * m.stations : 0;
@@ -227,7 +228,7 @@ void start_tracked(const std::vector<Pose>& flange, const Measurement& m, bool t
     right.segment<3>(3 * k) = target;
   }
   const Eigen::VectorXd solution = solve_smallest(matrix, right);
-  const Start other = found_in_turn(flange, m, tool_given, base_free, start);
+  const InitialGuess other = alternate(flange, m, tool_given, base_free, start);
   for (int station = 0; base_free && station < m.stations; ++station) {
     Eigen::Matrix3d base_from_world;
     for (int axis = 0; axis < 3; ++axis) {
@@ -240,9 +241,9 @@ void start_tracked(const std::vector<Pose>& flange, const Measurement& m, bool t
   for (int tool = 0; !tool_given && tool < m.tools; ++tool) {
     start.tools[tool].translation() = solution.segment<3>(frames + 3 * tool);
   }
-  // An arm of few joints leaves matrices that are no rotations to choose from.
+  // With few joints the estimated matrix may be far from a rotation.
   constexpr double kMuchLess = 0.5;
-  if (left_by(flange, m, other) < kMuchLess * left_by(flange, m, start)) start = other;
+  if (squared_error(flange, m, other) < kMuchLess * squared_error(flange, m, start)) start = other;
   if (!m.has_rotation()) return;
   std::vector<Eigen::Matrix3d> sum(static_cast<std::size_t>(m.tools), Eigen::Matrix3d::Zero());
   for (Index i = 0; i < m.rows(); ++i) {
@@ -256,10 +257,11 @@ void start_tracked(const std::vector<Pose>& flange, const Measurement& m, bool t
 
 }  // namespace
 
-Start find_start(const Arm& arm, const Measurement& m, bool tool_given, bool base_free) {
-  Start start{std::vector<Pose>(static_cast<std::size_t>(m.stations), arm.base()),
-              std::vector<Pose>(static_cast<std::size_t>(m.tools), arm.tool()),
-              {}};
+InitialGuess find_initial_guess(const Arm& arm, const Measurement& m, bool tool_given,
+                                bool base_free) {
+  InitialGuess start{std::vector<Pose>(static_cast<std::size_t>(m.stations), arm.base()),
+                     std::vector<Pose>(static_cast<std::size_t>(m.tools), arm.tool()),
+                     {}};
   const std::vector<Pose> flange = flanges(arm, m);
   if (m.tracked) {
     start_tracked(flange, m, tool_given, base_free, start);
@@ -273,4 +275,4 @@ Start find_start(const Arm& arm, const Measurement& m, bool tool_given, bool bas
   return start;
 }
 
-}  // namespace bathyal
+}  // namespace bathyal::identify
