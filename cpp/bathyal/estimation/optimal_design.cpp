@@ -128,7 +128,7 @@ Eigen::Matrix3d ExchangeSelector::quadratic_form(
 /// Decrease of the criterion by each unused touch: first order, or exact for the determinant.
 Eigen::VectorXd ExchangeSelector::gains(const Eigen::MatrixXd& information, int only_point) const {
   const Posterior current = posterior(information);
-  const Eigen::MatrixXd&& covariance = current.covariance;
+  const Eigen::MatrixXd& covariance = current.covariance;
   Eigen::MatrixXd sensitivity;  // covariance · Σ w ∂tip ∂tipᵀ · covariance
   Eigen::VectorXd own = Eigen::VectorXd::Zero(d_.points);  // information on its point alone
   if (by_determinant()) {

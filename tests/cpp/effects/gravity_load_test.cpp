@@ -18,8 +18,8 @@ double work(const Arm& arm, const Eigen::VectorXd& q) {
   double sum = kPayload * kGravity.dot(frames.world_from_tool.translation());
   for (std::size_t k = 0; k < arm.links().size(); ++k) {
     const Link& link = arm.links()[k];
-    sum += link.mass *
-           kGravity.dot(frames.world_from_row[k] * (link.row_from_link * link.center_of_mass));
+    sum += link.body.mass *
+           kGravity.dot(frames.world_from_row[k] * (link.row_from_link * link.body.center_of_mass));
   }
   return sum;
 }

@@ -68,9 +68,10 @@ std::string warnings_text(const ArmFit& fit) {
            "and compare.";
   }
   if (fit.warnings.size() == 1) return " Warning: " + fit.warnings[0];
-  std::string text = " " + std::to_string(fit.warnings.size()) + " warnings.";
+  std::string text(1, ' ');
+  text.append(std::to_string(fit.warnings.size())).append(" warnings.");
   for (std::size_t i = 0; i < fit.warnings.size(); ++i) {
-    text += " (" + std::to_string(i + 1) + ") " + fit.warnings[i];
+    text.append(" (").append(std::to_string(i + 1)).append(") ").append(fit.warnings[i]);
   }
   return text;
 }

@@ -67,7 +67,7 @@ class ArmSubject final : public Subject {
   /// The rigid part where the model stands, base and tool set.
   Arm arm() const;
   /// All bases, tools and planes too.
-  ArmState state() const { return state_at(problem_.columns, x_); }
+  ArmState state() const { return state_at(problem_.parameters, x_); }
   /// Of recorded poses: what effects do is evaluated at the joint values that were recorded.
   Eigen::Matrix3Xd deviations() const;
   /// (3, N) position rows, in units of their noise, as distances [m].
@@ -125,8 +125,8 @@ class ArmSubject final : public Subject {
   std::vector<std::vector<Perturbation>> perturbations_of(int form) const;
   std::vector<std::vector<Perturbation>> perturbations_of(const Effect& effect,
                                                           const EffectVariant& variant) const;
-  std::vector<std::vector<Perturbation>> actions_in_record(const Effect& effect,
-                                                           const EffectVariant& variant) const;
+  std::vector<std::vector<Perturbation>> perturbations_in_record(
+      const Effect& effect, const EffectVariant& variant) const;
   void find_those_that_need_the_record();
   double plausible(int form, std::size_t parameter, double scale) const;
   std::vector<ParameterColumns> columns_of(std::vector<ActingVariant> acting) const;

@@ -58,11 +58,11 @@ void ArmSubject::take_forms(const ArmSubject& some) {
 std::vector<std::vector<Perturbation>> ArmSubject::perturbations_of(
     const Effect& effect, const EffectVariant& variant) const {
   if (!needs_record_.contains(&effect)) return bathyal::perturbations_of(effect, variant, data_);
-  return actions_in_record(effect, variant);
+  return perturbations_in_record(effect, variant);
 }
 
 /// Of a row that is seen among all rows of the record.
-std::vector<std::vector<Perturbation>> ArmSubject::actions_in_record(
+std::vector<std::vector<Perturbation>> ArmSubject::perturbations_in_record(
     const Effect& effect, const EffectVariant& variant) const {
   std::vector<std::vector<Perturbation>> out = bathyal::perturbations_of(effect, variant, *record_);
   for (std::vector<Perturbation>& perturbations : out) {
@@ -90,7 +90,7 @@ void ArmSubject::find_those_that_need_the_record() {
   for (const auto& [effect, variants] : forms) {
     for (const EffectVariant* variant : {variants.front(), variants.back()}) {
       if (!same(bathyal::perturbations_of(*effect, *variant, data_),
-                actions_in_record(*effect, *variant))) {
+                perturbations_in_record(*effect, *variant))) {
         needs_record_.insert(effect);
       }
     }
