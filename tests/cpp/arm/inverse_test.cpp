@@ -323,8 +323,9 @@ TEST(TipState, ItsJacobianIsTheDerivativeOfTheResidual) {
 TEST(InverseProblem, UnwindsByWholeTurnsWithinTheLimits) {
   const Arm ur = ur10e();
   const arm::InverseProblem problem(ur, {});
-  std::vector<double> q(problem.size(), 3.0);
-  const std::vector<double> reference(problem.size(), -3.0);
+  std::array<double, 6> q{}, reference{};
+  q.fill(3.0);
+  reference.fill(-3.0);
   problem.unwind(reference, q.data());
   for (std::size_t j = 0; j < q.size(); ++j) {
     EXPECT_NEAR(q[j], problem.wraps[j] != 0 ? 3.0 - 2.0 * std::numbers::pi : 3.0, 1e-12);

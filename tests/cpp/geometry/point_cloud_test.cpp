@@ -17,16 +17,17 @@ using namespace geometry;
 TEST(PointCloud, SubtractsAWholeNumberOfMetresAndPassesOverWhatIsNotFinite) {
   PointMatrix points(3, 3);
   points << 431200.25, 6172650.75, -38.5, std::nan(""), 9e9, 0.0, 431210.25, 6172660.75, -30.5;
-  const Vec3 origin = local_origin(points);
+  const Vec3 origin = local_origin(Points(points).view());
   for (int axis = 0; axis < 3; ++axis) EXPECT_EQ(origin[axis], std::round(origin[axis]));
   EXPECT_LE((origin - Vec3(431205.25, 6172655.75, -34.5)).cwiseAbs().maxCoeff(), 0.5);
-  EXPECT_EQ(local_origin(PointMatrix(0, 3)), Vec3::Zero());
+  EXPECT_EQ(local_origin(Points(PointMatrix(0, 3)).view()), Vec3::Zero());
 }
 
 TEST(PointCloud, RefusesAnAttributeOfAnotherLength) {
   const Values::Matrix two = Values::Matrix::Zero(2);
-  EXPECT_THROW(PointCloud(PointMatrix::Zero(3, 3), {{"intensity", Values(two)}}),
-               std::invalid_argument);
+  EXPECT_THROW(
+      PointCloud(Points(PointMatrix(PointMatrix::Zero(3, 3))), {{"intensity", Values(two)}}),
+      std::invalid_argument);
 }
 
 TEST(SharedArray, KeepsTheMemoryThatItShares) {
@@ -64,7 +65,7 @@ TEST(EdgeTopology, CountsPiecesRimsAndDuplicates) {
   EXPECT_EQ(edges.boundary_loops, (std::vector<double>{4.0, 4.0}));
   TriangleMatrix repeated(3, 3);
   repeated << 0, 1, 2, 4, 5, 6, 2, 0, 1;
-  EXPECT_EQ(count_duplicate_triangles(repeated, 8, 1), 1);
+  EXPECT_EQ(count_duplicate_triangles(Triangles(repeated).view(), 8, 1), 1);
 }
 
 }  // namespace

@@ -176,13 +176,15 @@ TEST(MollerTrumbore, AgreesWithTheHierarchyAwayFromEdges) {
     origins.row(i) << 1.37 + 0.31 * static_cast<double>(i), 2.11 + 0.29 * static_cast<double>(i), 9;
     directions.row(i) << 0.1, -0.07, -2;
   }
-  const auto expected = scene.cast(origins, directions);
-  const auto hits = intersect_moller_trumbore(mesh, origins, directions);
+  const Points from(origins), along(directions);
+  const std::vector<RayHit> expected = scene.cast(from.view(), along.view());
+  const std::vector<RayHit> hits = intersect_moller_trumbore(mesh, from.view(), along.view());
   ASSERT_EQ(hits.size(), expected.size());
   for (std::size_t i = 0; i < hits.size(); ++i) {
     EXPECT_EQ(hits[i].triangle, expected[i].triangle);
     EXPECT_EQ(std::isfinite(hits[i].range), hits[i].triangle >= 0);
-    if (hits[i].triangle >= 0) EXPECT_NEAR(hits[i].range, expected[i].range, 1e-12);
+    if (hits[i].triangle < 0) continue;
+    EXPECT_NEAR(hits[i].range, expected[i].range, 1e-12);
   }
 }
 

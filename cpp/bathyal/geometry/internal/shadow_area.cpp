@@ -16,10 +16,10 @@ constexpr std::size_t kLines = 1024;
 constexpr double kMostCrossings = 2e7;
 constexpr double kOverlap = 1e-9;  // of the length; less is rounding at shared edges
 
-struct Point2 {
+struct ShadowPoint {
   double x, y;
 };
-using Triangle2 = std::array<Point2, 3>;
+using Triangle2 = std::array<ShadowPoint, 3>;
 
 Triangle2 in_plan(const TriangleMesh& mesh, Index t, const Vec3& origin) {
   Triangle2 result;
@@ -38,8 +38,8 @@ struct Interval {
 Interval crossing(const Triangle2& t, double y) {
   Interval x{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
   for (std::size_t i = 0; i < 3; ++i) {
-    const Point2& a = t[i];
-    const Point2& b = t[(i + 1) % 3];
+    const ShadowPoint& a = t[i];
+    const ShadowPoint& b = t[(i + 1) % 3];
     if ((a.y <= y) == (b.y <= y)) continue;
     const double at = a.x + (b.x - a.x) * ((y - a.y) / (b.y - a.y));
     x.low = std::min(x.low, at);
