@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+
 #include "bathyal/arm/internal/start_library.hpp"
 #include "bathyal/arm/inverse_problem.hpp"
 #include "bathyal/arm/row_frames.hpp"
