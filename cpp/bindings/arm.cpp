@@ -88,11 +88,11 @@ void add_properties(py::class_<Arm>& cls) {
           "(n,) greatest torque [N m] or force [N] of that joint.")
       .def_property(
           "base", [](const Arm& arm) { return python::to_numpy(arm.base()); },
-          [](Arm& arm, const py::object& pose) { arm.set_base(pose_argument("base", pose)); },
+          [](Arm& arm, const OptionalArray& pose) { arm.set_base(pose_argument("base", pose)); },
           "(4, 4) world_from_base; may be set, None is the identity.")
       .def_property(
           "tool", [](const Arm& arm) { return python::to_numpy(arm.tool()); },
-          [](Arm& arm, const py::object& pose) { arm.set_tool(pose_argument("tool", pose)); },
+          [](Arm& arm, const OptionalArray& pose) { arm.set_tool(pose_argument("tool", pose)); },
           "(4, 4) flange_from_tool; may be set, None is the identity.")
       .def("__repr__", [](const Arm& arm) {
         return "Arm(" + (arm.name().empty() ? "" : "\"" + arm.name() + "\", ") +
@@ -111,7 +111,6 @@ void bind_arm(py::module_& module) {
   add_properties(cls);
   add_kinematics(cls);
   add_inverse(cls);
-  add_arm_files(cls);
   bind_arm_parts(module);
 }
 

@@ -24,7 +24,4 @@ void bind_inverse_result(pybind11::module_& module);
 /// Arm.inverse
 void add_inverse(pybind11::class_<Arm>& cls);
 
-/// The methods that read, write and draw: Python's, kept in the package.
-void add_arm_files(pybind11::class_<Arm>& cls);
-
 }  // namespace bathyal::python

@@ -22,7 +22,7 @@ const Words<InverseMethod>& method_words() {
   return words;
 }
 
-InverseAnswer inverse_python(const Arm& arm, const py::object& poses, const py::object& start,
+InverseAnswer inverse_python(const Arm& arm, const ArrayLike& poses, const OptionalArray& start,
                              const InverseOptions& options) {
   const Targets targets = targets_argument(poses, options.task);
   const Rows starts = start.is_none() ? Rows{} : rows_argument("start", start, arm.size());
@@ -113,8 +113,8 @@ void add_inverse(py::class_<Arm>& cls) {
   const InverseOptions defaults;
   cls.def(
       "inverse",
-      [](const Arm& arm, const py::object& poses, const py::object& start, const std::string& task,
-         const std::string& method, const py::object& axis,
+      [](const Arm& arm, const ArrayLike& poses, const OptionalArray& start,
+         const std::string& task, const std::string& method, const ArrayLike& axis,
          std::optional<double> position_tolerance, std::optional<double> angle_tolerance,
          int max_iterations, int max_starts, int candidates, std::optional<int> centering_steps,
          int steps, std::uint64_t seed, int num_threads) {

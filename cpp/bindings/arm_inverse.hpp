@@ -28,19 +28,19 @@ struct InverseAnswer {
   InverseResult result;
   bool single = false;
 
-  py::object numbers(const std::vector<double>& values) const {
+  OneOrArray<py::float_> numbers(const std::vector<double>& values) const {
     if (single) return py::float_(values.front());
     return to_numpy(values);
   }
-  py::object counts(const std::vector<int>& values) const {
+  OneOrArray<py::int_> counts(const std::vector<int>& values) const {
     if (single) return py::int_(values.front());
     return to_numpy(values);
   }
-  py::object q() const {
+  py::array q() const {
     return to_numpy(std::vector<double>(result.q.data(), result.q.data() + result.q.size()), single,
                     {result.q.cols()});
   }
-  py::object status() const {
+  OneOrArray<py::str> status() const {
     if (single) return py::str(std::string(to_text(result.status.front())));
     py::list words;
     for (const InverseStatus status : result.status) words.append(std::string(to_text(status)));

@@ -62,7 +62,7 @@ class Fresh {
   std::shared_ptr<double[]> data_;
 };
 
-py::array forward_python(const Arm& arm, const py::object& q, bool links, int num_threads) {
+py::array forward_python(const Arm& arm, const ArrayLike& q, bool links, int num_threads) {
   const Rows rows = rows_argument("q", q, arm.size());
   const auto count = static_cast<py::ssize_t>(arm.links().size());
   const Fresh poses(rows.table.rows(),
@@ -76,7 +76,7 @@ py::array forward_python(const Arm& arm, const py::object& q, bool links, int nu
   return poses.to_numpy(rows.single);
 }
 
-py::array jacobian_python(const Arm& arm, const py::object& q, const std::string& frame,
+py::array jacobian_python(const Arm& arm, const ArrayLike& q, const std::string& frame,
                           int num_threads) {
   const Rows rows = rows_argument("q", q, arm.size());
   const TipFrame tip = word_argument("frame", frame, frame_words());
@@ -89,8 +89,9 @@ py::array jacobian_python(const Arm& arm, const py::object& q, const std::string
   return jacobians.to_numpy(rows.single);
 }
 
-py::object manipulability_python(const Arm& arm, const py::object& q, const std::string& kind,
-                                 const std::string& part, int num_threads) {
+OneOrArray<py::float_> manipulability_python(const Arm& arm, const ArrayLike& q,
+                                             const std::string& kind, const std::string& part,
+                                             int num_threads) {
   const Rows rows = rows_argument("q", q, arm.size());
   const Manipulability what = word_argument("kind", kind, manipulability_words());
   const JacobianPart counted = word_argument("part", part, part_words());
@@ -103,7 +104,7 @@ py::object manipulability_python(const Arm& arm, const py::object& q, const std:
   return python::to_numpy(std::move(values));
 }
 
-py::object within_limits_python(const Arm& arm, const py::object& q) {
+OneOrArray<py::bool_> within_limits_python(const Arm& arm, const ArrayLike& q) {
   const Rows rows = rows_argument("q", q, arm.size());
   const std::vector<bool> within = within_limits(arm, view_of(rows));
   if (rows.single) return py::bool_(within.front());
@@ -113,7 +114,7 @@ py::object within_limits_python(const Arm& arm, const py::object& q) {
   return array;
 }
 
-py::array statics_python(const Arm& arm, const py::object& q, const py::object& wrench,
+py::array statics_python(const Arm& arm, const ArrayLike& q, const OptionalArray& wrench,
                          const StaticsOptions& options) {
   const Rows rows = rows_argument("q", q, arm.size());
   const Rows pushes = wrench.is_none() ? Rows{} : rows_argument("wrench", wrench, 6);
@@ -141,10 +142,10 @@ void add_kinematics(py::class_<Arm>& cls) {
            kManipulabilityDoc)
       .def(
           "statics",
-          [](const Arm& arm, const py::object& q, const py::object& wrench,
-             const std::string& frame, const py::object& gravity, double water_density,
-             double payload, const py::object& payload_center, double payload_volume,
-             const py::object& payload_center_of_buoyancy, int num_threads) {
+          [](const Arm& arm, const ArrayLike& q, const OptionalArray& wrench,
+             const std::string& frame, const ArrayLike& gravity, double water_density,
+             double payload, const ArrayLike& payload_center, double payload_volume,
+             const OptionalArray& payload_center_of_buoyancy, int num_threads) {
             StaticsOptions options;
             options.gravity = vector_argument("gravity", gravity);
             options.water_density = water_density;

@@ -37,11 +37,11 @@ py::array column(const DhTable& table, const Get& get) {
   return python::to_numpy(std::move(values));
 }
 
-DhTable table_argument(const py::object& a, const py::object& alpha, const py::object& d,
-                       const py::object& theta, const py::object& beta,
+DhTable table_argument(const ArrayLike& a, const ArrayLike& alpha, const ArrayLike& d,
+                       const ArrayLike& theta, const OptionalArray& beta,
                        const std::optional<std::vector<std::string>>& joint_types,
-                       const std::string& convention, const py::object& root,
-                       const py::object& flange) {
+                       const std::string& convention, const OptionalArray& root,
+                       const OptionalArray& flange) {
   DhTable table;
   table.convention = word_argument("convention", convention, convention_words());
   const std::vector<double> columns[] = {list_argument("a", a), list_argument("alpha", alpha),
@@ -71,9 +71,10 @@ DhTable table_argument(const py::object& a, const py::object& alpha, const py::o
   return table;
 }
 
-Link make_link(const std::string& name, double mass, const py::object& center_of_mass,
-               const py::object& inertia, double volume, const py::object& center_of_buoyancy,
-               const py::object& frame, std::vector<Shape> collision, std::vector<Shape> visual) {
+Link make_link(const std::string& name, double mass, const ArrayLike& center_of_mass,
+               const OptionalArray& inertia, double volume, const ArrayLike& center_of_buoyancy,
+               const OptionalArray& frame, std::vector<Shape> collision,
+               std::vector<Shape> visual) {
   Link link;
   link.name = name;
   link.body = rigid_body_arguments(mass, center_of_mass, inertia, volume, center_of_buoyancy);
@@ -177,13 +178,13 @@ void add_tables(py::class_<Arm>& cls) {
   const DhArmOptions defaults;
   cls.def_static(
          "from_dh",
-         [](const py::object& a, const py::object& alpha, const py::object& d,
-            const py::object& theta, const py::object& beta,
-            const std::optional<std::vector<std::string>>& joint_types,
-            const std::string& convention, const py::object& lower, const py::object& upper,
-            const py::object& velocity, const py::object& effort, std::vector<std::string> names,
-            std::vector<Link> links, const py::object& root, const py::object& flange,
-            const py::object& base, const py::object& tool, std::string name, std::string source) {
+         [](const ArrayLike& a, const ArrayLike& alpha, const ArrayLike& d, const ArrayLike& theta,
+            const OptionalArray& beta, const std::optional<std::vector<std::string>>& joint_types,
+            const std::string& convention, const OptionalArray& lower, const OptionalArray& upper,
+            const OptionalArray& velocity, const OptionalArray& effort,
+            std::vector<std::string> names, std::vector<Link> links, const OptionalArray& root,
+            const OptionalArray& flange, const OptionalArray& base, const OptionalArray& tool,
+            std::string name, std::string source) {
            DhArmOptions options;
            options.name = std::move(name);
            options.source = std::move(source);

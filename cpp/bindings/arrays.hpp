@@ -9,6 +9,7 @@
 
 #include "bathyal/geometry/point_cloud.hpp"
 #include "bathyal/geometry/pose.hpp"
+#include "typing.hpp"
 
 // The border between numpy and the engine. Arguments: shape and type are checked here, with the
 // argument's name, before anything else is done; float64 in C order is shared, anything else that
@@ -36,6 +37,7 @@ Points points_argument(std::string_view name, const py::object& object);
 Points shared_points_argument(std::string_view name, const py::object& object);
 
 /// A PointCloud, or an (N, 3) array taken as one, to work on.
+using CloudLike = py::typing::Union<PointCloud, ArrayLike>;
 PointCloud cloud_argument(const py::object& object);
 
 /// The same, shared with the caller.

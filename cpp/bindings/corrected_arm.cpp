@@ -12,6 +12,7 @@
 #include "arm_inverse.hpp"
 #include "bathyal/base/error.hpp"
 #include "effects_docs.hpp"
+#include "hooks.hpp"
 #include "identify_parts.hpp"
 
 namespace bathyal::python {
@@ -85,8 +86,9 @@ std::vector<std::vector<Support::Gap>> gaps_argument(const py::sequence& gaps) {
   return out;
 }
 
-Support make_support(const py::object& joints, const py::sequence& gaps, const py::object& gravity,
-                     const py::dict& covariates, const py::object& sessions) {
+Support make_support(const ArrayLike& joints, const py::sequence& gaps,
+                     const OptionalArray& gravity, const py::dict& covariates,
+                     const OptionalArray& sessions) {
   Support support = support_of(RowMatrix::Zero(1, 1), {});
   support.joints = range_argument("joints", joints, 0);
   support.gaps = gaps_argument(gaps);
@@ -103,6 +105,8 @@ Support make_support(const py::object& joints, const py::sequence& gaps, const p
   support.check(support.joints.low.size());
   return support;
 }
+
+using Known = py::typing::Union<Touches, Tracked, Support>;
 
 Support support_argument(const py::object& data) {
   const auto of = [](const auto& known) { return support_of(known.q, known.covariates); };
@@ -146,15 +150,14 @@ void warn_of_support(const CorrectedArm& model, const RowMatrix& q, const Covari
   if (mask.all()) return;
   py::dict out;
   for (const auto& [name, values] : covariates) out[py::str(name)] = python::to_numpy(values);
-  py::module_::import("bathyal.arm.support_warning")
-      .attr("warn")(py::cast(&model, py::return_value_policy::reference), python::to_numpy(q), out,
-                    to_numpy(mask, false));
+  hook(Hook::kWarnOfSupport)(py::cast(&model, py::return_value_policy::reference),
+                             python::to_numpy(q), out, to_numpy(mask, false));
 }
 
 // Methods ---------------------------------------------------------------------------------------
 
-py::array forward_python(const CorrectedArm& model, const py::object& q,
-                         const py::object& covariates, bool links, int num_threads) {
+py::array forward_python(const CorrectedArm& model, const ArrayLike& q,
+                         const OptionalCovariates& covariates, bool links, int num_threads) {
   const Rows rows = rows_argument("q", q, model.size());
   const Covariates given = covariates_argument(model, covariates);
   CorrectedPoses found;
@@ -169,8 +172,9 @@ py::array forward_python(const CorrectedArm& model, const py::object& q,
   return python::to_numpy(std::move(found.poses), rows.single, std::move(tail));
 }
 
-py::array jacobian_python(const CorrectedArm& model, const py::object& q,
-                          const py::object& covariates, const std::string& frame, int num_threads) {
+py::array jacobian_python(const CorrectedArm& model, const ArrayLike& q,
+                          const OptionalCovariates& covariates, const std::string& frame,
+                          int num_threads) {
   const Rows rows = rows_argument("q", q, model.size());
   const Covariates given = covariates_argument(model, covariates);
   const TipFrame axes = word_argument("frame", frame, frame_words());
@@ -183,8 +187,8 @@ py::array jacobian_python(const CorrectedArm& model, const py::object& q,
   return python::to_numpy(std::move(found.jacobians), rows.single, {6, model.size()});
 }
 
-InverseAnswer inverse_python(const CorrectedArm& model, const py::object& poses,
-                             const py::object& start, const py::object& covariates,
+InverseAnswer inverse_python(const CorrectedArm& model, const ArrayLike& poses,
+                             const OptionalArray& start, const OptionalCovariates& covariates,
                              const InverseOptions& options) {
   const Targets targets = targets_argument(poses, options.task);
   const Rows starts = start.is_none() ? Rows{} : rows_argument("start", start, model.size());
@@ -200,8 +204,8 @@ InverseAnswer inverse_python(const CorrectedArm& model, const py::object& poses,
   return {std::move(found.result), targets.single};
 }
 
-py::array in_support_python(const CorrectedArm& model, const py::object& q,
-                            const py::object& covariates) {
+py::array in_support_python(const CorrectedArm& model, const ArrayLike& q,
+                            const OptionalCovariates& covariates) {
   const Rows rows = rows_argument("q", q, model.size());
   const Covariates given = covariates_argument(model, covariates);
   SupportMask mask;
@@ -267,37 +271,24 @@ void add_rigid_part(py::class_<CorrectedArm>& cls) {
                              "Number of coordinates n, the width of every q.")
       .def_property(
           "base", [](const CorrectedArm& m) { return python::to_numpy(m.arm().base()); },
-          [](CorrectedArm& m, const py::object& pose) { m.set_base(pose_argument("base", pose)); },
+          [](CorrectedArm& m, const OptionalArray& pose) {
+            m.set_base(pose_argument("base", pose));
+          },
           "(4, 4) world_from_base; may be set, None is the identity.")
       .def_property(
           "tool", [](const CorrectedArm& m) { return python::to_numpy(m.arm().tool()); },
-          [](CorrectedArm& m, const py::object& pose) { m.set_tool(pose_argument("tool", pose)); },
+          [](CorrectedArm& m, const OptionalArray& pose) {
+            m.set_tool(pose_argument("tool", pose));
+          },
           "(4, 4) flange_from_tool; may be set, None is the identity.");
-  for (const char* name : {"joint_names", "joint_types", "link_names", "links", "lower", "upper",
-                           "velocity", "effort", "within_limits", "to_urdf", "show", "plot"}) {
-    const std::string doc = "As of `Arm`: `arm`'s own.";
-    cls.def_property_readonly(
-        name, [name](const CorrectedArm& m) -> py::object { return py::cast(m.arm()).attr(name); },
-        doc.c_str());
-  }
-}
-
-void add_files(py::class_<CorrectedArm>& cls) {
-  const auto write = [](const py::object& model, const py::object& path) {
-    py::module_::import("bathyal.arm.corrected_files").attr("save_corrected_arm")(model, path);
-  };
-  const char* doc =
-      "Write all of it to a .json file, for bathyal.read_arm "
-      "(bathyal.arm.corrected_files.save_corrected_arm).";
-  cls.def("save", write, py::arg("path"), doc).def("write", write, py::arg("path"), doc);
 }
 
 void add_inverse(py::class_<CorrectedArm>& cls) {
   const InverseOptions defaults;
   cls.def(
       "inverse",
-      [](const CorrectedArm& model, const py::object& poses, const py::object& start,
-         const py::object& covariates, const std::string& task, const py::object& axis,
+      [](const CorrectedArm& model, const ArrayLike& poses, const OptionalArray& start,
+         const OptionalCovariates& covariates, const std::string& task, const ArrayLike& axis,
          std::optional<double> position_tolerance, std::optional<double> angle_tolerance,
          int max_iterations, int max_starts, int candidates, std::optional<int> centering_steps,
          std::uint64_t seed, int num_threads) {
@@ -330,7 +321,7 @@ void add_inverse(py::class_<CorrectedArm>& cls) {
 void bind_corrected_arm(py::module_& module) {
   bind_support(module);
   py::class_<CorrectedArm> cls(module, "CorrectedArm", kCorrectedArmDoc);
-  cls.def(py::init([](const Arm& arm, std::vector<FoundEffect> effects, const py::object& data) {
+  cls.def(py::init([](const Arm& arm, std::vector<FoundEffect> effects, const Known& data) {
             return CorrectedArm(arm, std::move(effects), support_argument(data));
           }),
           py::arg("arm"), py::arg("effects"), py::arg("data"))
@@ -359,7 +350,6 @@ void bind_corrected_arm(py::module_& module) {
       .def("__repr__", &repr_of);
   add_rigid_part(cls);
   add_inverse(cls);
-  add_files(cls);
 }
 
 }  // namespace bathyal::python

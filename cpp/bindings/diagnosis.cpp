@@ -119,10 +119,6 @@ void bind_held_out(py::module_& module) {
           "after", [](const HeldOut& h) { return to_numpy(h.after); }, "(N,) [m].");
 }
 
-py::object words_about(const char* function, const py::object& self) {
-  return py::module_::import("bathyal.diagnosis.report.text").attr(function)(self);
-}
-
 void bind_result(py::module_& module) {
   py::class_<Diagnosis>(module, "Diagnosis", py::dynamic_attr(), kDiagnosisDoc)
       .def_property_readonly(
@@ -170,15 +166,6 @@ void bind_result(py::module_& module) {
           [](const Diagnosis& d) { return to_numpy(RowMatrix(d.residuals_after)); },
           "(3, N) the same with the effects [m].")
       .def_readonly("warnings", &Diagnosis::warnings, "Sentences.")
-      .def(
-          "summary", [](const py::object& self) { return words_about("summary", self); },
-          "One paragraph that a person can act on.")
-      .def(
-          "write",
-          [](const py::object& self, const py::object& path) {
-            py::module_::import("bathyal.diagnosis.files").attr("write_diagnosis")(self, path);
-          },
-          py::arg("path"), kDiagnosisWriteDoc)
       .def("__repr__", [](const Diagnosis& d) {
         std::string text = "Diagnosis(" + word_of(d.verdict, verdict_words());
         for (const NamedEffect& e : d.effects) {
@@ -213,21 +200,27 @@ const Arm& arm_argument(const py::object& arm) {
   throw_argument("arm", "an Arm; of a corrected one its rigid part, `.arm`", type_of(arm));
 }
 
+using MaybeProgress = py::typing::Optional<py::typing::Callable<void(py::float_, py::str)>>;
+
 void bind_function(py::module_& module) {
   const DiagnoseOptions defaults;
   module.def(
       "diagnose",
       [](const py::typing::Union<Arm>& told, const py::typing::Union<Touches, Tracked>& data,
          const py::typing::Optional<py::typing::Iterable<Effect>>& effects,
-         std::vector<std::string> fixed, int blocks, double rival_odds, double leftover,
-         int num_next_poses, const py::object& progress, int num_threads) {
+         const std::string& parametrization, std::vector<std::string> fixed, int blocks,
+         double rival_odds, double leftover, int num_next_poses, const MaybeProgress& progress,
+         int num_threads) {
         const Arm& arm = arm_argument(told);
-        const DiagnoseOptions options{.fixed = std::move(fixed),
-                                      .blocks = blocks,
-                                      .rival_odds = rival_odds,
-                                      .leftover = leftover,
-                                      .num_next_poses = num_next_poses,
-                                      .num_threads = num_threads};
+        const DiagnoseOptions options{
+            .parametrization =
+                word_argument("parametrization", parametrization, parametrization_words()),
+            .fixed = std::move(fixed),
+            .blocks = blocks,
+            .rival_odds = rival_odds,
+            .leftover = leftover,
+            .num_next_poses = num_next_poses,
+            .num_threads = num_threads};
         const auto asked = effects_argument(effects);
         if (!progress.is_none() && PyCallable_Check(progress.ptr()) == 0) {
           throw_argument("progress", "a function of (share done, what comes next)",
@@ -238,7 +231,7 @@ void bind_function(py::module_& module) {
           if (PyErr_CheckSignals() != 0) throw py::error_already_set();
           if (!progress.is_none()) progress(done, stage);
         };
-        const auto run = [&](const auto& known) {
+        const auto run = [&](const auto& known) -> py::typing::Union<Diagnosis> {
           const auto find = [&] {
             const py::gil_scoped_release release;
             return diagnose(arm, known, options, asked, tell);
@@ -252,6 +245,7 @@ void bind_function(py::module_& module) {
         throw_argument("data", "Touches or Tracked", type_of(data));
       },
       py::arg("arm"), py::arg("data"), py::kw_only(), py::arg("effects") = py::none(),
+      py::arg("parametrization") = word_of(defaults.parametrization, parametrization_words()),
       py::arg("fixed") = defaults.fixed, py::arg("blocks") = defaults.blocks,
       py::arg("rival_odds") = defaults.rival_odds, py::arg("leftover") = defaults.leftover,
       py::arg("num_next_poses") = defaults.num_next_poses, py::arg("progress") = py::none(),

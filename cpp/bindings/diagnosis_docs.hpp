@@ -10,20 +10,6 @@ inline constexpr const char* kEstimateDoc =
 
 inline constexpr const char* kNamedEffectDoc = R"(A cause that was found, with its evidence.)";
 
-inline constexpr const char* kDiagnosisWriteDoc =
-    R"(Write the report: a page (.html), a picture (.png) or everything for machines (.json).
-
-Parameters
-----------
-path : str or os.PathLike
-    The ending says what is written.
-
-Raises
-------
-ValueError
-    For another ending.
-)";
-
 inline constexpr const char* kDiagnosisDoc =
     R"(What the model of an arm gets wrong, by its measurements; see `diagnose`.)";
 
@@ -46,6 +32,8 @@ data : Touches or Tracked
     not used, and a warning says so. Rows that repeat another to the last digit count once.
 effects : list of Effect, optional
     What may be named; `bathyal.effects.list()` unless given.
+parametrization : {"hayati", "dh"}
+    Of the geometry, as in `identify_arm`.
 fixed : list of str
     Names of geometric parameters to hold at nominal.
 blocks : int

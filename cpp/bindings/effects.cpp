@@ -5,11 +5,13 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "bathyal/base/error.hpp"
 #include "effects_docs.hpp"
 #include "effects_parts.hpp"
+#include "hooks.hpp"
 #include "identify_parts.hpp"
 #include "words.hpp"
 
@@ -52,8 +54,11 @@ std::vector<std::pair<std::string, Value>> items_argument(std::string_view name,
   return items;
 }
 
+using JointsToTry =
+    py::typing::Optional<py::typing::Union<py::str, py::typing::Iterable<py::int_>>>;
+
 std::shared_ptr<Effect> make_effect(std::string name, py::function function,
-                                    const py::dict& parameters, const py::object& joints,
+                                    const py::dict& parameters, const JointsToTry& joints,
                                     const std::string& site, std::vector<std::string> needs,
                                     std::string words, std::string formula, std::string source,
                                     const std::map<std::string, double>& scales, bool by_difference,
@@ -127,11 +132,10 @@ std::string unit_of(const EffectInfo& info, const std::string& parameter) {
 
 std::shared_ptr<const Effect> effect_argument(const py::object& effect) {
   if (py::isinstance<Effect>(effect)) return effect.cast<std::shared_ptr<Effect>>();
-  const py::object found = py::module_::import("bathyal.effects").attr("get")(effect);
-  return found.cast<std::shared_ptr<Effect>>();
+  return hook(Hook::kFindEffect)(effect).cast<std::shared_ptr<Effect>>();
 }
 
-FoundEffect make_found(const py::object& effect, const py::dict& parameters,
+FoundEffect make_found(const py::typing::Union<Effect, py::str>& effect, const py::dict& parameters,
                        std::optional<int> joint, std::map<std::string, double> settings,
                        const std::map<std::string, std::string>& units,
                        const std::map<std::string, double>& scales, std::string cause) {
@@ -220,8 +224,9 @@ void bind_found_effect(py::module_& module) {
           "The Effect itself.")
       .def_property_readonly(
           "joint",
-          [](const FoundEffect& f) -> py::object {
-            return f.variant.joint < 0 ? py::object(py::none()) : py::int_(f.variant.joint);
+          [](const FoundEffect& f) -> std::optional<int> {
+            if (f.variant.joint < 0) return std::nullopt;
+            return f.variant.joint;
           },
           "Counted from 0, or None.")
       .def_property_readonly(

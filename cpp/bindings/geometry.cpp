@@ -13,7 +13,7 @@
 namespace bathyal::python {
 namespace {
 
-using PythonAttributes = std::map<std::string, py::object>;
+using PythonAttributes = std::map<std::string, ArrayLike>;
 
 Attributes attributes_argument(const PythonAttributes& attributes) {
   Attributes result;
@@ -51,7 +51,7 @@ Examples
 >>> bathyal.Plane((0, 0, 2), -10.0).offset
 -5.0
 )")
-      .def(py::init([](const py::object& normal, double offset) {
+      .def(py::init([](const ArrayLike& normal, double offset) {
              return Plane(vector_argument("normal", normal), offset);
            }),
            py::arg("normal"), py::arg("offset"))
@@ -65,7 +65,7 @@ Examples
                              "normal · x of every point of the plane [m].")
       .def(
           "distance",
-          [](const Plane& plane, const py::object& points) {
+          [](const Plane& plane, const ArrayLike& points) {
             const Points array = points_argument("points", points);
             const PointView view = array.view();
             std::vector<double> distance(static_cast<std::size_t>(view.rows()));
@@ -104,8 +104,8 @@ Examples
 >>> len(cloud), cloud.crs
 (2, 'EPSG:32602')
 )")
-      .def(py::init([](const py::object& points, const PythonAttributes& attributes,
-                       std::string crs, std::string vertical_datum) {
+      .def(py::init([](const ArrayLike& points, const PythonAttributes& attributes, std::string crs,
+                       std::string vertical_datum) {
              return PointCloud(shared_points_argument("points", points),
                                attributes_argument(attributes),
                                {std::move(crs), std::move(vertical_datum)});
@@ -121,18 +121,6 @@ Examples
       .def_property_readonly("crs", [](const PointCloud& c) { return c.datum().crs; })
       .def_property_readonly("vertical_datum",
                              [](const PointCloud& c) { return c.datum().vertical; })
-      .def(
-          "write",
-          [](const py::object& cloud, const py::object& path) {
-            py::module_::import("bathyal.seabed.clouds").attr("write_cloud")(cloud, path);
-          },
-          py::arg("path"), "Write a file of the format its suffix names: see bathyal.write_cloud.")
-      .def(
-          "show",
-          [](const py::object& cloud) {
-            return py::module_::import("bathyal.view.scene3d").attr("show_cloud")(cloud);
-          },
-          "An interactive figure (bathyal.view.scene3d.show_cloud).")
       .def("__len__", &PointCloud::size)
       .def("__repr__",
            [](const PointCloud& c) { return "PointCloud(" + count_text(c.size(), "point") + ")"; });
@@ -160,7 +148,7 @@ Examples
 >>> bathyal.TriangleMesh([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])
 TriangleMesh(3 vertices, 1 triangle)
 )")
-      .def(py::init([](const py::object& vertices, const py::object& triangles,
+      .def(py::init([](const ArrayLike& vertices, const ArrayLike& triangles,
                        const PythonAttributes& attributes, std::string crs,
                        std::string vertical_datum) {
              return TriangleMesh(shared_points_argument("vertices", vertices),
@@ -183,18 +171,6 @@ TriangleMesh(3 vertices, 1 triangle)
       .def_property_readonly("crs", [](const TriangleMesh& m) { return m.datum().crs; })
       .def_property_readonly("vertical_datum",
                              [](const TriangleMesh& m) { return m.datum().vertical; })
-      .def(
-          "write",
-          [](const py::object& mesh, const py::object& path) {
-            py::module_::import("bathyal.seabed.meshes").attr("write_mesh")(mesh, path);
-          },
-          py::arg("path"), "Write a file of the format its suffix names: see bathyal.write_mesh.")
-      .def(
-          "show",
-          [](const py::object& mesh) {
-            return py::module_::import("bathyal.view.scene3d").attr("show_mesh")(mesh);
-          },
-          "An interactive figure (bathyal.view.scene3d.show_mesh).")
       .def("__repr__", [](const TriangleMesh& m) {
         return "TriangleMesh(" + std::to_string(m.vertex_count()) +
                (m.vertex_count() == 1 ? " vertex, " : " vertices, ") +

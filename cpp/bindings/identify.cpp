@@ -19,11 +19,6 @@
 namespace bathyal::python {
 namespace {
 
-const Words<Parametrization>& parametrization_words() {
-  static const Words<Parametrization> words{{"hayati", Parametrization::kHayati},
-                                            {"dh", Parametrization::kDh}};
-  return words;
-}
 const Words<Criterion>& criterion_words() {
   static const Words<Criterion> words{{"centroid", Criterion::kCentroid},
                                       {"pairs", Criterion::kPairs}};
@@ -57,10 +52,10 @@ void bind_function(py::module_& module) {
   const Options defaults;
   module.def(
       "identify_arm",
-      [](const AnyArm& arm, const py::object& data, const std::string& parametrization,
-         double nearly_parallel, const std::string& criterion, bool pair_weights,
-         const std::string& solver, int max_iterations, const std::string& tool_start,
-         const std::string& base, std::vector<std::string> fixed,
+      [](const AnyArm& arm, const py::typing::Union<Touches, Tracked>& data,
+         const std::string& parametrization, double nearly_parallel, const std::string& criterion,
+         bool pair_weights, const std::string& solver, int max_iterations,
+         const std::string& tool_start, const std::string& base, std::vector<std::string> fixed,
          std::optional<double> length_prior, std::optional<double> angle_prior,
          std::map<std::string, double> priors, double size_prior, std::optional<double> noise,
          std::optional<double> rotation_noise, const std::string& loss,
@@ -117,6 +112,12 @@ void bind_function(py::module_& module) {
 }
 
 }  // namespace
+
+const Words<Parametrization>& parametrization_words() {
+  static const Words<Parametrization> words{{"hayati", Parametrization::kHayati},
+                                            {"dh", Parametrization::kDh}};
+  return words;
+}
 
 void bind_identify(py::module_& module) {
   bind_identify_data(module);

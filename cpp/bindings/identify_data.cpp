@@ -13,6 +13,11 @@
 namespace bathyal::python {
 namespace {
 
+template <class Value>
+using ByLabel = py::typing::Optional<py::typing::Dict<py::int_, Value>>;
+using DistancesByPair =
+    py::typing::Optional<py::typing::Dict<py::typing::Tuple<py::int_, py::int_>, py::float_>>;
+
 // Arguments -------------------------------------------------------------------------------------
 
 py::array any_rows(std::string_view name, const py::object& object) {
@@ -147,12 +152,13 @@ std::map<int, std::string> names_argument(const py::object& object) {
   }
 }
 
-Touches make_touches(const py::object& q, const py::object& point, const py::object& q_deg,
-                     const py::object& known_distances, double distance_std,
-                     const py::object& known_points, double point_std, const py::object& planes,
-                     const py::object& weights, const py::object& tool, const py::object& station,
-                     const py::object& covariates, const py::object& session,
-                     const py::object& names) {
+Touches make_touches(const OptionalArray& q, const OptionalArray& point, const OptionalArray& q_deg,
+                     const DistancesByPair& known_distances, double distance_std,
+                     const ByLabel<ArrayLike>& known_points, double point_std,
+                     const OptionalCovariates& planes, const OptionalArray& weights,
+                     const OptionalArray& tool, const OptionalArray& station,
+                     const OptionalCovariates& covariates, const OptionalArray& session,
+                     const ByLabel<py::str>& names) {
   Touches touches;
   touches.q = joints_argument(q, q_deg);
   touches.point = numbers_argument("point", point);
@@ -170,10 +176,11 @@ Touches make_touches(const py::object& q, const py::object& point, const py::obj
   return touches;
 }
 
-Tracked make_tracked(const py::object& q, const py::object& position, const py::object& pose,
-                     const py::object& q_deg, const py::object& weights, const py::object& tool,
-                     const py::object& station, const py::object& covariates,
-                     const py::object& session) {
+Tracked make_tracked(const OptionalArray& q, const OptionalArray& position,
+                     const OptionalArray& pose, const OptionalArray& q_deg,
+                     const OptionalArray& weights, const OptionalArray& tool,
+                     const OptionalArray& station, const OptionalCovariates& covariates,
+                     const OptionalArray& session) {
   Tracked tracked;
   tracked.q = joints_argument(q, q_deg);
   if (position.is_none() == pose.is_none()) {
@@ -296,7 +303,7 @@ void bind_identify_data(py::module_& module) {
           "(N, 3) of the tip, world [m].")
       .def_property_readonly(
           "pose",
-          [](const Tracked& t) -> py::object {
+          [](const Tracked& t) -> py::typing::Optional<py::array> {
             if (t.pose.empty()) return py::none();
             std::vector<double> numbers;
             for (const Pose& pose : t.pose) {

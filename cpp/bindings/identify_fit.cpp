@@ -137,7 +137,7 @@ void bind_fit(py::module_& module) {
       .def_readonly("warnings", &ArmFit::warnings, "Sentences; empty when all is well.")
       .def(
           "tip_covariance",
-          [](const ArmFit& f, const py::object& q, int num_threads) {
+          [](const ArmFit& f, const ArrayLike& q, int num_threads) {
             const Rows rows = rows_argument("q", q, f.arm.size());
             std::vector<double> numbers;
             for (const Eigen::Matrix3d& c : tip_covariance(f, rows.table, num_threads)) {
@@ -148,7 +148,7 @@ void bind_fit(py::module_& module) {
           py::arg("q"), py::kw_only(), py::arg("num_threads") = 0, kTipCovarianceDoc)
       .def(
           "tip_std",
-          [](const ArmFit& f, const py::object& q, int num_threads) -> py::object {
+          [](const ArmFit& f, const ArrayLike& q, int num_threads) -> OneOrArray<py::float_> {
             const Rows rows = rows_argument("q", q, f.arm.size());
             std::vector<double> numbers;
             for (const Eigen::Matrix3d& c : tip_covariance(f, rows.table, num_threads)) {

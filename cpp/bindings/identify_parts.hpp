@@ -7,6 +7,8 @@
 
 #include "arrays.hpp"
 #include "bathyal/effects/measurements.hpp"
+#include "bathyal/identify/model/arm_parameters.hpp"
+#include "words.hpp"
 
 // Bindings of the room identify: its data and its results.
 
@@ -21,6 +23,9 @@ inline py::array to_numpy(const Eigen::VectorXd& values) {
 inline py::array to_numpy(const RowMatrix& table) {
   return to_numpy(std::vector<double>(table.data(), table.data() + table.size()), {table.cols()});
 }
+
+/// "hayati" or "dh"
+const Words<Parametrization>& parametrization_words();
 
 /// Touches and Tracked.
 void bind_identify_data(py::module_& module);

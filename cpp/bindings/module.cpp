@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bindings.hpp"
 #include "call_errors.hpp"
+#include "hooks.hpp"
 
 PYBIND11_MODULE(_core, module) {
   using namespace bathyal::python;
   module.doc() = "The engine. Its public names are those of the package bathyal.";
+  bind_hooks(module);
   bind_base(module);
   bind_geometry(module);
   bind_mesh_report(module);

@@ -15,7 +15,7 @@ PYBIND11_MODULE(_pcl, module) {
       "`bathyal.verify_arm(…, pairing=\"icp\")`.";
   module.def(
       "triangulate_greedy",
-      [](const py::object& points, double search_radius, double mu, int max_neighbours,
+      [](const ArrayLike& points, double search_radius, double mu, int max_neighbours,
          double max_surface_angle, double min_angle, double max_angle, bool normal_consistency,
          int normal_neighbours) {
         const Points array = points_argument("points", points);
@@ -69,7 +69,7 @@ Returns
 
   module.def(
       "pair_by_icp",
-      [](const py::object& predicted, const py::object& measured, int max_iterations) {
+      [](const ArrayLike& predicted, const ArrayLike& measured, int max_iterations) {
         const Points from = points_argument("predicted", predicted);
         const Points onto = points_argument("positions", measured);
         std::vector<Index> pairs;

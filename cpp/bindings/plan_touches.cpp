@@ -6,6 +6,7 @@
 #include "arrays.hpp"
 #include "bathyal/base/error.hpp"
 #include "bindings.hpp"
+#include "identify_parts.hpp"
 #include "plan_touches_docs.hpp"
 #include "words.hpp"
 
@@ -18,15 +19,14 @@ const Words<TouchCriterion>& criterion_words() {
                                            {"o1", TouchCriterion::kO1}};
   return words;
 }
-const Words<Parametrization>& parametrization_words() {
-  static const Words<Parametrization> words{{"hayati", Parametrization::kHayati},
-                                            {"dh", Parametrization::kDh}};
-  return words;
-}
+
+using PairsOfPoints =
+    py::typing::Optional<py::typing::Iterable<py::typing::Tuple<py::int_, py::int_>>>;
+using MaybeFeasible = py::typing::Optional<py::typing::Callable<py::array(py::array)>>;
 
 // Arguments -------------------------------------------------------------------------------------
 
-RowMatrix workspace_argument(const py::object& workspace, const Arm& arm) {
+RowMatrix workspace_argument(const OptionalArray& workspace, const Arm& arm) {
   if (workspace.is_none()) return {};
   RowMatrix poses = table_argument("workspace", workspace, arm.size());
   if (poses.rows() == 0) throw_argument("workspace", "one pose or more", "none");
@@ -36,7 +36,7 @@ RowMatrix workspace_argument(const py::object& workspace, const Arm& arm) {
 ForecastOptions forecast_argument(const Arm& arm, const std::string& parametrization,
                                   double nearly_parallel, double noise, double length_prior,
                                   double angle_prior, double tool_prior,
-                                  const py::object& workspace, int workspace_poses,
+                                  const OptionalArray& workspace, int workspace_poses,
                                   std::uint64_t seed, int num_threads) {
   return {
       .parametrization = word_argument("parametrization", parametrization, parametrization_words()),
@@ -51,7 +51,7 @@ ForecastOptions forecast_argument(const Arm& arm, const std::string& parametriza
       .num_threads = num_threads};
 }
 
-Eigen::Matrix3Xd points_to_touch(const py::object& points) {
+Eigen::Matrix3Xd points_to_touch(const OptionalArray& points) {
   if (points.is_none()) return Eigen::Matrix3Xd(3, 0);
   const auto table = table_argument("points", points, 3);
   if (table.rows() == 0) throw_argument("points", "one point or more", "none");
@@ -130,9 +130,6 @@ void bind_forecast(py::module_& module) {
 }
 
 void bind_plan(py::module_& module) {
-  const auto call = [](const char* function, const py::object& plan, const py::object& path) {
-    return py::module_::import("bathyal.identify.touch_plans").attr(function)(plan, path);
-  };
   py::class_<TouchPlan>(module, "TouchPlan", kTouchPlanDoc)
       .def_readonly("arm", &TouchPlan::arm, "Arm for which the plan is.")
       .def_property_readonly(
@@ -158,21 +155,6 @@ void bind_plan(py::module_& module) {
           "Of the forecast [m].")
       .def_readonly("candidates", &TouchPlan::candidates, "Number of candidate poses.")
       .def_readonly("warnings", &TouchPlan::warnings, "Sentences.")
-      .def(
-          "write",
-          [call](const py::object& plan, const py::object& path) {
-            call("write_plan", plan, path);
-          },
-          py::arg("path"),
-          "Write a .csv table to touch by, for bathyal.read_touches "
-          "(bathyal.identify.touch_plans.write_plan).")
-      .def(
-          "plot",
-          [call](const py::object& plan, const py::object& path) {
-            return call("plot_plan", plan, path);
-          },
-          py::arg("path") = py::none(),
-          "A picture, written to `path` too (bathyal.identify.touch_plans.plot_plan).")
       .def("summary", py::overload_cast<const TouchPlan&, bool>(&summarize), py::kw_only(),
            py::arg("warnings") = true, "One paragraph.")
       .def("__str__", [](const TouchPlan& p) { return summarize(p); })
@@ -190,7 +172,7 @@ void bind_functions(py::module_& module) {
       "forecast_touches",
       [](const Arm& arm, const Touches& touches, const std::string& parametrization,
          double nearly_parallel, double noise, double length_prior, double angle_prior,
-         double tool_prior, const py::object& workspace, int workspace_poses, std::uint64_t seed,
+         double tool_prior, const OptionalArray& workspace, int workspace_poses, std::uint64_t seed,
          int num_threads) {
         const ForecastOptions options = forecast_argument(
             arm, parametrization, nearly_parallel, noise, length_prior, angle_prior, tool_prior,
@@ -208,12 +190,12 @@ void bind_functions(py::module_& module) {
       kForecastTouchesDoc);
   module.def(
       "plan_touches",
-      [](const Arm& arm, int count, const py::object& points, int num_points,
-         const py::object& known_distances, double distance_std, std::vector<int> known_points,
-         double point_std, const py::object& feasible, std::optional<double> floor,
+      [](const Arm& arm, int count, const OptionalArray& points, int num_points,
+         const PairsOfPoints& known_distances, double distance_std, std::vector<int> known_points,
+         double point_std, const MaybeFeasible& feasible, std::optional<double> floor,
          const std::string& criterion, int candidates, int passes,
          const std::string& parametrization, double nearly_parallel, double noise,
-         double length_prior, double angle_prior, double tool_prior, const py::object& workspace,
+         double length_prior, double angle_prior, double tool_prior, const OptionalArray& workspace,
          int workspace_poses, std::uint64_t seed, int num_threads) {
         const PlanTouchesOptions options{
             .criterion = word_argument("criterion", criterion, criterion_words()),

@@ -29,7 +29,7 @@ struct EffectRows {
     }
   }
 
-  py::object arm;
+  py::typing::Union<Arm> arm;
   py::array q, gravity, order;
   py::dict covariates;
   bool has_rotation, recording;

@@ -43,17 +43,17 @@ class Hits {
     return array;
   }
 
-  py::object point() const {
+  py::array point() const {
     return kept(point_,
                 [](const auto& meshes, const RayHit& hit) { return hit_point(meshes, hit); });
   }
 
-  py::object normal() const {
+  py::array normal() const {
     return kept(normal_,
                 [](const auto& meshes, const RayHit& hit) { return hit_normal(meshes, hit); });
   }
 
-  py::object barycentric() const {
+  py::array barycentric() const {
     return kept(barycentric_, [](const auto&, const RayHit& hit) {
       if (hit.triangle < 0) return Vec3(Vec3::Constant(std::numeric_limits<double>::quiet_NaN()));
       return Vec3(hit.u, hit.v, 1.0 - hit.u - hit.v);
@@ -62,7 +62,7 @@ class Hits {
 
  private:
   template <class Compute>
-  py::object kept(py::object& array, const Compute& compute) const {
+  py::array kept(py::object& array, const Compute& compute) const {
     if (array) return array;
     std::vector<double> rows(3 * size());
     {
@@ -89,7 +89,7 @@ Points rows_argument(std::string_view name, const py::object& object) {
   return shared_points_argument(name, array);
 }
 
-Hits cast_rays(const Scene& scene, const py::object& origins, const py::object& directions,
+Hits cast_rays(const Scene& scene, const ArrayLike& origins, const ArrayLike& directions,
                int num_threads) {
   const Points from = rows_argument("origins", origins);
   const Points along = rows_argument("directions", directions);
@@ -101,8 +101,8 @@ Hits cast_rays(const Scene& scene, const py::object& origins, const py::object& 
   return {std::move(hits), scene.meshes()};
 }
 
-Hits cast_brute_force(const TriangleMesh& given, const py::object& origins,
-                      const py::object& directions, int num_threads) {
+Hits cast_brute_force(const TriangleMesh& given, const ArrayLike& origins,
+                      const ArrayLike& directions, int num_threads) {
   const TriangleMesh mesh = given.snapshot();
   const Points from = rows_argument("origins", origins);
   const Points along = rows_argument("directions", directions);
@@ -116,7 +116,7 @@ Hits cast_brute_force(const TriangleMesh& given, const py::object& origins,
   return {std::move(hits), {mesh}};
 }
 
-py::array find_occluded(const Scene& scene, const py::object& from, const py::object& to,
+py::array find_occluded(const Scene& scene, const ArrayLike& from, const ArrayLike& to,
                         int num_threads) {
   const Points starts = rows_argument("from", from);
   const Points ends = rows_argument("to", to);

@@ -66,7 +66,11 @@ RigidBody rigid_body_arguments(double mass, const py::object& center_of_mass,
 void bind_rigid_body(py::module_& module) {
   const RigidBody defaults;
   py::class_<RigidBody> cls(module, "RigidBody", kRigidBodyDoc);
-  cls.def(py::init(&rigid_body_arguments), py::arg("mass") = defaults.mass, py::kw_only(),
+  cls.def(py::init([](double mass, const ArrayLike& center_of_mass, const OptionalArray& inertia,
+                      double volume, const ArrayLike& center_of_buoyancy) {
+            return rigid_body_arguments(mass, center_of_mass, inertia, volume, center_of_buoyancy);
+          }),
+          py::arg("mass") = defaults.mass, py::kw_only(),
           py::arg("center_of_mass") = py::make_tuple(0, 0, 0), py::arg("inertia") = py::none(),
           py::arg("volume") = defaults.volume,
           py::arg("center_of_buoyancy") = py::make_tuple(0, 0, 0))
@@ -83,7 +87,7 @@ void bind_rigid_body(py::module_& module) {
           "(3,) [m].")
       .def(
           "in_frame",
-          [](const RigidBody& body, const py::object& pose) {
+          [](const RigidBody& body, const OptionalArray& pose) {
             const Pose new_from_body = pose_argument("pose", pose);
             check_rigid("pose", new_from_body);
             return in_frame(body, new_from_body);

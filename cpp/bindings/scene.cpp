@@ -92,8 +92,8 @@ void bind_polyline(py::module_& module) {
       });
 }
 
-std::vector<Polyline> section_between(const Scene& scene, const py::object& a, const py::object& b,
-                                      const py::object& up) {
+std::vector<Polyline> section_between(const Scene& scene, const ArrayLike& a,
+                                      const OptionalArray& b, const OptionalArray& up) {
   const Vec3 from = vector_argument("a", a);
   if (b.is_none()) throw_argument("b", "a second point, or a bathyal.Plane alone", "nothing");
   const Vec3 to = vector_argument("b", b);
@@ -107,7 +107,7 @@ void bind_queries(py::class_<Scene>& scene) {
   scene
       .def(
           "nearest",
-          [](const Scene& self, const py::object& points, int num_threads) {
+          [](const Scene& self, const ArrayLike& points, int num_threads) {
             const Points queries = points_argument("points", points);
             std::vector<NearestPoint> found;
             {
@@ -145,7 +145,7 @@ Examples
 )")
       .def(
           "winding_number",
-          [](const Scene& self, const py::object& points, double accuracy, int num_threads) {
+          [](const Scene& self, const ArrayLike& points, double accuracy, int num_threads) {
             const Points queries = points_argument("points", points);
             std::vector<double> numbers;
             {
@@ -186,7 +186,7 @@ array([1., 0.])
 )")
       .def(
           "contains",
-          [](const Scene& self, const py::object& points, double accuracy, int num_threads) {
+          [](const Scene& self, const ArrayLike& points, double accuracy, int num_threads) {
             const Points queries = points_argument("points", points);
             std::vector<bool> inside;
             {

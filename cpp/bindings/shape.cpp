@@ -78,9 +78,11 @@ double number_argument(const char* name, const py::object& value) {
   }
 }
 
-Shape make_shape(const std::string& word, const py::object& size, const py::object& radius,
-                 const py::object& length, const std::optional<std::string>& file,
-                 const std::string& folder, const py::object& scale, const py::object& pose,
+using OptionalNumber = py::typing::Optional<py::float_>;
+
+Shape make_shape(const std::string& word, const OptionalArray& size, const OptionalNumber& radius,
+                 const OptionalNumber& length, const std::optional<std::string>& file,
+                 const std::string& folder, const OptionalArray& scale, const OptionalArray& pose,
                  const std::string& part) {
   Shape shape;
   shape.kind = word_argument("kind", word, kind_words());
@@ -176,7 +178,7 @@ void bind_shape(py::module_& module) {
       .def("as_dict", &state_of,
            "What the constructor takes, without what the kind has not: for files and tables.")
       .def("__repr__", &text_of)
-      .def("__reduce__", [](const py::object& self) {
+      .def("__reduce__", [](const py::object& self) -> py::typing::Tuple<py::function, py::tuple> {
         const py::object build = py::module_::import("functools").attr("partial");
         return py::make_tuple(build(py::type::of(self), **self.attr("as_dict")().cast<py::dict>()),
                               py::tuple());

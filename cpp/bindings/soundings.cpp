@@ -232,7 +232,7 @@ void bind_clean(py::module_& module) {
   const CleanOptions d;
   module.def(
       "clean_cloud",
-      [](const py::object& cloud, const std::string& same_place, double spike_sigma,
+      [](const CloudLike& cloud, const std::string& same_place, double spike_sigma,
          double spike_height, int spike_neighbours, double outlier_sigma, int outlier_neighbours,
          double voxel, int num_threads) {
         CleanOptions options;

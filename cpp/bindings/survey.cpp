@@ -17,7 +17,7 @@ struct SurveyFunction {
     const SurveyOptions d;
     module.def(
         name,
-        [function](const Extra&... arguments, std::uint64_t seed, const py::object& origin,
+        [function](const Extra&... arguments, std::uint64_t seed, const ArrayLike& origin,
                    double length, double width, double wave_height, double wave_length,
                    double ripple_height, double roughness, int boulders, double boulder_radius,
                    double trench_depth, double trench_width, int lines, double altitude,
@@ -133,9 +133,9 @@ PointCloud(5504 points)
 >>> sorted(cloud.attributes)
 ['intensity', 'uncertainty']
 )");
-  SurveyFunction<py::object, py::object>::bind(
+  SurveyFunction<ArrayLike, ArrayLike>::bind(
       module, "survey_height",
-      [](const py::object& x, const py::object& y, const SurveyOptions& options) {
+      [](const ArrayLike& x, const ArrayLike& y, const SurveyOptions& options) {
         const Values east = values_argument("x", x);
         const Values north = values_argument("y", y);
         Values height;

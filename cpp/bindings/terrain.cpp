@@ -52,7 +52,7 @@ Made by `fit_plane`. Unpacks as ``plane, rms = fit``.
 
   module.def(
       "fit_plane",
-      [](const py::object& cloud, double tolerance, int patch_points, double flat_share, int trials,
+      [](const CloudLike& cloud, double tolerance, int patch_points, double flat_share, int trials,
          std::uint64_t seed, int num_threads) {
         const PointCloud input = cloud_argument(cloud);
         const py::gil_scoped_release release;
@@ -160,7 +160,7 @@ Made by `find_sheets`. True where there are any; ``str`` says where and how much
 
   module.def(
       "find_sheets",
-      [](const py::object& cloud, double min_separation, int min_points, int num_threads) {
+      [](const CloudLike& cloud, double min_separation, int min_points, int num_threads) {
         const PointCloud input = cloud_argument(cloud);
         const py::gil_scoped_release release;
         check_clean("cloud", input.points());
@@ -209,7 +209,7 @@ False
 void bind_triangulate(py::module_& module) {
   module.def(
       "triangulate",
-      [](const py::object& cloud, std::optional<double> max_edge, int num_threads) {
+      [](const CloudLike& cloud, std::optional<double> max_edge, int num_threads) {
         const PointCloud input = shared_cloud_argument(cloud);  // the mesh keeps the points
         Triangulation result;
         {
@@ -226,7 +226,7 @@ void bind_triangulate(py::module_& module) {
 void bind_delaunay(py::module_& module) {
   module.def(
       "triangulate_delaunay",
-      [](const py::object& points, std::optional<double> max_edge, int num_threads) {
+      [](const ArrayLike& points, std::optional<double> max_edge, int num_threads) {
         const Points array = points_argument("points", points);
         Delaunay result;
         {

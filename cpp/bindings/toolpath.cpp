@@ -17,6 +17,8 @@ namespace {
 
 // Arguments -------------------------------------------------------------------------------------
 
+using SurfaceLike = py::typing::Union<Scene, Plane>;
+
 Surface surface_argument(const py::object& object) {
   if (py::isinstance<Plane>(object)) return object.cast<Plane>();
   if (py::isinstance<Scene>(object)) return object.cast<Scene>();
@@ -47,7 +49,7 @@ const Words<MissedAims>& missed_words() {
   return words;
 }
 
-TargetOptions target_options(const py::object& world_from_vehicle, const std::string& frame,
+TargetOptions target_options(const OptionalArray& world_from_vehicle, const std::string& frame,
                              const std::string& vertical, double grazing_angle, double max_range,
                              int num_threads) {
   TargetOptions options;
@@ -185,19 +187,6 @@ void bind_path(py::module_& module) {
       .def_property_readonly(
           "warnings", [](const ToolPath& path) { return path.warnings; },
           "What a person should know before the path is followed: list of str.")
-      .def(
-          "write",
-          [](const py::object& self, const py::object& path) {
-            py::module_::import("bathyal.toolpath.paths").attr("write_path")(self, path);
-          },
-          py::arg("path"),
-          "Write to a .csv, .json or .vtp file (bathyal.toolpath.paths.write_path).")
-      .def(
-          "show",
-          [](const py::object& self) {
-            return py::module_::import("bathyal.view.scene3d").attr("show_path")(self);
-          },
-          "An interactive figure (bathyal.view.scene3d.show_path).")
       .def("__len__", &ToolPath::size)
       .def("__repr__", [](const ToolPath& path) {
         return py::str("ToolPath({} samples, {:.3f} m, {:.1f} s)")
@@ -207,7 +196,7 @@ void bind_path(py::module_& module) {
 
 // Functions -------------------------------------------------------------------------------------
 
-Pointer<Targets> find_targets_python(const py::object& surface, const py::object& aims,
+Pointer<Targets> find_targets_python(const SurfaceLike& surface, const ArrayLike& aims,
                                      const TargetOptions& options) {
   const Surface bottom = surface_argument(surface);
   const Aims rows = aims_argument(aims);
@@ -215,7 +204,7 @@ Pointer<Targets> find_targets_python(const py::object& surface, const py::object
   return std::make_shared<Targets>(find_targets(bottom, rows, options));
 }
 
-Pointer<ToolPath> plan_toolpath_python(const py::object& surface, const py::object& aims,
+Pointer<ToolPath> plan_toolpath_python(const SurfaceLike& surface, const ArrayLike& aims,
                                        const ToolPathOptions& options) {
   const Surface bottom = surface_argument(surface);
   const Aims rows = aims_argument(aims);
@@ -234,7 +223,7 @@ void bind_toolpath(py::module_& module) {
   const CoverOptions cover;
   module.def(
       "find_targets",
-      [](const py::object& surface, const py::object& aims, const py::object& world_from_vehicle,
+      [](const SurfaceLike& surface, const ArrayLike& aims, const OptionalArray& world_from_vehicle,
          const std::string& frame, const std::string& vertical, double grazing_angle,
          double max_range, int num_threads) {
         return find_targets_python(surface, aims,
@@ -249,7 +238,7 @@ void bind_toolpath(py::module_& module) {
       py::arg("num_threads") = target.num_threads, kFindTargetsDoc);
   module.def(
       "plan_toolpath",
-      [](const py::object& surface, const py::object& aims, const py::object& world_from_vehicle,
+      [](const SurfaceLike& surface, const ArrayLike& aims, const OptionalArray& world_from_vehicle,
          const std::string& frame, const std::string& vertical, double grazing_angle,
          double max_range, const std::string& missed, const std::string& orientation,
          double blend_length, double angular_rate, double speed, double acceleration,
@@ -288,7 +277,7 @@ void bind_toolpath(py::module_& module) {
       py::arg("num_threads") = target.num_threads, kPlanToolpathDoc);
   module.def(
       "cover_polygon",
-      [](const py::object& surface, const py::object& polygon, double spacing, double direction,
+      [](const SurfaceLike& surface, const ArrayLike& polygon, double spacing, double direction,
          double margin) {
         const Surface bottom = surface_argument(surface);
         const Polygon corners = table_argument("polygon", polygon, 2);

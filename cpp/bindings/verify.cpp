@@ -45,7 +45,7 @@ void bind_verify(py::module_& module) {
 
   module.def(
       "verify_positions",
-      [](const py::object& predicted, const py::object& measured, const std::vector<Index>& pairs) {
+      [](const ArrayLike& predicted, const ArrayLike& measured, const std::vector<Index>& pairs) {
         const Points from = points_argument("predicted", predicted);
         const Points onto = points_argument("positions", measured);
         return std::make_shared<Verification>(verify_positions(from.view(), onto.view(), pairs));

@@ -50,14 +50,19 @@ from bathyal._core import (
     simd_level,
     survey_height,
 )
+from bathyal.arm import methods as _arm_methods  # noqa: F401
 from bathyal.arm.files import read_arm
 from bathyal.arm.mesh_paths import mesh_path
 from bathyal.arm.support_warning import SupportWarning
+from bathyal.diagnosis import methods as _diagnosis_methods  # noqa: F401
+from bathyal.identify import methods as _identify_methods  # noqa: F401
 from bathyal.identify.touch_files import read_touches, read_tracked
 from bathyal.identify.verify import verify_arm
+from bathyal.seabed import methods as _seabed_methods  # noqa: F401
 from bathyal.seabed.clouds import read_cloud, write_cloud
 from bathyal.seabed.meshes import read_mesh, write_mesh
 from bathyal.seabed.triangulate import SheetWarning, triangulate
+from bathyal.toolpath import methods as _toolpath_methods  # noqa: F401
 from bathyal.toolpath.aims import read_aims
 
 __version__ = _version("bathyal")

@@ -27,6 +27,7 @@ from bathyal._core import (
     EffectRows,
     FoundEffect,
     Support,
+    find_effect_with,
     library_effects,
 )
 
@@ -128,3 +129,6 @@ def unregister(name: str) -> None:
     if name not in _registered:
         raise errors.argument_error("name", "one that was registered", repr(name))
     del _registered[name]
+
+
+find_effect_with(get)  # what FoundEffect knows a name by

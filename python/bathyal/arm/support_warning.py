@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from bathyal._core import CorrectedArm
+from bathyal._core import CorrectedArm, warn_of_support_with
 
 Floats = NDArray[np.float64]
 
@@ -94,3 +94,6 @@ def _beyond(model: CorrectedArm, q: Floats, covariates: Mapping[str, Any]) -> li
         strange = np.setdiff1d(np.asarray(covariates["session"], dtype=float), support.sessions)
         words += [f"session {number:g}, never seen" for number in strange if np.isfinite(number)]
     return words
+
+
+warn_of_support_with(warn)

@@ -12,8 +12,7 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
-import bathyal
-from bathyal._core import Arm, Touches, Tracked
+from bathyal._core import Arm, Diagnosis, Touches, Tracked, diagnose
 from bathyal.arm.files import find_arm
 from bathyal.diagnosis.files import told, write_diagnosis, write_residuals
 from bathyal.diagnosis.report.advice import next_steps
@@ -33,7 +32,7 @@ class Diagnosed:
 
     nominal: Arm
     data: Touches | Tracked
-    report: Any
+    report: Diagnosis
     settings: dict[str, Any]
     provenance: dict[str, Any]
 
@@ -154,7 +153,7 @@ def diagnose_files(
         data = read_data(files, nominal, tracked=tracked, read=read or {}, sessions=True)
     with step("Diagnosing") as tell:
         progress = {"progress": tell} if callable(tell) else {}
-        report = bathyal.diagnose(nominal, data, **(options or {}), **progress)
+        report = diagnose(nominal, data, **(options or {}), **progress)
     return Diagnosed(
         nominal=nominal,
         data=data,
