@@ -159,12 +159,12 @@ void bind_result(py::module_& module) {
                     "Size of an effect that would have been found, per axis [m].")
       .def_property_readonly(
           "residuals_before",
-          [](const Diagnosis& d) { return to_numpy(RowMatrix(d.residuals_before)); },
-          "(3, N) tip less measured (of touches: less their mean), geometry alone [m].")
+          [](const Diagnosis& d) { return to_numpy(RowMatrix(d.residuals_before.transpose())); },
+          "(N, 3) tip less measured (of touches: less their mean), geometry alone [m].")
       .def_property_readonly(
           "residuals_after",
-          [](const Diagnosis& d) { return to_numpy(RowMatrix(d.residuals_after)); },
-          "(3, N) the same with the effects [m].")
+          [](const Diagnosis& d) { return to_numpy(RowMatrix(d.residuals_after.transpose())); },
+          "(N, 3) the same with the effects [m].")
       .def_readonly("warnings", &Diagnosis::warnings, "Sentences.")
       .def("__repr__", [](const Diagnosis& d) {
         std::string text = "Diagnosis(" + word_of(d.verdict, verdict_words());

@@ -208,7 +208,6 @@ def _errors(case: Case, residuals: Array) -> tuple[float, float]:
     """Model less measurement, less the error of the measurement: what is foretold wrongly. Touches
     leave the tip less its point, whose error has the other sign."""
     sealed = case.sealed
-    residuals = residuals.T if residuals.shape[0] == 3 != residuals.shape[1] else residuals
     keep = np.ones(len(residuals), bool)
     for fact in case.answer.effects:
         keep[fact.get("rows", [])] = False

@@ -157,8 +157,8 @@ def base(count: int = 240, sessions: int = 2) -> Report:
         noise=NOISE,
         noise_source="exact repeats of 12 poses",
         detectable=0.012e-3,
-        residuals_before=np.ascontiguousarray(fit.residuals.T),
-        residuals_after=np.ascontiguousarray(rest.T),
+        residuals_before=fit.residuals,
+        residuals_after=rest,
         warnings=["The arm's masses are not known: loads count as lumped moments."],
     )  # fmt: skip
 

@@ -116,8 +116,8 @@ def told(report: Diagnosis) -> dict[str, Any]:
             "before_m": _by_row(held.before, len(report.data)),
             "after_m": _by_row(held.after, len(report.data)),
         },
-        "residuals_before_m": np.asarray(report.residuals_before).T,
-        "residuals_after_m": np.asarray(report.residuals_after).T,
+        "residuals_before_m": np.asarray(report.residuals_before),
+        "residuals_after_m": np.asarray(report.residuals_after),
     }
 
 
@@ -126,7 +126,7 @@ def write_residuals(report: Diagnosis, path: PathLike) -> None:
     causes, fitted and held out, and what is left by axis [m]; empty where nothing was held out."""
     held = report.held_out
     before, after = (
-        np.asarray(residuals, float).T
+        np.asarray(residuals, float)
         for residuals in (report.residuals_before, report.residuals_after)
     )
     columns = [

@@ -164,9 +164,9 @@ def test_copies_of_rows_count_once() -> None:
         "3 rows are copies of others to the last digit (rows 90, 91 and 92, counted from 0)."
     )
     assert report.gain == plain.gain
-    for rows in (report.residuals_after, report.residuals_before, report.fit.residuals.T):
-        assert rows.shape == (3, N + 3)
-    assert np.array_equal(report.residuals_after, plain.residuals_after[:, twice])
+    for rows in (report.residuals_after, report.residuals_before, report.fit.residuals):
+        assert rows.shape == (N + 3, 3)
+    assert np.array_equal(report.residuals_after, plain.residuals_after[twice])
     assert np.array_equal(report.held_out.after, plain.held_out.after[twice])
 
 
@@ -177,7 +177,7 @@ def test_a_table_of_touches_handed_in_twice_counts_once() -> None:
     report = bathyal.diagnose(arm, bathyal.Touches(np.r_[q, q], np.r_[point, point]))
     assert (report.verdict, report.gain) == (plain.verdict, plain.gain)
     assert report.warnings[-1].startswith("75 rows are copies of others to the last digit")
-    assert report.residuals_after.shape == (3, 150)
+    assert report.residuals_after.shape == (150, 3)
 
 
 def test_repeats_with_another_load_are_no_copies() -> None:

@@ -32,7 +32,7 @@ def test_json_keeps_its_names_and_goes_round(name, tmp_path):
     assert (kept["format"], kept["schema"]) == ("bathyal diagnosis", 1)
     assert json.loads(json.dumps(kept, allow_nan=False)) == kept
     assert np.shape(kept["residuals_before_m"]) == (len(report.data), 3)
-    assert np.array_equal(kept["residuals_after_m"], report.residuals_after.T)
+    assert np.array_equal(kept["residuals_after_m"], report.residuals_after)
     assert sorted(told(report)) == KEYS
     for effect, own in zip(kept["effects"], report.effects, strict=True):
         assert sorted(effect) == [
@@ -64,9 +64,9 @@ def test_residuals_as_a_table(tmp_path):
     assert len(rows) == 240
     assert rows[7]["held_out_before_m"] == ""
     assert float(rows[9]["held_out_before_m"]) == report.held_out.before[9]
-    assert float(rows[9]["z_m"]) == report.residuals_after[2, 9]
+    assert float(rows[9]["z_m"]) == report.residuals_after[9, 2]
     assert float(rows[9]["before_m"]) == pytest.approx(
-        np.linalg.norm(report.residuals_before[:, 9]), rel=1e-15
+        np.linalg.norm(report.residuals_before[9]), rel=1e-15
     )
 
 

@@ -141,8 +141,8 @@ def test_touches_have_positions_of_their_own(tmp_path):
     made = simulated()
     fit = bathyal.identify_arm(bathyal.arms.ur10e(), made.touches)
     report = cases.named()
-    report.__dict__.update(data=made.touches, fit=fit, residuals_before=fit.residuals.T,
-                           residuals_after=fit.residuals.T)  # fmt: skip
+    report.__dict__.update(data=made.touches, fit=fit, residuals_before=fit.residuals,
+                           residuals_after=fit.residuals)  # fmt: skip
     report.held_out.before = report.held_out.after = np.linalg.norm(fit.residuals, axis=1)
     place = tables.positions(report)
     assert np.abs(place - fit.points[made.touches.point]).max() < 1e-3

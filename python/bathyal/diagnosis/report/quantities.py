@@ -73,8 +73,8 @@ class Residuals:
 
 
 def residuals_of(report: Diagnosis, residuals: Any) -> Residuals:
-    """Of a report's residuals (3, N)."""
-    world = np.asarray(residuals, float).T
+    """Of a report's residuals (N, 3)."""
+    world = np.asarray(residuals, float)
     jacobian = np.asarray(report.fit.arm.jacobian(report.data.q))[:, :3]
     bases = report.fit.bases
     if len(bases) > 1:
