@@ -330,8 +330,11 @@ TEST(InverseProblem, UnwindsByWholeTurnsWithinTheLimits) {
   reference.fill(-3.0);
   problem.unwind(reference, q.data());
   for (std::size_t j = 0; j < q.size(); ++j) {
-    EXPECT_NEAR(q[j], problem.wraps[j] != 0 ? 3.0 - 2.0 * std::numbers::pi : 3.0, 1e-12);
+    const double turned = 3.0 - 2.0 * std::numbers::pi;
+    EXPECT_NEAR(q[j], turned >= problem.lower[j] ? turned : 3.0, 1e-12);
   }
+  EXPECT_NE(q[0], 3.0);
+  EXPECT_EQ(q[2], 3.0) << "the elbow turns by half a turn each way";
   EXPECT_TRUE(problem.within_limits(q.data()));
   q[0] = problem.upper[0] + 0.1;
   EXPECT_FALSE(problem.within_limits(q.data()));

@@ -194,13 +194,14 @@ TEST(Pcd, BelievesAHeaderNoFurtherThanItsBytes) {
             std::string::npos);
   EXPECT_NE(failure(head("99999999999999999999", "1", "binary")).find("whole number"),
             std::string::npos);
-  EXPECT_EQ(failure(head("1000000000", "1", "binary") + "abc"),
-            "f.pcd: cut short: expected 12000000000 bytes of points, got 3");
-  EXPECT_NE(
-      failure(head("1000000000", "1", "ascii") + "1 2 3\n").find("expected 1000000000 points"),
-      std::string::npos);
-  EXPECT_NE(failure(head("300000000", "1", "binary_compressed") + compressed("abcde", 3600000000U))
-                .find("5 packed bytes said to hold 3600000000"),
+  EXPECT_NE(failure(head("1000000000", "1", "binary") + "abc").find("BATHYAL_MOST_BYTES"),
+            std::string::npos);
+  EXPECT_EQ(failure(head("100000000", "1", "binary") + "abc"),
+            "f.pcd: cut short: expected 1200000000 bytes of points, got 3");
+  EXPECT_NE(failure(head("100000000", "1", "ascii") + "1 2 3\n").find("expected 100000000 points"),
+            std::string::npos);
+  EXPECT_NE(failure(head("100000000", "1", "binary_compressed") + compressed("abcde", 1200000000U))
+                .find("5 packed bytes said to hold 1200000000"),
             std::string::npos);
   EXPECT_EQ(failure(head("1", "1", "binary_compressed") + bytes_of(1000000U, 12U)),
             "f.pcd: cut short: expected 1000000 bytes of points, got 0");
