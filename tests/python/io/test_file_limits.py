@@ -238,6 +238,14 @@ def test_a_pipe_with_a_writer_is_refused_too(tmp_path):
         os.close(end)
 
 
+def test_a_manifest_that_is_a_pipe_holds_nobody(tmp_path):
+    """Readers look for one in the folder of every file."""
+    (tmp_path / "a.xyz").write_text("1 2 3\n")
+    os.mkfifo(tmp_path / "bathyal-manifest.json")
+    with pytest.raises(Error, match=r"manifest\.json: expected a regular"):
+        bathyal.read_cloud(tmp_path / "a.xyz")
+
+
 def test_a_file_is_read_up_to_the_size_it_was_opened_with(tmp_path):
     """What somebody appends in the meantime belongs to the next reading."""
     path = tmp_path / "a.json"
