@@ -74,7 +74,7 @@ struct Rows {
 Rows rows_argument(std::string_view name, const py::object& object, Index columns);
 
 /// Name of the capsule under an array of ours whose numbers nobody can write to.
-inline constexpr const char* kFinalNumbers = "bathyal.final_numbers";
+inline constexpr const char* kFinalNumbers = "bathyal final numbers";
 
 /// A read-only numpy array over memory that `owner` keeps alive; `writable`: a caller's own, who
 /// may write to it otherwise.

@@ -3,11 +3,13 @@ The engine. Its public names are those of the package bathyal.
 """
 from __future__ import annotations
 import collections.abc
+import matplotlib.figure
 import numpy
 import numpy.typing
 import os
+import plotly.graph_objects
 import typing
-__all__: list[str] = ['Arm', 'ArmFit', 'Cause', 'CleanReport', 'CleanResult', 'CorrectedArm', 'DhTable', 'Diagnosis', 'Effect', 'EffectRange', 'EffectRows', 'Error', 'Estimate', 'FitParameter', 'FoundEffect', 'HeldOut', 'HeldOutPart', 'Hits', 'InverseResult', 'Link', 'MeshReport', 'NamedEffect', 'Nearest', 'Outlier', 'Plane', 'PlaneFit', 'PointCloud', 'Polyline', 'RigidBody', 'Scene', 'Shape', 'SheetPatch', 'SheetReport', 'Structure', 'Support', 'Targets', 'TextTable', 'ToolPath', 'TouchForecast', 'TouchPlan', 'Touches', 'Tracked', 'Trade', 'TriangleMesh', 'Verification', 'arm_from_chain', 'arm_from_parts', 'arm_parts', 'chain_from_arm', 'check_bytes', 'clean_cloud', 'cover_polygon', 'diagnose', 'find_sheets', 'find_targets', 'fit_plane', 'forecast_touches', 'generate_survey', 'identify_arm', 'intersect_moller_trumbore', 'library_effects', 'mesh_report', 'plan_toolpath', 'plan_touches', 'read_pcd', 'read_text_table', 'set_simd_level', 'simd_level', 'survey_height', 'triangulate', 'triangulate_delaunay', 'verify_positions', 'write_xyz']
+__all__: list[str] = ['Arm', 'ArmFit', 'BEYOND_NOISE', 'Cause', 'CleanReport', 'CleanResult', 'CorrectedArm', 'DhTable', 'Diagnosis', 'Effect', 'EffectRange', 'EffectRows', 'Error', 'Estimate', 'FitParameter', 'FoundEffect', 'HeldOut', 'HeldOutPart', 'Hits', 'InverseResult', 'Link', 'MeshReport', 'NamedEffect', 'Nearest', 'Outlier', 'Plane', 'PlaneFit', 'PointCloud', 'Polyline', 'RigidBody', 'Scene', 'Shape', 'SheetPatch', 'SheetReport', 'Structure', 'Support', 'Targets', 'TextTable', 'ToolPath', 'TouchForecast', 'TouchPlan', 'Touches', 'Tracked', 'Trade', 'TriangleMesh', 'Verification', 'arm_from_chain', 'arm_from_parts', 'arm_parts', 'chain_from_arm', 'check_bytes', 'clean_cloud', 'cover_polygon', 'diagnose', 'find_effect_with', 'find_sheets', 'find_targets', 'fit_plane', 'forecast_touches', 'generate_survey', 'identify_arm', 'intersect_moller_trumbore', 'library_effects', 'mesh_report', 'plan_toolpath', 'plan_touches', 'read_pcd', 'read_text_table', 'set_simd_level', 'simd_level', 'survey_height', 'triangulate', 'triangulate_delaunay', 'verify_positions', 'warn_of_support_with', 'write_xyz']
 class Error(RuntimeError):
     """
     A broken file, a solver that failed or a part that is not installed.
@@ -31,11 +33,11 @@ class Plane:
     >>> bathyal.Plane((0, 0, 2), -10.0).offset
     -5.0
     """
-    def __init__(self, normal: typing.Any, offset: typing.SupportsFloat | typing.SupportsIndex) -> None:
+    def __init__(self, normal: numpy.typing.ArrayLike, offset: typing.SupportsFloat | typing.SupportsIndex) -> None:
         ...
     def __repr__(self) -> str:
         ...
-    def distance(self, points: typing.Any) -> numpy.ndarray:
+    def distance(self, points: numpy.typing.ArrayLike) -> numpy.ndarray:
         """
         Signed distances (N,) [m] of points (N, 3), positive above.
         """
@@ -72,19 +74,26 @@ class PointCloud:
     >>> len(cloud), cloud.crs
     (2, 'EPSG:32602')
     """
-    def __init__(self, points: typing.Any, *, attributes: collections.abc.Mapping[str, typing.Any] = {}, crs: str = '', vertical_datum: str = '') -> None:
+    def __init__(self, points: numpy.typing.ArrayLike, *, attributes: collections.abc.Mapping[str, numpy.typing.ArrayLike] = {}, crs: str = '', vertical_datum: str = '') -> None:
         ...
     def __len__(self) -> int:
         ...
     def __repr__(self) -> str:
         ...
-    def show(self) -> typing.Any:
+    def show(self) -> plotly.graph_objects.Figure:
         """
-        An interactive figure (bathyal.view.scene3d.show_cloud).
+        An interactive figure: the soundings, coloured by height.
+        
+        See bathyal.view.scene3d.show_cloud.
         """
-    def write(self, path: typing.Any) -> None:
+    def write(self, path: str | os.PathLike[str]) -> None:
         """
-        Write a file of the format its suffix names: see bathyal.write_cloud.
+        Write a file of the format its suffix names.
+        
+        Parameters
+        ----------
+        path : path
+            ``.ply``, ``.vtp``, ``.xyz``, ``.txt`` or ``.csv``: see bathyal.write_cloud.
         """
     @property
     def attributes(self) -> dict:
@@ -125,17 +134,24 @@ class TriangleMesh:
     >>> bathyal.TriangleMesh([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])
     TriangleMesh(3 vertices, 1 triangle)
     """
-    def __init__(self, vertices: typing.Any, triangles: typing.Any, *, attributes: collections.abc.Mapping[str, typing.Any] = {}, crs: str = '', vertical_datum: str = '') -> None:
+    def __init__(self, vertices: numpy.typing.ArrayLike, triangles: numpy.typing.ArrayLike, *, attributes: collections.abc.Mapping[str, numpy.typing.ArrayLike] = {}, crs: str = '', vertical_datum: str = '') -> None:
         ...
     def __repr__(self) -> str:
         ...
-    def show(self) -> typing.Any:
+    def show(self) -> plotly.graph_objects.Figure:
         """
-        An interactive figure (bathyal.view.scene3d.show_mesh).
+        An interactive figure: the mesh, coloured by height.
+        
+        See bathyal.view.scene3d.show_mesh.
         """
-    def write(self, path: typing.Any) -> None:
+    def write(self, path: str | os.PathLike[str]) -> None:
         """
-        Write a file of the format its suffix names: see bathyal.write_mesh.
+        Write a file of the format its suffix names.
+        
+        Parameters
+        ----------
+        path : path
+            ``.vtp``, ``.ply``, ``.obj`` or ``.stl``: see bathyal.write_mesh.
         """
     @property
     def attributes(self) -> dict:
@@ -322,7 +338,7 @@ class RigidBody:
     """
     def __getstate__(self) -> tuple[float, numpy.ndarray, numpy.ndarray, float, numpy.ndarray]:
         ...
-    def __init__(self, mass: typing.SupportsFloat | typing.SupportsIndex = 0.0, *, center_of_mass: typing.Any = (0, 0, 0), inertia: typing.Any = None, volume: typing.SupportsFloat | typing.SupportsIndex = 0.0, center_of_buoyancy: typing.Any = (0, 0, 0)) -> None:
+    def __init__(self, mass: typing.SupportsFloat | typing.SupportsIndex = 0.0, *, center_of_mass: numpy.typing.ArrayLike = (0, 0, 0), inertia: numpy.typing.ArrayLike | None = None, volume: typing.SupportsFloat | typing.SupportsIndex = 0.0, center_of_buoyancy: numpy.typing.ArrayLike = (0, 0, 0)) -> None:
         ...
     def __repr__(self) -> str:
         ...
@@ -332,7 +348,7 @@ class RigidBody:
         """
         This body and another of the same frame, fixed to each other (Steiner).
         """
-    def in_frame(self, pose: typing.Any) -> RigidBody:
+    def in_frame(self, pose: numpy.typing.ArrayLike | None) -> RigidBody:
         """
         The body in the frame of `pose` (4, 4), new_from_body.
         """
@@ -397,9 +413,9 @@ class Shape:
     >>> bathyal.Shape("cylinder", radius=0.05, length=0.4)
     Shape("cylinder", radius=0.05, length=0.4)
     """
-    def __init__(self, kind: str, *, size: typing.Any = None, radius: typing.Any = None, length: typing.Any = None, file: str | None = None, folder: str = '', scale: typing.Any = None, pose: typing.Any = None, part: str = '') -> None:
+    def __init__(self, kind: str, *, size: numpy.typing.ArrayLike | None = None, radius: float | None = None, length: float | None = None, file: str | None = None, folder: str = '', scale: numpy.typing.ArrayLike | None = None, pose: numpy.typing.ArrayLike | None = None, part: str = '') -> None:
         ...
-    def __reduce__(self) -> tuple[typing.Any, tuple]:
+    def __reduce__(self) -> tuple[collections.abc.Callable, tuple]:
         ...
     def __repr__(self) -> str:
         ...
@@ -719,7 +735,7 @@ class Hits:
     def __repr__(self) -> str:
         ...
     @property
-    def barycentric(self) -> typing.Any:
+    def barycentric(self) -> numpy.ndarray:
         """
         (N, 3) weights (u, v, w) of corners 1, 2 and 0, as eq 4; NaN where there is none.
         """
@@ -729,12 +745,12 @@ class Hits:
         (N,) number of the mesh in the scene, −1 where the ray met nothing.
         """
     @property
-    def normal(self) -> typing.Any:
+    def normal(self) -> numpy.ndarray:
         """
         (N, 3) unit normal of the triangle as it is wound, NaN where the ray met nothing.
         """
     @property
-    def point(self) -> typing.Any:
+    def point(self) -> numpy.ndarray:
         """
         (N, 3) where it met it [m], NaN where it met nothing.
         """
@@ -837,7 +853,7 @@ class Scene:
         ...
     def __repr__(self) -> str:
         ...
-    def cast(self, origins: typing.Any, directions: typing.Any, *, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> Hits:
+    def cast(self, origins: numpy.typing.ArrayLike, directions: numpy.typing.ArrayLike, *, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> Hits:
         """
         The first triangle that each ray meets, from either side.
         
@@ -874,7 +890,7 @@ class Scene:
         >>> hits.range, hits.triangle.tolist()
         (array([ 3., inf]), [0, -1])
         """
-    def contains(self, points: typing.Any, *, accuracy: typing.SupportsFloat | typing.SupportsIndex = 0.1, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> numpy.typing.NDArray[numpy.bool]:
+    def contains(self, points: numpy.typing.ArrayLike, *, accuracy: typing.SupportsFloat | typing.SupportsIndex = 0.1, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> numpy.typing.NDArray[numpy.bool]:
         """
         Whether each point lies inside.
         
@@ -903,7 +919,7 @@ class Scene:
         >>> bathyal.Scene(tetrahedron).contains([[0.5, 0.5, 0.5], [5, 5, 5]]).tolist()
         [True, False]
         """
-    def nearest(self, points: typing.Any, *, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> Nearest:
+    def nearest(self, points: numpy.typing.ArrayLike, *, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> Nearest:
         """
         The closest point of all triangles to each point.
         
@@ -931,7 +947,7 @@ class Scene:
         >>> near.distance.tolist(), near.point.tolist()
         ([3.0, 5.0], [[1.0, 1.0, 0.0], [0.0, 0.0, 0.0]])
         """
-    def occluded(self, from_: typing.Any, to: typing.Any, *, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> numpy.ndarray:
+    def occluded(self, from_: numpy.typing.ArrayLike, to: numpy.typing.ArrayLike, *, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> numpy.ndarray:
         """
         Whether anything lies on each straight segment, its ends included.
         
@@ -963,7 +979,7 @@ class Scene:
         The lines in which a whole plane cuts the scene; see below.
         """
     @typing.overload
-    def section(self, a: typing.Any, b: typing.Any = None, up: typing.Any = None) -> list[Polyline]:
+    def section(self, a: numpy.typing.ArrayLike, b: numpy.typing.ArrayLike | None = None, up: numpy.typing.ArrayLike | None = None) -> list[Polyline]:
         """
         The lines in which a plane cuts the scene.
         
@@ -1004,7 +1020,7 @@ class Scene:
         >>> line.points.tolist()
         [[0.0, 1.0, 0.0], [2.0, 1.0, 0.0]]
         """
-    def winding_number(self, points: typing.Any, *, accuracy: typing.SupportsFloat | typing.SupportsIndex = 0.1, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> numpy.ndarray:
+    def winding_number(self, points: numpy.typing.ArrayLike, *, accuracy: typing.SupportsFloat | typing.SupportsIndex = 0.1, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> numpy.ndarray:
         """
         How often the triangles wind around each point.
         
@@ -1103,13 +1119,20 @@ class ToolPath:
         ...
     def __repr__(self) -> str:
         ...
-    def show(self) -> typing.Any:
+    def show(self) -> plotly.graph_objects.Figure:
         """
-        An interactive figure (bathyal.view.scene3d.show_path).
+        An interactive figure: the path, its targets and its approach arrows.
+        
+        See bathyal.view.scene3d.show_path.
         """
-    def write(self, path: typing.Any) -> None:
+    def write(self, path: str | os.PathLike[str]) -> None:
         """
-        Write to a .csv, .json or .vtp file (bathyal.toolpath.paths.write_path).
+        Write the path; every number keeps its full double precision.
+        
+        Parameters
+        ----------
+        path : path
+            ``.csv``, ``.json`` or ``.vtp``: see bathyal.toolpath.paths.write_path.
         """
     @property
     def approach(self) -> numpy.ndarray:
@@ -1237,7 +1260,7 @@ class Link:
     >>> bathyal.Link("forearm", mass=2.5, center_of_mass=(-0.1, 0, 0), volume=1.2e-3)
     Link("forearm", mass=2.5)
     """
-    def __init__(self, name: str = '', *, mass: typing.SupportsFloat | typing.SupportsIndex = 0.0, center_of_mass: typing.Any = (0, 0, 0), inertia: typing.Any = None, volume: typing.SupportsFloat | typing.SupportsIndex = 0.0, center_of_buoyancy: typing.Any = (0, 0, 0), frame: typing.Any = None, collision: collections.abc.Sequence[Shape] = [], visual: collections.abc.Sequence[Shape] = []) -> None:
+    def __init__(self, name: str = '', *, mass: typing.SupportsFloat | typing.SupportsIndex = 0.0, center_of_mass: numpy.typing.ArrayLike = (0, 0, 0), inertia: numpy.typing.ArrayLike | None = None, volume: typing.SupportsFloat | typing.SupportsIndex = 0.0, center_of_buoyancy: numpy.typing.ArrayLike = (0, 0, 0), frame: numpy.typing.ArrayLike | None = None, collision: collections.abc.Sequence[Shape] = [], visual: collections.abc.Sequence[Shape] = []) -> None:
         ...
     def __repr__(self) -> str:
         ...
@@ -1355,37 +1378,37 @@ class InverseResult:
     def __repr__(self) -> str:
         ...
     @property
-    def angle_error(self) -> typing.Any:
+    def angle_error(self) -> float | numpy.ndarray:
         """
         (N,) angle left [rad]; 0 where the task has none.
         """
     @property
-    def error(self) -> typing.Any:
+    def error(self) -> float | numpy.ndarray:
         """
         (N,) left of position and angle together, a radian weighing a fifth of the arm's length [m].
         """
     @property
-    def iterations(self) -> typing.Any:
+    def iterations(self) -> int | numpy.ndarray:
         """
         (N,) over all starts.
         """
     @property
-    def position_error(self) -> typing.Any:
+    def position_error(self) -> float | numpy.ndarray:
         """
         (N,) distance left [m].
         """
     @property
-    def q(self) -> typing.Any:
+    def q(self) -> numpy.ndarray:
         """
         (N, n) [rad] or [m], by "damped" always within the limits; where nothing was reached, the nearest found.
         """
     @property
-    def starts(self) -> typing.Any:
+    def starts(self) -> int | numpy.ndarray:
         """
         (N,) that were tried.
         """
     @property
-    def status(self) -> typing.Any:
+    def status(self) -> str | numpy.ndarray:
         """
         (N,) "reached", "limit", "singular" or "out_of_reach".
         """
@@ -1407,7 +1430,7 @@ class Arm:
     array([0.9, 0. , 0. ])
     """
     @staticmethod
-    def from_dh(a: typing.Any, alpha: typing.Any, d: typing.Any, theta: typing.Any, *, beta: typing.Any = None, joint_types: collections.abc.Sequence[str] | None = None, convention: str = 'standard', lower: typing.Any = None, upper: typing.Any = None, velocity: typing.Any = None, effort: typing.Any = None, names: collections.abc.Sequence[str] = [], links: collections.abc.Sequence[Link] = [], root: typing.Any = None, flange: typing.Any = None, base: typing.Any = None, tool: typing.Any = None, name: str = '', source: str = '') -> Arm:
+    def from_dh(a: numpy.typing.ArrayLike, alpha: numpy.typing.ArrayLike, d: numpy.typing.ArrayLike, theta: numpy.typing.ArrayLike, *, beta: numpy.typing.ArrayLike | None = None, joint_types: collections.abc.Sequence[str] | None = None, convention: str = 'standard', lower: numpy.typing.ArrayLike | None = None, upper: numpy.typing.ArrayLike | None = None, velocity: numpy.typing.ArrayLike | None = None, effort: numpy.typing.ArrayLike | None = None, names: collections.abc.Sequence[str] = [], links: collections.abc.Sequence[Link] = [], root: numpy.typing.ArrayLike | None = None, flange: numpy.typing.ArrayLike | None = None, base: numpy.typing.ArrayLike | None = None, tool: numpy.typing.ArrayLike | None = None, name: str = '', source: str = '') -> Arm:
         """
         An arm from its Denavit-Hartenberg table.
         
@@ -1450,9 +1473,23 @@ class Arm:
         array([ True, False])
         """
     @staticmethod
-    def from_urdf(path: typing.Any, *, tip: typing.Any = None, root: typing.Any = None, name: typing.Any = None) -> Arm:
+    def from_urdf(path: str | os.PathLike[str], *, tip: str | None = None, root: str | None = None, name: str | None = None) -> Arm:
         """
-        An arm from one path of a URDF's tree (bathyal.arm.urdf_reader.arm_from_urdf).
+        An arm from one path of a URDF's tree.
+        
+        Parameters
+        ----------
+        path : path
+            A URDF; xacro must be expanded first. Meshes are never opened.
+        tip : str, optional
+            The link, or the joint whose child link, becomes the flange. Needed where the tree has
+            several ends.
+        root : str, optional
+            The link that becomes the base; the root of the tree unless given.
+        name : str, optional
+            The robot's own unless given.
+        
+        All of it: bathyal.arm.urdf_reader.arm_from_urdf.
         """
     def __copy__(self) -> Arm:
         ...
@@ -1468,7 +1505,7 @@ class Arm:
         """
         An arm of its own, base and tool too.
         """
-    def forward(self, q: typing.Any, *, links: bool = False, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> numpy.ndarray:
+    def forward(self, q: numpy.typing.ArrayLike, *, links: bool = False, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> numpy.ndarray:
         """
         Poses of the tool in the world.
         
@@ -1493,7 +1530,7 @@ class Arm:
         >>> arm.forward([[0, 0, 0, 0, 0, 0]])[0, :3, 3].round(4)
         array([-1.1842, -0.2906,  0.0609])
         """
-    def inverse(self, poses: typing.Any, start: typing.Any = None, *, task: str = 'pose', method: str = 'damped', axis: typing.Any = (0.0, 0.0, 1.0), position_tolerance: typing.SupportsFloat | typing.SupportsIndex | None = None, angle_tolerance: typing.SupportsFloat | typing.SupportsIndex | None = None, max_iterations: typing.SupportsInt | typing.SupportsIndex = 60, max_starts: typing.SupportsInt | typing.SupportsIndex = 64, candidates: typing.SupportsInt | typing.SupportsIndex = 1, centering_steps: typing.SupportsInt | typing.SupportsIndex | None = None, steps: typing.SupportsInt | typing.SupportsIndex = 100, seed: typing.SupportsInt | typing.SupportsIndex = 0, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> InverseResult:
+    def inverse(self, poses: numpy.typing.ArrayLike, start: numpy.typing.ArrayLike | None = None, *, task: str = 'pose', method: str = 'damped', axis: numpy.typing.ArrayLike = (0.0, 0.0, 1.0), position_tolerance: typing.SupportsFloat | typing.SupportsIndex | None = None, angle_tolerance: typing.SupportsFloat | typing.SupportsIndex | None = None, max_iterations: typing.SupportsInt | typing.SupportsIndex = 60, max_starts: typing.SupportsInt | typing.SupportsIndex = 64, candidates: typing.SupportsInt | typing.SupportsIndex = 1, centering_steps: typing.SupportsInt | typing.SupportsIndex | None = None, steps: typing.SupportsInt | typing.SupportsIndex = 100, seed: typing.SupportsInt | typing.SupportsIndex = 0, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> InverseResult:
         """
         Joint angles that bring the tool to poses.
         
@@ -1552,7 +1589,7 @@ class Arm:
         >>> arm.inverse([3.0, 0, 0], task="position").status
         'out_of_reach'
         """
-    def jacobian(self, q: typing.Any, *, frame: str = 'world', num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> numpy.ndarray:
+    def jacobian(self, q: numpy.typing.ArrayLike, *, frame: str = 'world', num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> numpy.ndarray:
         """
         Geometric Jacobians at the tool centre point.
         
@@ -1576,7 +1613,7 @@ class Arm:
         >>> bathyal.arms.panda().jacobian([0, 0, 0, -1.5, 0, 1.5, 0]).shape
         (6, 7)
         """
-    def manipulability(self, q: typing.Any, *, kind: str = 'yoshikawa', part: str = 'all', num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> typing.Any:
+    def manipulability(self, q: numpy.typing.ArrayLike, *, kind: str = 'yoshikawa', part: str = 'all', num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> float | numpy.ndarray:
         """
         How far poses are from a singularity.
         
@@ -1604,19 +1641,36 @@ class Arm:
         >>> round(arm.manipulability([0.3, 1.5707963], part="linear"), 6)
         0.2
         """
-    def plot(self, q: typing.Any = None, path: typing.Any = None) -> typing.Any:
+    def plot(self, q: numpy.typing.ArrayLike | None = None, path: str | os.PathLike[str] | None = None) -> matplotlib.figure.Figure:
         """
-        A picture, written to `path` too (bathyal.view.arm_views.plot_arm).
+        A picture of the arm.
+        
+        Parameters
+        ----------
+        q : (n,) or (N, n) array, optional
+            [rad] or [m]; at rest unless given.
+        path : path, optional
+            ``.png``, ``.pdf`` or ``.svg`` to write it to, too: see bathyal.view.arm_views.plot_arm.
         """
-    def save(self, path: typing.Any) -> None:
+    def save(self, path: str | os.PathLike[str]) -> None:
         """
-        Write all of it to a .json file, for bathyal.read_arm (bathyal.arm.files.save_arm).
+        Write all of it to a file for bathyal.read_arm.
+        
+        Parameters
+        ----------
+        path : path
+            ``.json``: see bathyal.arm.files.save_arm.
         """
-    def show(self, q: typing.Any = None) -> typing.Any:
+    def show(self, q: numpy.typing.ArrayLike | None = None) -> plotly.graph_objects.Figure:
         """
-        An interactive figure (bathyal.view.arm_views.show_arm).
+        An interactive figure of the arm.
+        
+        Parameters
+        ----------
+        q : (n,) or (N, n) array, optional
+            [rad] or [m]; at rest unless given: see bathyal.view.arm_views.show_arm.
         """
-    def statics(self, q: typing.Any, wrench: typing.Any = None, *, frame: str = 'world', gravity: typing.Any = (0.0, 0.0, -9.80665), water_density: typing.SupportsFloat | typing.SupportsIndex = 1025.0, payload: typing.SupportsFloat | typing.SupportsIndex = 0.0, payload_center: typing.Any = (0, 0, 0), payload_volume: typing.SupportsFloat | typing.SupportsIndex = 0.0, payload_center_of_buoyancy: typing.Any = None, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> numpy.ndarray:
+    def statics(self, q: numpy.typing.ArrayLike, wrench: numpy.typing.ArrayLike | None = None, *, frame: str = 'world', gravity: numpy.typing.ArrayLike = (0.0, 0.0, -9.80665), water_density: typing.SupportsFloat | typing.SupportsIndex = 1025.0, payload: typing.SupportsFloat | typing.SupportsIndex = 0.0, payload_center: numpy.typing.ArrayLike = (0, 0, 0), payload_volume: typing.SupportsFloat | typing.SupportsIndex = 0.0, payload_center_of_buoyancy: numpy.typing.ArrayLike | None = None, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> numpy.ndarray:
         """
         Joint torques that hold the arm still.
         
@@ -1676,17 +1730,29 @@ class Arm:
         >>> bathyal.arms.ur10e().to_dh().a.round(4)
         array([ 0.    , -0.6127, -0.5715,  0.    ,  0.    ,  0.    ])
         """
-    def to_urdf(self, path: typing.Any = None) -> str:
+    def to_urdf(self, path: str | os.PathLike[str] | None = None) -> str:
         """
-        The arm as the text of a URDF, written to `path` too (bathyal.arm.urdf_writer.urdf_of_arm).
+        The arm as the text of a URDF.
+        
+        Parameters
+        ----------
+        path : path, optional
+            Where to write it, too: see bathyal.arm.urdf_writer.urdf_of_arm.
         """
-    def within_limits(self, q: typing.Any) -> typing.Any:
+    def within_limits(self, q: numpy.typing.ArrayLike) -> bool | numpy.ndarray:
         """
         Whether each pose q (N, n) keeps the limits: (N,) bool; one pose (n,) gives one.
         """
-    def write(self, path: typing.Any, *, nominal: typing.Any = None) -> None:
+    def write(self, path: str | os.PathLike[str], *, nominal: Arm | None = None) -> None:
         """
-        Write a .json, .urdf, .yaml or .conf file (bathyal.arm.files.write_arm).
+        Write a file of the format its suffix names.
+        
+        Parameters
+        ----------
+        path : path
+            ``.json``, ``.urdf``, ``.yaml``, ``.yml`` or ``.conf``: see bathyal.arm.files.write_arm.
+        nominal : Arm, optional
+            For ``.conf``: the maker's arm, from which the file gives the differences.
         """
     @property
     def base(self) -> numpy.ndarray:
@@ -1694,7 +1760,7 @@ class Arm:
         (4, 4) world_from_base; may be set, None is the identity.
         """
     @base.setter
-    def base(self, arg1: typing.Any) -> None:
+    def base(self, arg1: numpy.typing.ArrayLike | None) -> None:
         ...
     @property
     def effort(self) -> numpy.ndarray:
@@ -1745,7 +1811,7 @@ class Arm:
         (4, 4) flange_from_tool; may be set, None is the identity.
         """
     @tool.setter
-    def tool(self, arg1: typing.Any) -> None:
+    def tool(self, arg1: numpy.typing.ArrayLike | None) -> None:
         ...
     @property
     def upper(self) -> numpy.ndarray:
@@ -1773,8 +1839,8 @@ class Touches:
     q_deg : (N, n) array
         In place of `q`, in degrees (every column: for arms that only turn).
     known_distances : dict
-        {(label, label): distance} between touched points [m]. Touches cannot tell an arm from a smaller
-        one; one such distance can.
+        {(label, label): distance} between touched points [m]. Touches alone do not determine the scale
+        of the arm; one such distance does.
     distance_std : float
         Standard deviation of those distances [m].
     known_points : dict
@@ -1786,20 +1852,20 @@ class Touches:
     weights : (N,) array
         1 / variance of a row, up to a factor. Equal when not given.
     tool, station : (N,) int array
-        Which tool touched, and where the base stood, each counted from 0.
+        Tool of the touch and position of the base, each counted from 0.
     covariates : dict
-        {name: (N,) or (N, k) array} recorded beside: temperature, time, payload, direction, gravity …
+        {name: (N,) or (N, k) array} recorded in addition: temperature, time, payload, direction, gravity …
         nan in rows where it was not recorded.
     session : (N,) int array
         Short for the covariate ``session``.
     names : dict
-        {label: name} of touched points, for people to read; a label may have none.
+        {label: name} of touched points, for reports; a label may have none.
     
     Raises
     ------
     ValueError
         For lengths that differ, numbers that are not finite, values that can only be degrees (give them
-        as ``q_deg``), poses that are all equal, one pose for each point, labels that nobody touched.
+        as ``q_deg``), poses that are all equal, one pose for each point, labels without a touch.
     
     Examples
     --------
@@ -1807,7 +1873,7 @@ class Touches:
     >>> bathyal.Touches([[0, 1, 0.5], [0.2, 0.9, 0.6]], [0, 0])
     Touches(2 poses, 3 joints)
     """
-    def __init__(self, q: typing.Any = None, point: typing.Any = None, *, q_deg: typing.Any = None, known_distances: typing.Any = None, distance_std: typing.SupportsFloat | typing.SupportsIndex = 0.0001, known_points: typing.Any = None, point_std: typing.SupportsFloat | typing.SupportsIndex = 0.0001, planes: typing.Any = None, weights: typing.Any = None, tool: typing.Any = None, station: typing.Any = None, covariates: typing.Any = None, session: typing.Any = None, names: typing.Any = None) -> None:
+    def __init__(self, q: numpy.typing.ArrayLike | None = None, point: numpy.typing.ArrayLike | None = None, *, q_deg: numpy.typing.ArrayLike | None = None, known_distances: dict[tuple[int, int], float] | None = None, distance_std: typing.SupportsFloat | typing.SupportsIndex = 0.0001, known_points: dict[int, numpy.typing.ArrayLike] | None = None, point_std: typing.SupportsFloat | typing.SupportsIndex = 0.0001, planes: dict[str, numpy.typing.ArrayLike] | None = None, weights: numpy.typing.ArrayLike | None = None, tool: numpy.typing.ArrayLike | None = None, station: numpy.typing.ArrayLike | None = None, covariates: dict[str, numpy.typing.ArrayLike] | None = None, session: numpy.typing.ArrayLike | None = None, names: dict[int, str] | None = None) -> None:
         ...
     def __len__(self) -> int:
         ...
@@ -1869,7 +1935,7 @@ class Touches:
         """
 class Tracked:
     """
-    Joint values beside the measured place of the tool's tip.
+    Joint values and measured positions of the tool's tip.
     
     Parameters
     ----------
@@ -1884,9 +1950,9 @@ class Tracked:
     weights : (N,) array
         1 / variance of a row, up to a factor. Equal when not given.
     tool, station : (N,) int array
-        Which target on the tool was seen, and where base and instrument stood, each counted from 0.
+        Target on the tool, and position of base and instrument, each counted from 0.
     covariates : dict
-        {name: (N,) or (N, k) array} recorded beside: temperature, time, payload, direction, gravity …
+        {name: (N,) or (N, k) array} recorded in addition: temperature, time, payload, direction, gravity …
         nan in rows where it was not recorded.
     session : (N,) int array
         Short for the covariate ``session``.
@@ -1902,7 +1968,7 @@ class Tracked:
     >>> bathyal.Tracked(q_deg=[[0, 30], [10, 40]], position=[[1, 0, 0], [1.1, 0.1, 0]])
     Tracked(2 poses, 2 joints)
     """
-    def __init__(self, q: typing.Any = None, position: typing.Any = None, *, pose: typing.Any = None, q_deg: typing.Any = None, weights: typing.Any = None, tool: typing.Any = None, station: typing.Any = None, covariates: typing.Any = None, session: typing.Any = None) -> None:
+    def __init__(self, q: numpy.typing.ArrayLike | None = None, position: numpy.typing.ArrayLike | None = None, *, pose: numpy.typing.ArrayLike | None = None, q_deg: numpy.typing.ArrayLike | None = None, weights: numpy.typing.ArrayLike | None = None, tool: numpy.typing.ArrayLike | None = None, station: numpy.typing.ArrayLike | None = None, covariates: dict[str, numpy.typing.ArrayLike] | None = None, session: numpy.typing.ArrayLike | None = None) -> None:
         ...
     def __len__(self) -> int:
         ...
@@ -1914,7 +1980,7 @@ class Tracked:
         Name to (N,) or (N, k) array; `session` among them.
         """
     @property
-    def pose(self) -> typing.Any:
+    def pose(self) -> numpy.ndarray | None:
         """
         (N, 4, 4) world_from_tool, or None when only positions were measured.
         """
@@ -1945,7 +2011,7 @@ class Tracked:
         """
 class EffectRows:
     """
-    The rows that an effect's function is asked for.
+    The rows at which the function of an effect is evaluated.
     
     Its numbers must follow from each row alone (or, with ``by_difference=True``, from how rows differ
     from their neighbours), so that an effect found in one recording means the same in the next.
@@ -1953,7 +2019,7 @@ class EffectRows:
     def __len__(self) -> int:
         ...
     @property
-    def arm(self) -> typing.Any:
+    def arm(self) -> Arm:
         """
         Arm: rows as far as they are known, and masses.
         """
@@ -2007,11 +2073,11 @@ class EffectRange:
         ...
 class Effect:
     """
-    Something that may be wrong with an arm beside its geometry.
+    An error of an arm that its geometric parameters cannot represent.
     
     Those of the library come from `bathyal.effects.list`; this makes one of your own. It is linear in
     its parameters: each moves its site by itself times the numbers that the function gives for it.
-    Python functions are slow beside the library's; write one in C++ to make it fast.
+    Python functions are slow compared with the library's; write one in C++ to make it fast.
     
     Parameters
     ----------
@@ -2029,17 +2095,17 @@ class Effect:
     site : str
         What it moves: "joint", "base", "tool" or "lengths" (all a and d of the arm).
     needs : list of str
-        Covariates without which it cannot be seen.
+        Covariates without which it is not observable.
     words, formula, source : str
         For people.
     scales : dict of str to float, optional
-        An ordinary size of each parameter, in its unit; 1e-3 unless given.
+        A typical size of each parameter, in its unit; 1e-3 unless given.
     by_difference : bool
-        Whether it looks at how rows differ from their neighbours, not at where they lie: the ranges of
-        the data that taught it are no bounds to it.
+        Whether it depends on how rows differ from their neighbours and not on the rows themselves: the
+        ranges of the training data do not bound it.
     period : float
-        The shortest stretch of joint values over which what it does comes and goes [rad] or [m]: in a
-        wider gap of the data a corrected arm holds it at the edge. Infinite unless given.
+        The shortest length scale of its dependence on joint values [rad] or [m]: in a wider gap of the
+        data a corrected arm holds it at its value at the edge. Infinite unless given.
     
     Raises
     ------
@@ -2058,7 +2124,7 @@ class Effect:
     >>> Effect("cable", cable, parameters={"pull": "rad"}, joints="each")
     Effect("cable")
     """
-    def __init__(self, name: str, function: collections.abc.Callable, *, parameters: dict, joints: typing.Any = None, site: str = 'joint', needs: collections.abc.Sequence[str] = [], words: str = '', formula: str = '', source: str = '', scales: collections.abc.Mapping[str, typing.SupportsFloat | typing.SupportsIndex] = {}, by_difference: bool = False, period: typing.SupportsFloat | typing.SupportsIndex = ...) -> None:
+    def __init__(self, name: str, function: collections.abc.Callable, *, parameters: dict, joints: str | collections.abc.Iterable[int] | None = None, site: str = 'joint', needs: collections.abc.Sequence[str] = [], words: str = '', formula: str = '', source: str = '', scales: collections.abc.Mapping[str, typing.SupportsFloat | typing.SupportsIndex] = {}, by_difference: bool = False, period: typing.SupportsFloat | typing.SupportsIndex = ...) -> None:
         ...
     def __repr__(self) -> str:
         ...
@@ -2067,7 +2133,7 @@ class Effect:
     @property
     def by_difference(self) -> bool:
         """
-        Whether it looks at how rows differ from their neighbours.
+        Whether it depends on how rows differ from their neighbours.
         """
     @property
     def formula(self) -> str:
@@ -2078,7 +2144,7 @@ class Effect:
     @property
     def needs(self) -> list[str]:
         """
-        Covariates without which it cannot be seen.
+        Covariates without which it is not observable.
         """
     @property
     def ranges(self) -> list[EffectRange]:
@@ -2093,11 +2159,11 @@ class Effect:
     @property
     def words(self) -> str:
         """
-        What it is, for people.
+        Description.
         """
 class FoundEffect:
     """
-    An effect with its values: what a corrected arm carries.
+    An effect with its values, as part of a corrected arm.
     
     Parameters
     ----------
@@ -2108,13 +2174,13 @@ class FoundEffect:
     joint : int, optional
         Counted from 0.
     settings : dict of str to float, optional
-        What tells this form of the effect from others, such as ``{"order": 2}``.
+        What distinguishes this variant of the effect from others, such as ``{"order": 2}``.
     units : dict of str to str, optional
         Of the parameters; the effect's own unless given.
     scales : dict of str to float, optional
-        Ordinary sizes of the parameters, above 0; 1e-3 unless given.
+        Typical sizes of the parameters, above 0; 1e-3 unless given.
     cause : str
-        Effects of one cause are words for the same thing.
+        Effects of one cause are descriptions of the same thing.
     
     Raises
     ------
@@ -2127,7 +2193,7 @@ class FoundEffect:
     >>> FoundEffect("joint_harmonic", {"cos": 1e-3, "sin": 0.0}, joint=2, settings={"order": 2})
     FoundEffect("joint_harmonic", joint=2, cos=0.001, sin=0)
     """
-    def __init__(self, effect: typing.Any, parameters: dict, *, joint: typing.SupportsInt | typing.SupportsIndex | None = None, settings: collections.abc.Mapping[str, typing.SupportsFloat | typing.SupportsIndex] = {}, units: collections.abc.Mapping[str, str] = {}, scales: collections.abc.Mapping[str, typing.SupportsFloat | typing.SupportsIndex] = {}, cause: str = '') -> None:
+    def __init__(self, effect: Effect | str, parameters: dict, *, joint: typing.SupportsInt | typing.SupportsIndex | None = None, settings: collections.abc.Mapping[str, typing.SupportsFloat | typing.SupportsIndex] = {}, units: collections.abc.Mapping[str, str] = {}, scales: collections.abc.Mapping[str, typing.SupportsFloat | typing.SupportsIndex] = {}, cause: str = '') -> None:
         ...
     def __repr__(self) -> str:
         ...
@@ -2140,7 +2206,7 @@ class FoundEffect:
         The Effect itself.
         """
     @property
-    def joint(self) -> typing.Any:
+    def joint(self) -> int | None:
         """
         Counted from 0, or None.
         """
@@ -2155,12 +2221,12 @@ class FoundEffect:
     @property
     def scales(self) -> dict:
         """
-        Name to an ordinary size.
+        Name to a typical size.
         """
     @property
     def settings(self) -> dict[str, float]:
         """
-        What tells this form of the effect from others.
+        What distinguishes this variant of the effect from others.
         """
     @property
     def units(self) -> dict:
@@ -2169,22 +2235,22 @@ class FoundEffect:
         """
 class Support:
     """
-    What the data that taught a corrected arm covered.
+    The region that the training data of a corrected arm cover.
     
     Parameters
     ----------
     joints : (2, n) array
-        Least and greatest of each coordinate [rad] or [m].
+        Minimum and maximum of each coordinate [rad] or [m].
     gaps : list of (g, 2) arrays, optional
-        Of each coordinate, from and to: stretches within its range without data, rising.
+        Of each coordinate, from and to: intervals within its range without data, ascending.
     gravity : (2, 3) array, optional
         [m/s²] in the arm's base frame; straight down unless given.
     covariates : dict of str to (2, k) array, optional
         Of all others but `session`.
     sessions : (s,) array, optional
-        That were seen, rising.
+        Of the training data, ascending.
     """
-    def __init__(self, joints: typing.Any, *, gaps: collections.abc.Sequence = (), gravity: typing.Any = None, covariates: dict = {}, sessions: typing.Any = None) -> None:
+    def __init__(self, joints: numpy.typing.ArrayLike, *, gaps: collections.abc.Sequence = (), gravity: numpy.typing.ArrayLike | None = None, covariates: dict = {}, sessions: numpy.typing.ArrayLike | None = None) -> None:
         ...
     def __repr__(self) -> str:
         ...
@@ -2196,7 +2262,7 @@ class Support:
     @property
     def gaps(self) -> list:
         """
-        Of each coordinate (g, 2) from and to: stretches within its range without data, wider than a 200th of it; an empty list where nobody told.
+        Of each coordinate (g, 2) from and to: stretches within its range without data, wider than a 200th of it; an empty list where unknown.
         """
     @property
     def gravity(self) -> numpy.ndarray:
@@ -2211,32 +2277,31 @@ class Support:
     @property
     def sessions(self) -> numpy.ndarray:
         """
-        (s,) that were seen.
+        (s,) of the training data.
         """
 class CorrectedArm:
     """
-    An arm with what a diagnosis found inside.
+    An arm with the result of a diagnosis.
     
-    Rigid geometry, effects with their values, and the support of the data that taught them; what
-    ``report.model`` is. `q` is what the controller records; the effects move joints, frames and
-    lengths from there.
+    Rigid geometry, effects with their values, and the support of the training data: the type of
+    ``report.model``. `q` is what the controller records; the effects perturb joints, frames and lengths
+    from there.
     
-    An effect counts in a row where its own arguments lie within the support: in the ranges that taught
-    it, and in no gap between joint values wider than its period (of waves and curves along one joint,
-    which were found together, the shortest).
-    Where one lies beyond (a joint, a temperature, a load) and would change what the effect does, the
-    effect is held: a wave or curve along its joint at its average over what was taught, for beyond that
-    it may do anything; what is smooth at what it does in the nearest row within. An effect that needs
-    what is not known (a NaN covariate, a session that nobody saw) is left out, and where all are the
-    answer is the rigid arm's. That is never silent: each call warns once with a `SupportWarning`, and
-    `in_support` gives the rows.
+    An effect applies in a row where its own arguments lie within the support: within the ranges of the
+    training data, and in no gap between joint values wider than its period (of harmonics and curves
+    along one joint, which were fitted together, the shortest). Where an argument lies beyond (a joint,
+    a temperature, a load) and would change the effect, the effect is held constant: a harmonic or curve
+    along its joint at its average over the training data, because its extrapolation is undetermined; a
+    smooth effect at its value in the nearest row within. An effect whose argument is unknown (a NaN
+    covariate, a session without training data) is omitted, and where all are the result is that of the
+    rigid arm. Each such call warns once with a `SupportWarning`, and `in_support` gives the rows.
     
-    Every method that computes takes ``covariates``, a dict of name to a number, (N,) or (N, k) array. An
-    effect that needs one that is missing is left out with the warning where no covariates are told at
-    all, and refused where some are. `payload` counts 0 kg and `gravity` (0, 0, −9.80665) m/s² in the
-    arm's base frame unless told. A base that moved and a tool that was changed follow `session`; a tool
-    that slipped follows `time`, and without it has slipped; joints that are late follow the speed that
-    `time` tells between rows, and without it stand still.
+    Every method that computes takes ``covariates``, a dict of name to a number, (N,) or (N, k) array.
+    An effect that needs a missing one is omitted with the warning where no covariates are given at all,
+    and refused where some are. `payload` defaults to 0 kg and `gravity` to (0, 0, −9.80665) m/s² in the
+    base frame of the arm. A base that moved and a tool that was changed follow `session`; a tool that
+    slipped follows `time`, and without it has slipped; a clock shift follows the speeds between rows by
+    `time`, and without it joints are at rest.
     
     Parameters
     ----------
@@ -2244,13 +2309,13 @@ class CorrectedArm:
         The rigid part, with base and tool.
     effects : list of FoundEffect
     data : Touches, Tracked or Support
-        What taught them.
+        The training data.
     
     Raises
     ------
     ValueError
-        For an effect whose values or settings do not fit the arm, or that needs a covariate of which
-        `data` say nothing.
+        For an effect whose values or settings do not fit the arm, or that needs a covariate that `data`
+        does not have.
     
     Examples
     --------
@@ -2274,15 +2339,15 @@ class CorrectedArm:
         ...
     def __deepcopy__(self, memo: dict) -> CorrectedArm:
         ...
-    def __init__(self, arm: Arm, effects: collections.abc.Sequence[FoundEffect], data: typing.Any) -> None:
+    def __init__(self, arm: Arm, effects: collections.abc.Sequence[FoundEffect], data: Touches | Tracked | Support) -> None:
         ...
     def __repr__(self) -> str:
         ...
     def copy(self) -> CorrectedArm:
         """
-        One of its own, base and tool too.
+        An independent copy, with its own base and tool.
         """
-    def forward(self, q: typing.Any, *, covariates: typing.Any = None, links: bool = False, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> numpy.ndarray:
+    def forward(self, q: numpy.typing.ArrayLike, *, covariates: dict[str, numpy.typing.ArrayLike] | None = None, links: bool = False, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> numpy.ndarray:
         """
         Poses of the tool in the world.
         
@@ -2305,16 +2370,16 @@ class CorrectedArm:
         Raises
         ------
         ValueError
-            For other shapes, and for a covariate that an effect needs and that is missing among others.
+            For other shapes, and for an incomplete set of covariates.
         
         Warns
         -----
         SupportWarning
-            Where effects were held or left out.
+            Where effects were held or omitted.
         """
-    def in_support(self, q: typing.Any, *, covariates: typing.Any = None) -> numpy.ndarray:
+    def in_support(self, q: numpy.typing.ArrayLike, *, covariates: dict[str, numpy.typing.ArrayLike] | None = None) -> numpy.ndarray:
         """
-        Which effects count in which row.
+        Which effects apply in which row.
         
         Parameters
         ----------
@@ -2327,18 +2392,18 @@ class CorrectedArm:
         (N, E) or (E,) array of bool
             In the order of `effects`; all False in a row is the rigid arm.
         """
-    def inverse(self, poses: typing.Any, start: typing.Any = None, *, covariates: typing.Any = None, task: str = 'pose', axis: typing.Any = (0.0, 0.0, 1.0), position_tolerance: typing.SupportsFloat | typing.SupportsIndex | None = None, angle_tolerance: typing.SupportsFloat | typing.SupportsIndex | None = None, max_iterations: typing.SupportsInt | typing.SupportsIndex = 60, max_starts: typing.SupportsInt | typing.SupportsIndex = 64, candidates: typing.SupportsInt | typing.SupportsIndex = 1, centering_steps: typing.SupportsInt | typing.SupportsIndex | None = None, seed: typing.SupportsInt | typing.SupportsIndex = 0, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> InverseResult:
+    def inverse(self, poses: numpy.typing.ArrayLike, start: numpy.typing.ArrayLike | None = None, *, covariates: dict[str, numpy.typing.ArrayLike] | None = None, task: str = 'pose', axis: numpy.typing.ArrayLike = (0.0, 0.0, 1.0), position_tolerance: typing.SupportsFloat | typing.SupportsIndex | None = None, angle_tolerance: typing.SupportsFloat | typing.SupportsIndex | None = None, max_iterations: typing.SupportsInt | typing.SupportsIndex = 60, max_starts: typing.SupportsInt | typing.SupportsIndex = 64, candidates: typing.SupportsInt | typing.SupportsIndex = 1, centering_steps: typing.SupportsInt | typing.SupportsIndex | None = None, seed: typing.SupportsInt | typing.SupportsIndex = 0, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> InverseResult:
         """
-        What the controller is to be told to bring the tool to poses.
+        The joint values to command so that the tool reaches poses.
         
-        The rigid arm (`Arm.inverse`, method "damped") is sent where the target lies less what the effects
-        do, until the corrected tip agrees to the tolerances, 1e-9 m and rad unless given. Arguments and
-        statuses are those of `Arm.inverse`, with `covariates` as `forward` takes them; errors are those of
-        the corrected arm.
+        The rigid arm (`Arm.inverse`, method "damped") is sent to the target minus the effects, until the
+        corrected tip agrees to the tolerances, 1e-9 m and rad unless given. Arguments and statuses are
+        those of `Arm.inverse`, with `covariates` as `forward` takes them; errors are those of the corrected
+        arm.
         
         A pose in the middle of a gap, where an effect held at one edge brings it nearer to the other, is
-        "singular", with the error that is left. On the edge of what the rigid arm reaches a pose may be
-        called out of reach by as little as the effects amount to.
+        "singular", with the remaining error. At the edge of the workspace of the rigid arm a pose may be
+        reported out of reach within the size of the effects.
         
         Returns
         -------
@@ -2353,32 +2418,54 @@ class CorrectedArm:
         Warns
         -----
         SupportWarning
-            Where effects were held or left out at the q that was found.
+            Where effects were held or omitted at the solution q.
         """
-    def jacobian(self, q: typing.Any, *, covariates: typing.Any = None, frame: str = 'world', num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> numpy.ndarray:
+    def jacobian(self, q: numpy.typing.ArrayLike, *, covariates: dict[str, numpy.typing.ArrayLike] | None = None, frame: str = 'world', num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> numpy.ndarray:
         """
         Geometric Jacobians at the tool centre point.
         
-        The derivative of `forward`: of the chain as it stands, of the effects by central differences of what they move (1e-6 rad or m apart). Arguments, errors and warnings are
-        those of `forward`, and the axes of `Arm.jacobian`.
+        The derivative of `forward`: analytic for the perturbed chain, with central differences of the
+        perturbations (step 1e-6 rad or m). Arguments, errors and warnings are those of `forward`, and the
+        axes of `Arm.jacobian`.
         
         Returns
         -------
         (N, 6, n) or (6, n) array
             Rows of the linear velocity [m/s] above those of the angular velocity [rad/s].
         """
-    def save(self, path: typing.Any) -> None:
+    def plot(self, q: numpy.typing.ArrayLike | None = None, path: str | os.PathLike[str] | None = None) -> matplotlib.figure.Figure:
         """
-        Write all of it to a .json file, for bathyal.read_arm (bathyal.arm.corrected_files.save_corrected_arm).
+        As of `Arm`: the rigid part alone.
         """
-    def write(self, path: typing.Any) -> None:
+    def save(self, path: str | os.PathLike[str]) -> None:
         """
-        Write all of it to a .json file, for bathyal.read_arm (bathyal.arm.corrected_files.save_corrected_arm).
+        Write all of it to a file for bathyal.read_arm.
+        
+        Parameters
+        ----------
+        path : path
+            ``.json``: see bathyal.arm.corrected_files.save_corrected_arm.
+        """
+    def show(self, q: numpy.typing.ArrayLike | None = None) -> plotly.graph_objects.Figure:
+        """
+        As of `Arm`: the rigid part alone.
+        """
+    def to_urdf(self, path: str | os.PathLike[str] | None = None) -> str:
+        """
+        As of `Arm`: the rigid part alone.
+        """
+    def within_limits(self, q: numpy.typing.ArrayLike) -> bool | numpy.ndarray:
+        """
+        As of `Arm`.
+        """
+    def write(self, path: str | os.PathLike[str]) -> None:
+        """
+        As `save`.
         """
     @property
     def arm(self) -> Arm:
         """
-        Arm: a copy of the rigid part, for what knows no effects (.to_urdf() of it).
+        Arm: a copy of the rigid part, for uses without effects (its .to_urdf()).
         """
     @property
     def base(self) -> numpy.ndarray:
@@ -2386,17 +2473,17 @@ class CorrectedArm:
         (4, 4) world_from_base; may be set, None is the identity.
         """
     @base.setter
-    def base(self, arg1: typing.Any) -> None:
+    def base(self, arg1: numpy.typing.ArrayLike | None) -> None:
         ...
     @property
     def effects(self) -> list[FoundEffect]:
         """
-        The FoundEffects: a list.
+        List of FoundEffect.
         """
     @property
-    def effort(self) -> typing.Any:
+    def effort(self) -> numpy.ndarray:
         """
-        As of `Arm`: `arm`'s own.
+        As of `Arm`.
         """
     @property
     def gaps(self) -> list:
@@ -2404,43 +2491,33 @@ class CorrectedArm:
         Of each coordinate (g, 2) from and to: gaps of the support in which a wave or curve along it is held.
         """
     @property
-    def joint_names(self) -> typing.Any:
+    def joint_names(self) -> list[str]:
         """
-        As of `Arm`: `arm`'s own.
-        """
-    @property
-    def joint_types(self) -> typing.Any:
-        """
-        As of `Arm`: `arm`'s own.
+        As of `Arm`.
         """
     @property
-    def link_names(self) -> typing.Any:
+    def joint_types(self) -> list[str]:
         """
-        As of `Arm`: `arm`'s own.
-        """
-    @property
-    def links(self) -> typing.Any:
-        """
-        As of `Arm`: `arm`'s own.
+        As of `Arm`.
         """
     @property
-    def lower(self) -> typing.Any:
+    def link_names(self) -> list[str]:
         """
-        As of `Arm`: `arm`'s own.
+        As of `Arm`.
+        """
+    @property
+    def links(self) -> list[Link]:
+        """
+        As of `Arm`.
+        """
+    @property
+    def lower(self) -> numpy.ndarray:
+        """
+        As of `Arm`.
         """
     @property
     def name(self) -> str:
         ...
-    @property
-    def plot(self) -> typing.Any:
-        """
-        As of `Arm`: `arm`'s own.
-        """
-    @property
-    def show(self) -> typing.Any:
-        """
-        As of `Arm`: `arm`'s own.
-        """
     @property
     def size(self) -> int:
         """
@@ -2454,12 +2531,7 @@ class CorrectedArm:
     @property
     def support(self) -> Support:
         """
-        What the data covered.
-        """
-    @property
-    def to_urdf(self) -> typing.Any:
-        """
-        As of `Arm`: `arm`'s own.
+        The region that the data cover.
         """
     @property
     def tool(self) -> numpy.ndarray:
@@ -2467,33 +2539,28 @@ class CorrectedArm:
         (4, 4) flange_from_tool; may be set, None is the identity.
         """
     @tool.setter
-    def tool(self, arg1: typing.Any) -> None:
+    def tool(self, arg1: numpy.typing.ArrayLike | None) -> None:
         ...
     @property
-    def upper(self) -> typing.Any:
+    def upper(self) -> numpy.ndarray:
         """
-        As of `Arm`: `arm`'s own.
-        """
-    @property
-    def velocity(self) -> typing.Any:
-        """
-        As of `Arm`: `arm`'s own.
+        As of `Arm`.
         """
     @property
-    def within_limits(self) -> typing.Any:
+    def velocity(self) -> numpy.ndarray:
         """
-        As of `Arm`: `arm`'s own.
+        As of `Arm`.
         """
 class Trade:
     """
-    A parameter that moves along, unseen, with another one.
+    A parameter that takes part in an unobservable change of another one.
     """
     def __repr__(self) -> str:
         ...
     @property
     def factor(self) -> float:
         """
-        How far it goes per unit of the other one, each in its own unit.
+        Its change per unit of the other one, each in its own unit.
         """
     @property
     def name(self) -> str:
@@ -2503,11 +2570,11 @@ class Trade:
         ...
 class FitParameter:
     """
-    One unknown, as found by `identify_arm`.
+    One parameter as estimated by `identify_arm`.
     
-    ``status`` is "identified"; "gauge" (held: base or tool can do all that it could do); "prior" (a
-    prior tells it, the data do not); "not_identifiable"; "fixed" (held on request); "pruned" (put back
-    to nominal on request). ``trades`` lists what it moves with, unseen by the data.
+    ``status`` is "identified"; "gauge" (fixed: base or tool can represent it); "prior" (determined by a
+    prior, not by the data); "not_identifiable"; "fixed" (on request); "pruned" (reset to nominal on
+    request). ``trades`` lists the parameters that take part in an unobservable change of it.
     """
     def __repr__(self) -> str:
         ...
@@ -2540,19 +2607,19 @@ class FitParameter:
         ...
 class Outlier:
     """
-    A row that lies far from where the others want it.
+    A row that contradicts the others.
     """
     def __repr__(self) -> str:
         ...
     @property
     def distance(self) -> float:
         """
-        From where it should be [m].
+        From its expected position [m].
         """
     @property
     def fits(self) -> int | None:
         """
-        Label of the point where it would fit, or None: labels look swapped.
+        Label of the point that it agrees with, or None: labels were probably swapped.
         """
     @property
     def point(self) -> int:
@@ -2564,9 +2631,9 @@ class Outlier:
         ...
 class ArmFit:
     """
-    The arm found by `identify_arm` and how far to trust it.
+    Result of `identify_arm`: the arm with its uncertainty.
     
-    ``str(fit)`` and ``fit.summary()`` tell it in one paragraph.
+    ``str(fit)`` and ``fit.summary()`` describe it in one paragraph.
     """
     def __repr__(self) -> str:
         ...
@@ -2574,14 +2641,14 @@ class ArmFit:
         ...
     def summary(self, *, warnings: bool = True) -> str:
         """
-        One paragraph in plain words; ``warnings=False`` leaves the warnings to the caller.
+        One paragraph; ``warnings=False`` leaves the warnings to the caller.
         """
-    def tip_covariance(self, q: typing.Any, *, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> numpy.ndarray:
+    def tip_covariance(self, q: numpy.typing.ArrayLike, *, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> numpy.ndarray:
         """
-        Covariance of the tip that ``fit.arm`` foretells, in the frame of its base.
+        Covariance of the tip predicted by ``fit.arm``, in the frame of its base.
         
-        Gauge counts nothing, the arm's size counts. Infinite on the diagonal where something that neither
-        data nor priors tell moves the tip.
+        Gauge freedom does not count, the scale of the arm counts. Infinite on the diagonal where a
+        direction that neither data nor priors determine moves the tip.
         
         Parameters
         ----------
@@ -2593,9 +2660,9 @@ class ArmFit:
         (N, 3, 3) or (3, 3) array
             [m²]
         """
-    def tip_std(self, q: typing.Any, *, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> typing.Any:
+    def tip_std(self, q: numpy.typing.ArrayLike, *, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> float | numpy.ndarray:
         """
-        Standard deviation of the foretold tip: √trace of `tip_covariance`, all three axes together.
+        Standard deviation of the predicted tip: √trace of `tip_covariance`, all three axes together.
         
         Parameters
         ----------
@@ -2623,7 +2690,7 @@ class ArmFit:
     @property
     def covariance(self) -> numpy.ndarray:
         """
-        (P, P) in the parameters' units; what nothing tells counts 0.
+        (P, P) in the units of the parameters; 0 for undetermined ones.
         """
     @property
     def degrees_of_freedom(self) -> float:
@@ -2631,7 +2698,7 @@ class ArmFit:
     @property
     def distances(self) -> dict:
         """
-        Known distances as found: {(label, label): m}.
+        Estimates of the known distances: {(label, label): m}.
         """
     @property
     def history(self) -> numpy.ndarray:
@@ -2641,12 +2708,12 @@ class ArmFit:
     @property
     def iterations(self) -> int:
         """
-        Steps that were accepted.
+        Accepted steps.
         """
     @property
     def noise(self) -> float:
         """
-        Standard deviation per axis, found or told [m].
+        Standard deviation per axis, estimated or given [m].
         """
     @property
     def outliers(self) -> list[Outlier]:
@@ -2682,22 +2749,22 @@ class ArmFit:
     @property
     def points(self) -> numpy.ndarray:
         """
-        (n, 3) touched points as found, world [m].
+        (n, 3) estimated positions of the touched points, world [m].
         """
     @property
     def rank(self) -> int:
         """
-        Of the data, by all parameters, without priors.
+        Of the data by all parameters, without priors.
         """
     @property
     def residuals(self) -> numpy.ndarray:
         """
-        (N, 3) tip minus centroid, or minus the measured place, world [m].
+        (N, 3) tip minus centroid, or minus the measured position, world [m].
         """
     @property
     def residuals_before(self) -> numpy.ndarray:
         """
-        (N, 3) the same of what `rms_before` tells [m].
+        (N, 3) the same for `rms_before` [m].
         """
     @property
     def rms_after(self) -> float:
@@ -2707,7 +2774,7 @@ class ArmFit:
     @property
     def rms_after_scaled(self) -> float:
         """
-        rms_after times told by found lengths: had the arm kept its size [m].
+        rms_after times given by estimated lengths: its value at the true scale [m].
         """
     @property
     def rms_before(self) -> float:
@@ -2732,12 +2799,12 @@ class ArmFit:
     @property
     def scale(self) -> float:
         """
-        Lengths found by nominal lengths.
+        Estimated by nominal lengths.
         """
     @property
     def scale_source(self) -> str:
         """
-        What the arm's size rests on.
+        What determines the scale of the arm.
         """
     @property
     def scale_std(self) -> float:
@@ -2745,17 +2812,17 @@ class ArmFit:
     @property
     def singular_values(self) -> numpy.ndarray:
         """
-        (P,) falling: millimetres at the tip per mm and mrad of a direction.
+        (P,) descending: millimetres at the tip per mm and mrad of a direction.
         """
     @property
     def std(self) -> numpy.ndarray:
         """
-        (P,) of each parameter: 0 when held, inf when nothing tells it.
+        (P,) of each parameter: 0 when fixed, inf when undetermined.
         """
     @property
     def structure_p(self) -> float:
         """
-        Probability of residuals that depend on the joints so much by chance.
+        Probability of residuals that depend on the joints this much by chance.
         """
     @property
     def tools(self) -> list:
@@ -2765,7 +2832,7 @@ class ArmFit:
     @property
     def unseen(self) -> list[str]:
         """
-        The directions that the data do not see, in words.
+        Descriptions of the unobservable directions.
         """
     @property
     def warnings(self) -> list[str]:
@@ -2774,14 +2841,14 @@ class ArmFit:
         """
 class TouchForecast:
     """
-    What touches will tell of an arm, before it is identified: see `forecast_touches`.
+    Predicted accuracy of an arm identified from touches: see `forecast_touches`.
     """
     def __repr__(self) -> str:
         ...
     @property
     def free(self) -> int:
         """
-        Of them, those that base and tool cannot do as well.
+        Of them, those that base and tool cannot represent.
         """
     @property
     def log_det(self) -> float:
@@ -2806,12 +2873,12 @@ class TouchForecast:
     @property
     def rank(self) -> int:
         """
-        Of the data by them, without priors.
+        Of the data by the free ones, without priors.
         """
     @property
     def singular_values(self) -> numpy.ndarray:
         """
-        (free,) falling: millimetres at the tip per mm and mrad of a direction.
+        (free,) descending: millimetres at the tip per mm and mrad of a direction.
         """
     @property
     def tip_std(self) -> numpy.ndarray:
@@ -2821,12 +2888,12 @@ class TouchForecast:
     @property
     def unseen(self) -> list[str]:
         """
-        Directions among the free parameters that the data do not see, in words.
+        Descriptions of the undetermined directions of the free parameters.
         """
     @property
     def workspace(self) -> numpy.ndarray:
         """
-        (S, n) poses that the deviation is foretold for.
+        (S, n) poses for which the deviation is predicted.
         """
     @property
     def worst_tip_std(self) -> float:
@@ -2835,7 +2902,7 @@ class TouchForecast:
         """
 class TouchPlan:
     """
-    Poses in which to touch, and how right the arm will go afterwards: see `plan_touches`.
+    Poses in which to touch, and the predicted accuracy of the arm: see `plan_touches`.
     """
     def __len__(self) -> int:
         ...
@@ -2843,27 +2910,38 @@ class TouchPlan:
         ...
     def __str__(self) -> str:
         ...
-    def plot(self, path: typing.Any = None) -> typing.Any:
+    def plot(self, path: str | os.PathLike[str] | None = None) -> matplotlib.figure.Figure:
         """
-        A picture, written to `path` too (bathyal.identify.touch_plans.plot_plan).
+        A picture: the arm in its poses, the points, the tool's directions at each.
+        
+        Parameters
+        ----------
+        path : path, optional
+            ``.png``, ``.pdf`` or ``.svg`` to write it to, too: see
+            bathyal.identify.touch_plans.plot_plan.
         """
     def summary(self, *, warnings: bool = True) -> str:
         """
-        One paragraph in plain words.
+        One paragraph.
         """
-    def write(self, path: typing.Any) -> None:
+    def write(self, path: str | os.PathLike[str]) -> None:
         """
-        Write a .csv table to touch by, for bathyal.read_touches (bathyal.identify.touch_plans.write_plan).
+        Write a table to touch by.
+        
+        Parameters
+        ----------
+        path : path
+            ``.csv``, for bathyal.read_touches: see bathyal.identify.touch_plans.write_plan.
         """
     @property
     def arm(self) -> Arm:
         """
-        Arm: the one that was planned for.
+        Arm for which the plan is.
         """
     @property
     def candidates(self) -> int:
         """
-        Poses that were chosen from.
+        Number of candidate poses.
         """
     @property
     def criterion(self) -> str:
@@ -2891,7 +2969,7 @@ class TouchPlan:
     @property
     def points(self) -> numpy.ndarray:
         """
-        (k, 3) where the points stand, world [m].
+        (k, 3) positions of the points, world [m].
         """
     @property
     def q(self) -> numpy.ndarray:
@@ -3057,13 +3135,18 @@ class NamedEffect:
         ...
 class Structure:
     """
-    A dependence of residuals that chance does not make.
+    A dependence of residuals, made by chance or not.
     """
     def __repr__(self) -> str:
         ...
     @property
     def against(self) -> str:
         ...
+    @property
+    def is_beyond_noise(self) -> bool:
+        """
+        Whether `p_value` is at most 0.002.
+        """
     @property
     def p_value(self) -> float:
         """
@@ -3153,18 +3236,19 @@ class Diagnosis:
     """
     def __repr__(self) -> str:
         ...
-    def summary(self) -> typing.Any:
+    def summary(self) -> str:
         """
         One paragraph that a person can act on.
         """
-    def write(self, path: typing.Any) -> None:
+    def write(self, path: str | os.PathLike[str]) -> None:
         """
-        Write the report: a page (.html), a picture (.png) or everything for machines (.json).
+        Write the report.
         
         Parameters
         ----------
-        path : str or os.PathLike
-            The ending says what is written.
+        path : path
+            A page (``.html``), a picture (``.png``) or everything for machines (``.json``): see
+            bathyal.diagnosis.files.write_diagnosis.
         
         Raises
         ------
@@ -3230,17 +3314,17 @@ class Diagnosis:
     @property
     def residuals_after(self) -> numpy.ndarray:
         """
-        (3, N) the same with the effects [m].
+        (N, 3) the same with the effects [m].
         """
     @property
     def residuals_before(self) -> numpy.ndarray:
         """
-        (3, N) tip less measured (of touches: less their mean), geometry alone [m].
+        (N, 3) tip less measured (of touches: less their mean), geometry alone [m].
         """
     @property
     def shown(self) -> list[Structure]:
         """
-        Structure in the residuals of geometry alone, likeliest first.
+        Structure in the residuals of geometry alone, likeliest first: what is beyond noise; where nothing is, the least unlikely.
         """
     @property
     def verdict(self) -> str:
@@ -3274,7 +3358,7 @@ def check_bytes(what: str, bytes: typing.SupportsFloat | typing.SupportsIndex) -
     
     The limit is BATHYAL_MOST_BYTES of the environment, 4 GiB where that is not set.
     """
-def clean_cloud(cloud: typing.Any, *, same_place: str = 'keep', spike_sigma: typing.SupportsFloat | typing.SupportsIndex = 0.0, spike_height: typing.SupportsFloat | typing.SupportsIndex = 0.1, spike_neighbours: typing.SupportsInt | typing.SupportsIndex = 16, outlier_sigma: typing.SupportsFloat | typing.SupportsIndex = 0.0, outlier_neighbours: typing.SupportsInt | typing.SupportsIndex = 12, voxel: typing.SupportsFloat | typing.SupportsIndex = 0.0, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> CleanResult:
+def clean_cloud(cloud: PointCloud | numpy.typing.ArrayLike, *, same_place: str = 'keep', spike_sigma: typing.SupportsFloat | typing.SupportsIndex = 0.0, spike_height: typing.SupportsFloat | typing.SupportsIndex = 0.1, spike_neighbours: typing.SupportsInt | typing.SupportsIndex = 16, outlier_sigma: typing.SupportsFloat | typing.SupportsIndex = 0.0, outlier_neighbours: typing.SupportsInt | typing.SupportsIndex = 12, voxel: typing.SupportsFloat | typing.SupportsIndex = 0.0, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> CleanResult:
     """
     Drop points that are no soundings and, on request, redundant ones and outliers; report how many.
     
@@ -3322,7 +3406,7 @@ def clean_cloud(cloud: typing.Any, *, same_place: str = 'keep', spike_sigma: typ
       1 dropped: a coordinate is not finite
       1 dropped: exact duplicates (equal x, y, z)
     """
-def cover_polygon(surface: typing.Any, polygon: typing.Any, spacing: typing.SupportsFloat | typing.SupportsIndex, *, direction: typing.SupportsFloat | typing.SupportsIndex = 0.0, margin: typing.SupportsFloat | typing.SupportsIndex = 0.0) -> numpy.ndarray:
+def cover_polygon(surface: Scene | Plane, polygon: numpy.typing.ArrayLike, spacing: typing.SupportsFloat | typing.SupportsIndex, *, direction: typing.SupportsFloat | typing.SupportsIndex = 0.0, margin: typing.SupportsFloat | typing.SupportsIndex = 0.0) -> numpy.ndarray:
     """
     Aims that mow a polygon in parallel lines.
     
@@ -3359,7 +3443,7 @@ def cover_polygon(surface: typing.Any, polygon: typing.Any, spacing: typing.Supp
     >>> aims[:, :3].tolist()
     [[0.0, 0.5, -4.0], [4.0, 0.5, -4.0], [4.0, 1.5, -4.0], [0.0, 1.5, -4.0]]
     """
-def diagnose(arm: Arm, data: Touches | Tracked, *, effects: collections.abc.Iterable[Effect] | None = None, fixed: collections.abc.Sequence[str] = [], blocks: typing.SupportsInt | typing.SupportsIndex = 10, rival_odds: typing.SupportsFloat | typing.SupportsIndex = 0.05, leftover: typing.SupportsFloat | typing.SupportsIndex = 0.25, num_next_poses: typing.SupportsInt | typing.SupportsIndex = 8, progress: typing.Any = None, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> typing.Any:
+def diagnose(arm: Arm, data: Touches | Tracked, *, effects: collections.abc.Iterable[Effect] | None = None, parametrization: str = 'hayati', fixed: collections.abc.Sequence[str] = [], blocks: typing.SupportsInt | typing.SupportsIndex = 10, rival_odds: typing.SupportsFloat | typing.SupportsIndex = 0.05, leftover: typing.SupportsFloat | typing.SupportsIndex = 0.25, num_next_poses: typing.SupportsInt | typing.SupportsIndex = 8, progress: collections.abc.Callable[[float, str], None] | None = None, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> Diagnosis:
     """
     Show what the best rigid model of an arm gets wrong, name the cause, measure the gain.
     
@@ -3379,6 +3463,8 @@ def diagnose(arm: Arm, data: Touches | Tracked, *, effects: collections.abc.Iter
         not used, and a warning says so. Rows that repeat another to the last digit count once.
     effects : list of Effect, optional
         What may be named; `bathyal.effects.list()` unless given.
+    parametrization : {"hayati", "dh"}
+        Of the geometry, as in `identify_arm`.
     fixed : list of str
         Names of geometric parameters to hold at nominal.
     blocks : int
@@ -3423,7 +3509,11 @@ def diagnose(arm: Arm, data: Touches | Tracked, *, effects: collections.abc.Iter
     >>> round(float(report.effects[0].parameters["order"]))
     2
     """
-def find_sheets(cloud: typing.Any, *, min_separation: typing.SupportsFloat | typing.SupportsIndex = 0.0, min_points: typing.SupportsInt | typing.SupportsIndex = 12, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> SheetReport:
+def find_effect_with(find: collections.abc.Callable) -> None:
+    """
+    Hand in what finds an effect by its name.
+    """
+def find_sheets(cloud: PointCloud | numpy.typing.ArrayLike, *, min_separation: typing.SupportsFloat | typing.SupportsIndex = 0.0, min_points: typing.SupportsInt | typing.SupportsIndex = 12, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> SheetReport:
     """
     Find where a cloud is not a height field: overhangs, arches, undersides.
     
@@ -3459,7 +3549,7 @@ def find_sheets(cloud: typing.Any, *, min_separation: typing.SupportsFloat | typ
     >>> len(report.patches), round(report.patches[0].separation, 3)
     (1, 0.8)
     """
-def find_targets(surface: typing.Any, aims: typing.Any, *, world_from_vehicle: typing.Any = None, frame: str = 'vehicle', vertical: str = 'gravity', grazing_angle: typing.SupportsFloat | typing.SupportsIndex = 1.3962634015954636, max_range: typing.SupportsFloat | typing.SupportsIndex = ..., num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> Targets:
+def find_targets(surface: Scene | Plane, aims: numpy.typing.ArrayLike, *, world_from_vehicle: numpy.typing.ArrayLike | None = None, frame: str = 'vehicle', vertical: str = 'gravity', grazing_angle: typing.SupportsFloat | typing.SupportsIndex = 1.3962634015954636, max_range: typing.SupportsFloat | typing.SupportsIndex = ..., num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> Targets:
     """
     Where camera axes meet the bottom.
     
@@ -3510,7 +3600,7 @@ def find_targets(surface: typing.Any, aims: typing.Any, *, world_from_vehicle: t
     >>> targets.point[0].tolist(), float(targets.range[0]), str(targets.status[0])
     ([3.75, 0.0, -5.0], 6.25, 'hit')
     """
-def fit_plane(cloud: typing.Any, *, tolerance: typing.SupportsFloat | typing.SupportsIndex = 0.05, patch_points: typing.SupportsInt | typing.SupportsIndex = 50, flat_share: typing.SupportsFloat | typing.SupportsIndex = 0.99, trials: typing.SupportsInt | typing.SupportsIndex = 500, seed: typing.SupportsInt | typing.SupportsIndex = 1, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> PlaneFit:
+def fit_plane(cloud: PointCloud | numpy.typing.ArrayLike, *, tolerance: typing.SupportsFloat | typing.SupportsIndex = 0.05, patch_points: typing.SupportsInt | typing.SupportsIndex = 50, flat_share: typing.SupportsFloat | typing.SupportsIndex = 0.99, trials: typing.SupportsInt | typing.SupportsIndex = 500, seed: typing.SupportsInt | typing.SupportsIndex = 1, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> PlaneFit:
     """
     Fit a plane to a bottom, undisturbed by gross errors in up to 45 % of the points.
     
@@ -3553,17 +3643,18 @@ def fit_plane(cloud: typing.Any, *, tolerance: typing.SupportsFloat | typing.Sup
     >>> fit.flat
     True
     """
-def forecast_touches(arm: Arm, touches: Touches, *, parametrization: str = 'hayati', nearly_parallel: typing.SupportsFloat | typing.SupportsIndex = 0.1, noise: typing.SupportsFloat | typing.SupportsIndex = 0.0001, length_prior: typing.SupportsFloat | typing.SupportsIndex = 0.001, angle_prior: typing.SupportsFloat | typing.SupportsIndex = 0.002, tool_prior: typing.SupportsFloat | typing.SupportsIndex = 0.01, workspace: typing.Any = None, workspace_poses: typing.SupportsInt | typing.SupportsIndex = 400, seed: typing.SupportsInt | typing.SupportsIndex = 0, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> TouchForecast:
+def forecast_touches(arm: Arm, touches: Touches, *, parametrization: str = 'hayati', nearly_parallel: typing.SupportsFloat | typing.SupportsIndex = 0.1, noise: typing.SupportsFloat | typing.SupportsIndex = 0.0001, length_prior: typing.SupportsFloat | typing.SupportsIndex = 0.001, angle_prior: typing.SupportsFloat | typing.SupportsIndex = 0.002, tool_prior: typing.SupportsFloat | typing.SupportsIndex = 0.01, workspace: numpy.typing.ArrayLike | None = None, workspace_poses: typing.SupportsInt | typing.SupportsIndex = 400, seed: typing.SupportsInt | typing.SupportsIndex = 0, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> TouchForecast:
     """
-    Foretell how right an arm will go that is identified from these touches.
+    Predict the accuracy of an arm that is identified from these touches.
     
     To first order at the nominal arm, with the covariance that `identify_arm` will report with these
-    priors. What base and tool can do as well (gauge) counts nothing; the arm's size counts.
+    priors. Gauge freedom (what base and tool can represent) does not count; the scale of the arm
+    counts.
     
     Parameters
     ----------
     arm : Arm
-        Nominal, its tool told to a centimetre or so.
+        Nominal, with its tool given to a centimetre or so.
     touches : Touches
         Made, or to be made, with the distances and points that are known. Poses that scatter about
         their point are first moved onto it.
@@ -3575,11 +3666,11 @@ def forecast_touches(arm: Arm, touches: Touches, *, parametrization: str = 'haya
         Standard deviation of one touch, per axis [m].
     length_prior, angle_prior : float
         The maker's tolerances: standard deviation of every a and d [m], and of every theta, alpha and
-        beta [rad]. They hold what touches never tell.
+        beta [rad]. They determine what touches do not.
     tool_prior : float
-        How well the tool is told: standard deviation of each coordinate of its tip [m].
+        Accuracy of the given tool: standard deviation of each coordinate of its tip [m].
     workspace : (S, n) array, optional
-        Poses in which the arm must go right [rad] or [m]. Drawn at random within the limits unless
+        Poses in which the arm must be accurate [rad] or [m]. Drawn at random within the limits unless
         given.
     workspace_poses : int
         How many are drawn.
@@ -3592,7 +3683,7 @@ def forecast_touches(arm: Arm, touches: Touches, *, parametrization: str = 'haya
     -------
     TouchForecast
         ``.worst_tip_std``, ``.median_tip_std`` [m], ``.tip_std`` (S,), ``.rank`` of ``.free``
-        parameters, ``.singular_values``, ``.unseen`` in words, ``.o1``, ``.log_det``.
+        parameters, ``.singular_values``, ``.unseen`` directions, ``.o1``, ``.log_det``.
     
     Raises
     ------
@@ -3608,7 +3699,7 @@ def forecast_touches(arm: Arm, touches: Touches, *, parametrization: str = 'haya
     >>> forecast.rank <= forecast.free < forecast.parameters
     True
     """
-def generate_survey(*, seed: typing.SupportsInt | typing.SupportsIndex = 0, origin: typing.Any = (431200.0, 6172650.0, -38.0), length: typing.SupportsFloat | typing.SupportsIndex = 60.0, width: typing.SupportsFloat | typing.SupportsIndex = 40.0, wave_height: typing.SupportsFloat | typing.SupportsIndex = 0.5, wave_length: typing.SupportsFloat | typing.SupportsIndex = 9.0, ripple_height: typing.SupportsFloat | typing.SupportsIndex = 0.04, roughness: typing.SupportsFloat | typing.SupportsIndex = 0.15, boulders: typing.SupportsInt | typing.SupportsIndex = 30, boulder_radius: typing.SupportsFloat | typing.SupportsIndex = 1.3, trench_depth: typing.SupportsFloat | typing.SupportsIndex = 1.1, trench_width: typing.SupportsFloat | typing.SupportsIndex = 3.5, lines: typing.SupportsInt | typing.SupportsIndex = 2, altitude: typing.SupportsFloat | typing.SupportsIndex = 8.0, opening: typing.SupportsFloat | typing.SupportsIndex = 2.0943951, beams: typing.SupportsInt | typing.SupportsIndex = 256, ping_spacing: typing.SupportsFloat | typing.SupportsIndex = 0.12, lost_width: typing.SupportsFloat | typing.SupportsIndex = 2.0, range_noise: typing.SupportsFloat | typing.SupportsIndex = 0.006, range_noise_rate: typing.SupportsFloat | typing.SupportsIndex = 0.0008, angle_noise: typing.SupportsFloat | typing.SupportsIndex = 0.0006, spike_fraction: typing.SupportsFloat | typing.SupportsIndex = 0.0, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> PointCloud:
+def generate_survey(*, seed: typing.SupportsInt | typing.SupportsIndex = 0, origin: numpy.typing.ArrayLike = (431200.0, 6172650.0, -38.0), length: typing.SupportsFloat | typing.SupportsIndex = 60.0, width: typing.SupportsFloat | typing.SupportsIndex = 40.0, wave_height: typing.SupportsFloat | typing.SupportsIndex = 0.5, wave_length: typing.SupportsFloat | typing.SupportsIndex = 9.0, ripple_height: typing.SupportsFloat | typing.SupportsIndex = 0.04, roughness: typing.SupportsFloat | typing.SupportsIndex = 0.15, boulders: typing.SupportsInt | typing.SupportsIndex = 30, boulder_radius: typing.SupportsFloat | typing.SupportsIndex = 1.3, trench_depth: typing.SupportsFloat | typing.SupportsIndex = 1.1, trench_width: typing.SupportsFloat | typing.SupportsIndex = 3.5, lines: typing.SupportsInt | typing.SupportsIndex = 2, altitude: typing.SupportsFloat | typing.SupportsIndex = 8.0, opening: typing.SupportsFloat | typing.SupportsIndex = 2.0943951, beams: typing.SupportsInt | typing.SupportsIndex = 256, ping_spacing: typing.SupportsFloat | typing.SupportsIndex = 0.12, lost_width: typing.SupportsFloat | typing.SupportsIndex = 2.0, range_noise: typing.SupportsFloat | typing.SupportsIndex = 0.006, range_noise_rate: typing.SupportsFloat | typing.SupportsIndex = 0.0008, angle_noise: typing.SupportsFloat | typing.SupportsIndex = 0.0006, spike_fraction: typing.SupportsFloat | typing.SupportsIndex = 0.0, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> PointCloud:
     """
     A simulated multibeam survey over a bottom that is known exactly.
     
@@ -3668,19 +3759,19 @@ def generate_survey(*, seed: typing.SupportsInt | typing.SupportsIndex = 0, orig
     >>> sorted(cloud.attributes)
     ['intensity', 'uncertainty']
     """
-def identify_arm(arm: Arm | CorrectedArm, data: typing.Any, *, parametrization: str = 'hayati', nearly_parallel: typing.SupportsFloat | typing.SupportsIndex = 0.1, criterion: str = 'centroid', pair_weights: bool = False, solver: str = 'levenberg_marquardt', max_iterations: typing.SupportsInt | typing.SupportsIndex = 100, tool_start: str = 'auto', base: str = 'auto', fixed: collections.abc.Sequence[str] = [], length_prior: typing.SupportsFloat | typing.SupportsIndex | None = None, angle_prior: typing.SupportsFloat | typing.SupportsIndex | None = None, priors: collections.abc.Mapping[str, typing.SupportsFloat | typing.SupportsIndex] = {}, size_prior: typing.SupportsFloat | typing.SupportsIndex = 0.001, noise: typing.SupportsFloat | typing.SupportsIndex | None = None, rotation_noise: typing.SupportsFloat | typing.SupportsIndex | None = None, loss: str = 'square', loss_width: typing.SupportsFloat | typing.SupportsIndex | None = None, prune_sigma: typing.SupportsFloat | typing.SupportsIndex | None = None, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> ArmFit:
+def identify_arm(arm: Arm | CorrectedArm, data: Touches | Tracked, *, parametrization: str = 'hayati', nearly_parallel: typing.SupportsFloat | typing.SupportsIndex = 0.1, criterion: str = 'centroid', pair_weights: bool = False, solver: str = 'levenberg_marquardt', max_iterations: typing.SupportsInt | typing.SupportsIndex = 100, tool_start: str = 'auto', base: str = 'auto', fixed: collections.abc.Sequence[str] = [], length_prior: typing.SupportsFloat | typing.SupportsIndex | None = None, angle_prior: typing.SupportsFloat | typing.SupportsIndex | None = None, priors: collections.abc.Mapping[str, typing.SupportsFloat | typing.SupportsIndex] = {}, size_prior: typing.SupportsFloat | typing.SupportsIndex = 0.001, noise: typing.SupportsFloat | typing.SupportsIndex | None = None, rotation_noise: typing.SupportsFloat | typing.SupportsIndex | None = None, loss: str = 'square', loss_width: typing.SupportsFloat | typing.SupportsIndex | None = None, prune_sigma: typing.SupportsFloat | typing.SupportsIndex | None = None, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> ArmFit:
     """
-    Find the true geometry of an arm from measured poses.
+    Estimate the geometry of an arm from measured poses.
     
     After Yukhimets, Gubankov (2023). Unknown are each moving joint's row, the tool and, for tracked
-    poses, the base; what the data cannot tell stays at nominal, and is named.
+    poses, the base; what the data do not determine stays at nominal, and is reported.
     
     Parameters
     ----------
     arm : Arm or CorrectedArm
         Nominal. Its tool, where it has one, is where the search for the tool starts. The effects of a
-        corrected arm act as they were found, each in the rows that lie in its support, and stand among
-        the parameters, "fixed"; the fit's arm is the rigid part.
+        corrected arm keep their values, each in the rows within its support, and are reported as
+        "fixed" parameters; the arm of the fit is the rigid part.
     data : Touches or Tracked
     parametrization : {"hayati", "dh"}
         "hayati": beta (Hayati, Mirmirani 1985) in place of d where the next axis is nearly parallel.
@@ -3707,17 +3798,17 @@ def identify_arm(arm: Arm | CorrectedArm, data: typing.Any, *, parametrization: 
     priors : dict
         {name: std} for single parameters, in their unit.
     size_prior : float
-        The length prior that stands in where nothing tells the arm's size (touches without a known
-        distance or point) and none is given [m].
+        The length prior where the data do not determine the scale (touches without a known distance or
+        point) and none is given [m].
     noise, rotation_noise : float
         Standard deviation of a touch or a position per axis [m], and of a rotation [rad]. None: from
         the residuals.
     loss : {"square", "huber", "cauchy"}
-        The last two take outliers lightly.
+        The last two bound the influence of outliers.
     loss_width : float
         Distance from which they do [m]. None: 3 times the robust standard deviation.
     prune_sigma : float
-        Put parameters within so many standard deviations of nominal back there, the least first.
+        Reset parameters within so many standard deviations of nominal, the least significant first.
     num_threads : int
         0 = all. The same result for any.
     
@@ -3734,13 +3825,14 @@ def identify_arm(arm: Arm | CorrectedArm, data: typing.Any, *, parametrization: 
     Notes
     -----
     Rank and covariance come from QR and singular values of the Jacobian with its columns in mm and
-    mrad; a singular value below 1e-7 of the largest is none. Noise is estimated with 3 Σ(m_i − 1) −
-    rank degrees of freedom.
+    mrad; singular values below 1e-7 of the largest count as zero. Noise is estimated with 3 Σ(m_i − 1)
+    − rank degrees of freedom.
     
-    Touches scatter less on a smaller arm, and least squares lean that way: by (degrees of freedom) ·
-    (relative std of the size)². Where known distances or points, or a sliding joint, tell the size, this
-    is taken away (the derivatives of exact touches decide, not those of scattered ones). Where only a
-    prior tells it, the paper's criterion stands as it is: read ``scale_source``, and trust no small rms.
+    Least squares underestimates the scale of the arm, because touches scatter less on a smaller one: by
+    (degrees of freedom) · (relative std of the scale)². Where known distances or points, or a prismatic
+    joint, determine the scale, this bias is removed (by the derivatives of consistent touches instead
+    of scattered ones). Where only a prior determines it, the criterion of the paper is used unchanged:
+    read ``scale_source``, and do not rely on a small rms.
     
     Examples
     --------
@@ -3753,7 +3845,7 @@ def identify_arm(arm: Arm | CorrectedArm, data: typing.Any, *, parametrization: 
     >>> round(a_1.value, 6), a_1.status
     (0.502, 'identified')
     """
-def intersect_moller_trumbore(mesh: TriangleMesh, origins: typing.Any, directions: typing.Any, *, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> Hits:
+def intersect_moller_trumbore(mesh: TriangleMesh, origins: numpy.typing.ArrayLike, directions: numpy.typing.ArrayLike, *, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> Hits:
     """
     Every ray against every triangle, as the paper does it.
     
@@ -3811,7 +3903,7 @@ def mesh_report(mesh: TriangleMesh, *, num_threads: typing.SupportsInt | typing.
     >>> round(report.rugosity, 6), report.inverted_triangles, len(report.boundary_loops)
     (1.414214, 0, 1)
     """
-def plan_toolpath(surface: typing.Any, aims: typing.Any, *, world_from_vehicle: typing.Any = None, frame: str = 'vehicle', vertical: str = 'gravity', grazing_angle: typing.SupportsFloat | typing.SupportsIndex = 1.3962634015954636, max_range: typing.SupportsFloat | typing.SupportsIndex = ..., missed: str = 'leave_out', orientation: str = 'blended', blend_length: typing.SupportsFloat | typing.SupportsIndex = 0.1, angular_rate: typing.SupportsFloat | typing.SupportsIndex = 0.5, speed: typing.SupportsFloat | typing.SupportsIndex = 0.1, acceleration: typing.SupportsFloat | typing.SupportsIndex = 0.1, standoff: typing.SupportsFloat | typing.SupportsIndex = 0.0, step: typing.SupportsFloat | typing.SupportsIndex = 0.0, normal_radius: typing.SupportsFloat | typing.SupportsIndex = 0.0, tool_radius: typing.SupportsFloat | typing.SupportsIndex = 0.0, tool_length: typing.SupportsFloat | typing.SupportsIndex = 0.0, contact_tolerance: typing.SupportsFloat | typing.SupportsIndex = 0.01, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> ToolPath:
+def plan_toolpath(surface: Scene | Plane, aims: numpy.typing.ArrayLike, *, world_from_vehicle: numpy.typing.ArrayLike | None = None, frame: str = 'vehicle', vertical: str = 'gravity', grazing_angle: typing.SupportsFloat | typing.SupportsIndex = 1.3962634015954636, max_range: typing.SupportsFloat | typing.SupportsIndex = ..., missed: str = 'leave_out', orientation: str = 'blended', blend_length: typing.SupportsFloat | typing.SupportsIndex = 0.1, angular_rate: typing.SupportsFloat | typing.SupportsIndex = 0.5, speed: typing.SupportsFloat | typing.SupportsIndex = 0.1, acceleration: typing.SupportsFloat | typing.SupportsIndex = 0.1, standoff: typing.SupportsFloat | typing.SupportsIndex = 0.0, step: typing.SupportsFloat | typing.SupportsIndex = 0.0, normal_radius: typing.SupportsFloat | typing.SupportsIndex = 0.0, tool_radius: typing.SupportsFloat | typing.SupportsIndex = 0.0, tool_length: typing.SupportsFloat | typing.SupportsIndex = 0.0, contact_tolerance: typing.SupportsFloat | typing.SupportsIndex = 0.01, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> ToolPath:
     """
     Plan the path of a tool along the bottom.
     
@@ -3876,50 +3968,50 @@ def plan_toolpath(surface: typing.Any, aims: typing.Any, *, world_from_vehicle: 
     >>> round(float(path.time[-1]), 3)
     21.0
     """
-def plan_touches(arm: Arm, count: typing.SupportsInt | typing.SupportsIndex, *, points: typing.Any = None, num_points: typing.SupportsInt | typing.SupportsIndex = 3, known_distances: typing.Any = None, distance_std: typing.SupportsFloat | typing.SupportsIndex = 0.0001, known_points: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex] = [], point_std: typing.SupportsFloat | typing.SupportsIndex = 0.0001, feasible: typing.Any = None, floor: typing.SupportsFloat | typing.SupportsIndex | None = None, criterion: str = 'worst_tip', candidates: typing.SupportsInt | typing.SupportsIndex = 600, passes: typing.SupportsInt | typing.SupportsIndex = 10, parametrization: str = 'hayati', nearly_parallel: typing.SupportsFloat | typing.SupportsIndex = 0.1, noise: typing.SupportsFloat | typing.SupportsIndex = 0.0001, length_prior: typing.SupportsFloat | typing.SupportsIndex = 0.001, angle_prior: typing.SupportsFloat | typing.SupportsIndex = 0.002, tool_prior: typing.SupportsFloat | typing.SupportsIndex = 0.01, workspace: typing.Any = None, workspace_poses: typing.SupportsInt | typing.SupportsIndex = 400, seed: typing.SupportsInt | typing.SupportsIndex = 0, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> TouchPlan:
+def plan_touches(arm: Arm, count: typing.SupportsInt | typing.SupportsIndex, *, points: numpy.typing.ArrayLike | None = None, num_points: typing.SupportsInt | typing.SupportsIndex = 3, known_distances: collections.abc.Iterable[tuple[int, int]] | None = None, distance_std: typing.SupportsFloat | typing.SupportsIndex = 0.0001, known_points: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex] = [], point_std: typing.SupportsFloat | typing.SupportsIndex = 0.0001, feasible: collections.abc.Callable[[numpy.ndarray], numpy.ndarray] | None = None, floor: typing.SupportsFloat | typing.SupportsIndex | None = None, criterion: str = 'worst_tip', candidates: typing.SupportsInt | typing.SupportsIndex = 600, passes: typing.SupportsInt | typing.SupportsIndex = 10, parametrization: str = 'hayati', nearly_parallel: typing.SupportsFloat | typing.SupportsIndex = 0.1, noise: typing.SupportsFloat | typing.SupportsIndex = 0.0001, length_prior: typing.SupportsFloat | typing.SupportsIndex = 0.001, angle_prior: typing.SupportsFloat | typing.SupportsIndex = 0.002, tool_prior: typing.SupportsFloat | typing.SupportsIndex = 0.01, workspace: numpy.typing.ArrayLike | None = None, workspace_poses: typing.SupportsInt | typing.SupportsIndex = 400, seed: typing.SupportsInt | typing.SupportsIndex = 0, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> TouchPlan:
     """
-    Choose poses to touch fixed points in, so that the arm found from them goes right everywhere.
+    Choose poses to touch fixed points in, so that the arm identified from them is accurate.
     
-    Poses drawn over all of the joints' range are brought onto each point by the least joint motion:
-    every branch of elbow and wrist, the tool in every direction. Of those that may be held the
-    criterion chooses, greedily and then by exchange (Fedorov 1972, Theory of optimal experiments; Cook,
-    Nachtsheim 1980, A comparison of algorithms for constructing exact D-optimal designs).
+    Poses drawn over all of the joints' range are moved onto each point by the least joint motion: every
+    branch of elbow and wrist, the tool in every direction. The criterion selects among the feasible
+    ones, greedily and then by exchange (Fedorov 1972, Theory of optimal experiments; Cook, Nachtsheim
+    1980, A comparison of algorithms for constructing exact D-optimal designs).
     
     Parameters
     ----------
     arm : Arm
-        Nominal, its tool told to a centimetre or so.
+        Nominal, with its tool given to a centimetre or so.
     count : int
         Touches, 2 or more, of all points together.
     points : (k, 3) array, optional
-        Where the points stand, in the world [m], roughly. Chosen unless given: where the arm can reach
-        from many sides, apart from each other.
+        Approximate positions of the points, in the world [m]. Chosen unless given: where the arm can
+        reach from many sides, apart from each other.
     num_points : int
         How many are chosen.
     known_distances : sequence of (int, int)
-        Points 0 … k - 1 whose distance from each other will be measured. Touches alone cannot tell the
-        arm from a smaller one.
+        Points 0 … k - 1 whose distance from each other will be measured. Touches alone do not determine
+        the scale of the arm.
     distance_std : float
         Standard deviation of such a distance [m].
     known_points : sequence of int
-        Points whose place in the world will be measured.
+        Points whose position in the world will be measured.
     point_std : float
-        Standard deviation of such a place, per axis [m].
+        Standard deviation of such a position, per axis [m].
     feasible : callable, optional
         Which poses may be held: (N, n) array of joint values to (N,) array of bool. It is called a few
         times with many rows.
     floor : float, optional
-        Height in the world that no joint and no tip may go below [m].
+        Minimum height in the world of all joints and the tip [m].
     criterion : {"worst_tip", "d_optimal", "o1"}
-        "worst_tip": the worst foretold deviation of the tip over the workspace, gauge removed, scale
-        included. "d_optimal": the determinant of the parameters' information. "o1": the observability
-        index of Borm and Menq (1989, Experimental study of observability of parameter errors in robot
-        calibration; 1991, Determination of optimal measurement configurations for robot calibration
-        based on observability measure).
+        "worst_tip": the worst predicted deviation of the tip over the workspace, gauge freedom removed,
+        scale included. "d_optimal": the determinant of the parameters' information. "o1": the
+        observability index of Borm and Menq (1989, Experimental study of observability of parameter
+        errors in robot calibration; 1991, Determination of optimal measurement configurations for robot
+        calibration based on observability measure).
     candidates : int
         Poses to choose from, for each point; 10⁵ at most.
     passes : int
-        At most so many rounds of exchange.
+        Maximum number of exchange rounds.
     parametrization, nearly_parallel, noise, length_prior, angle_prior, tool_prior
         As of `forecast_touches`.
     workspace, workspace_poses
@@ -3933,14 +4025,14 @@ def plan_touches(arm: Arm, count: typing.SupportsInt | typing.SupportsIndex, *, 
     -------
     TouchPlan
         ``.q`` (N, n), ``.point`` (N,), ``.points`` (k, 3), ``.forecast``, ``.value`` of the criterion,
-        ``.warnings``; ``.write("plan.csv")`` for the operator, ``.plot("plan.png")``; its text is a
-        paragraph in plain words.
+        ``.warnings``; ``.write("plan.csv")`` for the operator, ``.plot("plan.png")``; its text is one
+        paragraph.
     
     Raises
     ------
     ValueError
-        For `count` below 2, a point out of reach (it is named), points that nothing feasible touches,
-        a `feasible` that returns something else, options out of range.
+        For `count` below 2, a point out of reach (it is named), points that nothing feasible touches, a
+        `feasible` that returns something else, options out of range.
     
     Examples
     --------
@@ -4001,7 +4093,7 @@ def simd_level() -> str:
     """
     The instruction set in use: "baseline" (x86-64-v2), "avx2" or "avx512".
     """
-def survey_height(x: typing.Any, y: typing.Any, *, seed: typing.SupportsInt | typing.SupportsIndex = 0, origin: typing.Any = (431200.0, 6172650.0, -38.0), length: typing.SupportsFloat | typing.SupportsIndex = 60.0, width: typing.SupportsFloat | typing.SupportsIndex = 40.0, wave_height: typing.SupportsFloat | typing.SupportsIndex = 0.5, wave_length: typing.SupportsFloat | typing.SupportsIndex = 9.0, ripple_height: typing.SupportsFloat | typing.SupportsIndex = 0.04, roughness: typing.SupportsFloat | typing.SupportsIndex = 0.15, boulders: typing.SupportsInt | typing.SupportsIndex = 30, boulder_radius: typing.SupportsFloat | typing.SupportsIndex = 1.3, trench_depth: typing.SupportsFloat | typing.SupportsIndex = 1.1, trench_width: typing.SupportsFloat | typing.SupportsIndex = 3.5, lines: typing.SupportsInt | typing.SupportsIndex = 2, altitude: typing.SupportsFloat | typing.SupportsIndex = 8.0, opening: typing.SupportsFloat | typing.SupportsIndex = 2.0943951, beams: typing.SupportsInt | typing.SupportsIndex = 256, ping_spacing: typing.SupportsFloat | typing.SupportsIndex = 0.12, lost_width: typing.SupportsFloat | typing.SupportsIndex = 2.0, range_noise: typing.SupportsFloat | typing.SupportsIndex = 0.006, range_noise_rate: typing.SupportsFloat | typing.SupportsIndex = 0.0008, angle_noise: typing.SupportsFloat | typing.SupportsIndex = 0.0006, spike_fraction: typing.SupportsFloat | typing.SupportsIndex = 0.0, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> numpy.ndarray:
+def survey_height(x: numpy.typing.ArrayLike, y: numpy.typing.ArrayLike, *, seed: typing.SupportsInt | typing.SupportsIndex = 0, origin: numpy.typing.ArrayLike = (431200.0, 6172650.0, -38.0), length: typing.SupportsFloat | typing.SupportsIndex = 60.0, width: typing.SupportsFloat | typing.SupportsIndex = 40.0, wave_height: typing.SupportsFloat | typing.SupportsIndex = 0.5, wave_length: typing.SupportsFloat | typing.SupportsIndex = 9.0, ripple_height: typing.SupportsFloat | typing.SupportsIndex = 0.04, roughness: typing.SupportsFloat | typing.SupportsIndex = 0.15, boulders: typing.SupportsInt | typing.SupportsIndex = 30, boulder_radius: typing.SupportsFloat | typing.SupportsIndex = 1.3, trench_depth: typing.SupportsFloat | typing.SupportsIndex = 1.1, trench_width: typing.SupportsFloat | typing.SupportsIndex = 3.5, lines: typing.SupportsInt | typing.SupportsIndex = 2, altitude: typing.SupportsFloat | typing.SupportsIndex = 8.0, opening: typing.SupportsFloat | typing.SupportsIndex = 2.0943951, beams: typing.SupportsInt | typing.SupportsIndex = 256, ping_spacing: typing.SupportsFloat | typing.SupportsIndex = 0.12, lost_width: typing.SupportsFloat | typing.SupportsIndex = 2.0, range_noise: typing.SupportsFloat | typing.SupportsIndex = 0.006, range_noise_rate: typing.SupportsFloat | typing.SupportsIndex = 0.0008, angle_noise: typing.SupportsFloat | typing.SupportsIndex = 0.0006, spike_fraction: typing.SupportsFloat | typing.SupportsIndex = 0.0, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> numpy.ndarray:
     """
     True height of the bottom under a generated survey.
     
@@ -4024,17 +4116,21 @@ def survey_height(x: typing.Any, y: typing.Any, *, seed: typing.SupportsInt | ty
     >>> bathyal.survey_height([431210.0], [6172660.0], **flat)
     array([-38.])
     """
-def triangulate(cloud: typing.Any, *, max_edge: typing.SupportsFloat | typing.SupportsIndex | None = None, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> tuple[TriangleMesh, SheetReport]:
+def triangulate(cloud: PointCloud | numpy.typing.ArrayLike, *, max_edge: typing.SupportsFloat | typing.SupportsIndex | None = None, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> tuple[TriangleMesh, SheetReport]:
     """
     The TriangleMesh of a cloud as a height field, and its SheetReport.
     """
-def triangulate_delaunay(points: typing.Any, *, max_edge: typing.SupportsFloat | typing.SupportsIndex | None = None, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> tuple[numpy.ndarray, dict]:
+def triangulate_delaunay(points: numpy.typing.ArrayLike, *, max_edge: typing.SupportsFloat | typing.SupportsIndex | None = None, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> tuple[numpy.ndarray, dict]:
     """
     (T, 3) int32 rows of `points`, and a dict: max_edge [m], cut_triangles, merged_points.
     """
-def verify_positions(predicted: typing.Any, positions: typing.Any, *, pairs: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex] = []) -> Verification:
+def verify_positions(predicted: numpy.typing.ArrayLike, positions: numpy.typing.ArrayLike, *, pairs: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex] = []) -> Verification:
     """
     The comparison behind `verify_arm`, of positions (N, 3) [m].
+    """
+def warn_of_support_with(warn: collections.abc.Callable) -> None:
+    """
+    Hand in what warns of a call beyond the support of a corrected arm.
     """
 def write_xyz(path: os.PathLike | str | bytes, cloud: PointCloud, *, decimals: typing.SupportsInt | typing.SupportsIndex = -1, separator: str = ' ', preamble: str = '', header: bool = False, attributes: collections.abc.Sequence[str] = [], num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> None:
     """
@@ -4043,3 +4139,4 @@ def write_xyz(path: os.PathLike | str | bytes, cloud: PointCloud, *, decimals: t
     `decimals` of -1 writes the shortest text that reads back as the same number; `preamble` goes above
     everything else, unchanged. Writes in place: write aside and rename.
     """
+BEYOND_NOISE: float = 0.002

@@ -17,7 +17,7 @@ def difference(report: Any, data: bathyal.Tracked | bathyal.Touches) -> float:
     asked: by itself each of them is a pose after it."""
     model = report.model
     tips = model.forward(data.q, covariates=data.covariates)[:, :3, 3]
-    residuals = np.asarray(report.residuals_after).T
+    residuals = np.asarray(report.residuals_after)
     known = np.ones(len(data.q), bool)
     for values in data.covariates.values():
         known &= np.isfinite(values).reshape(len(known), -1).all(axis=1)

@@ -72,7 +72,7 @@ def verify_arm(
     if covariates is None:
         poses = arm.forward(q)
     elif isinstance(arm, CorrectedArm):
-        poses = arm.forward(q, covariates=covariates)
+        poses = arm.forward(q, covariates=dict(covariates))
     else:
         raise argument_error("covariates", "none of a rigid arm", ", ".join(covariates))
     predicted = poses[..., :3, 3]

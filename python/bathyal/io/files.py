@@ -127,6 +127,8 @@ def opened(path: PathLike) -> Iterator[tuple[BinaryIO, int]]:
         a folder of results and is not the file that its manifest lists.
     """
     with open_regular(path) as (stream, size):
+        if size == 0:
+            raise Error(f"{os.fspath(path)}: the file is empty")
         check_file(path, stream)
         yield stream, size
 
@@ -159,17 +161,6 @@ def read_document_text(path: PathLike) -> str:
             f"{os.fspath(path)}: expected text, got bytes that are not UTF-8 (a spreadsheet "
             "program saves it as CSV UTF-8)"
         ) from error
-
-
-def shown(path: PathLike) -> str:
-    r"""A path as text that every format can hold: bytes of it that are no UTF-8 as ``\xff``.
-
-    Examples
-    --------
-    >>> print(shown(os.fsdecode(b"survey_\xff.xyz")))
-    survey_\xff.xyz
-    """
-    return os.fsencode(path).decode("utf-8", "backslashreplace")
 
 
 def need(module: str, package: str, purpose: str, *, extra: str = "") -> Any:

@@ -17,6 +17,17 @@ _AT_ONCE = os.O_NONBLOCK | os.O_NOCTTY
 _MOST_GROWTH = 64
 
 
+def shown(path: str | os.PathLike[str]) -> str:
+    r"""A path as text that every format can hold: bytes of it that are no UTF-8 as ``\xff``.
+
+    Examples
+    --------
+    >>> print(shown(os.fsdecode(b"survey_\xff.xyz")))
+    survey_\xff.xyz
+    """
+    return os.fsencode(path).decode("utf-8", "backslashreplace")
+
+
 @contextmanager
 def open_regular(path: str | os.PathLike[str]) -> Iterator[tuple[BinaryIO, int]]:
     """A regular file open for reading and its size in bytes; never waits for a pipe's other end.
@@ -26,19 +37,17 @@ def open_regular(path: str | os.PathLike[str]) -> Iterator[tuple[BinaryIO, int]]
     OSError
         Where there is no such file, or it may not be read: the operating system's own words.
     Error
-        Where the file is empty, is a pipe or a device, or has more than BATHYAL_MOST_BYTES.
+        Where the file is a pipe or a device, or has more than BATHYAL_MOST_BYTES.
     """
     with open(path, "rb", opener=lambda name, flags: os.open(name, flags | _AT_ONCE)) as stream:
         status = os.fstat(stream.fileno())  # of what is open, whatever the path names by now
         size = status.st_size
         if not stat.S_ISREG(status.st_mode):
             raise Error(f"{os.fspath(path)}: expected a regular file, got a pipe or a device")
-        if size == 0:
-            raise Error(f"{os.fspath(path)}: the file is empty")
-        check_bytes(f"{os.fspath(path)}: the file", size)
+        check_bytes(f"{shown(path)}: the file", size)
         yield stream, size
 
 
 def check_document(path: str | os.PathLike[str], size: int) -> None:
     """Raise `Error` where a text of `size` bytes is too long to become Python's own objects."""
-    check_bytes(f"{os.fspath(path)}: reading it as a document", _MOST_GROWTH * size)
+    check_bytes(f"{shown(path)}: reading it as a document", _MOST_GROWTH * size)

@@ -16,6 +16,7 @@ from bathyal import _core
 GRID = np.array([[x, y, 0.01 * x * y] for x in range(6) for y in range(5)], dtype=float)
 SENTENCE = re.compile(r"`[^`\n]+`: expected [^\n]+, got [^\n]+")
 ARM = bathyal.arms.ur10e()
+TRACKED = bathyal.Tracked(np.zeros((3, 6)) + np.arange(3)[:, None], np.zeros((3, 3)))
 
 
 class Nothing:
@@ -96,7 +97,7 @@ REFUSED = {
     "too many": (lambda: bathyal.fit_plane(GRID, 1, 2), TypeError,
                  "`fit_plane`: expected at most 1 arguments without a name, got 3"),
     "none": (lambda: bathyal.fit_plane(), TypeError,
-             "`cloud`: expected an object, got no such argument"),
+             "`cloud`: expected a PointCloud or an object, got no such argument"),
     "a class": (lambda: bathyal.mesh_report(GRID), TypeError,
                 "`mesh`: expected a TriangleMesh, got ndarray"),
     "overloads": (lambda: bathyal.Scene("mesh"), TypeError,
@@ -105,9 +106,9 @@ REFUSED = {
     "an item": (lambda: bathyal.Scene([bathyal.triangulate(GRID), 3]), TypeError,
                 "`mesh`: expected a TriangleMesh or a sequence, each item a TriangleMesh, "
                 "got int in item 1"),
-    "a sequence": (lambda: bathyal.identify_arm(ARM, None, fixed=[1]), TypeError,
+    "a sequence": (lambda: bathyal.identify_arm(ARM, TRACKED, fixed=[1]), TypeError,
                    "`fixed`: expected a sequence, each item text, got int in item 0"),
-    "a dict": (lambda: bathyal.identify_arm(ARM, None, priors={"a": "b"}), TypeError,
+    "a dict": (lambda: bathyal.identify_arm(ARM, TRACKED, priors={"a": "b"}), TypeError,
                "`priors`: expected a dict of text to a number, got dict"),
     "a constructor": (lambda: bathyal.PointCloud(GRID, crs=5), TypeError,
                       "`crs`: expected text, got int"),

@@ -54,7 +54,7 @@ def asked(monkeypatch):
             progress(1.0, "")
         return cases.named()
 
-    monkeypatch.setattr(bathyal, "diagnose", diagnose, raising=False)
+    monkeypatch.setattr("bathyal.diagnosis.job.diagnose", diagnose)
     return calls
 
 
@@ -134,7 +134,7 @@ def test_people_are_told_the_verdict_first(table, tmp_path, capsys, asked, undra
 
 @pytest.mark.parametrize("verdict", cases.CASES)
 def test_no_verdict_fails_the_job(verdict, table, tmp_path, capsys, monkeypatch, undrawn):
-    monkeypatch.setattr(bathyal, "diagnose", lambda *_, **__: cases.CASES[verdict](), raising=False)
+    monkeypatch.setattr("bathyal.diagnosis.job.diagnose", lambda *_, **__: cases.CASES[verdict]())
     code, _, err = run(
         capsys, "diagnose", table, "--tracked", "--arm", "ur10", "-o", tmp_path, "--json"
     )
@@ -253,12 +253,12 @@ def test_refusals_are_one_line_and_leave_nothing(
     assert sorted(os.listdir(tmp_path)) == before
 
 
-@pytest.mark.parametrize("where", ["bathyal.diagnose", "bathyal.diagnosis.report.page.write_page"])
+@pytest.mark.parametrize("where", ["job.diagnose", "report.page.write_page"])
 def test_interrupted_leaves_nothing(where, table, tmp_path, monkeypatch, capsys, asked):
     def interrupted(*_, **__):
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(where, interrupted, raising=False)
+    monkeypatch.setattr(f"bathyal.diagnosis.{where}", interrupted)
     code, _, err = run(
         capsys, "diagnose", table, "--tracked", "--arm", "ur10", "-o", tmp_path / "new"
     )

@@ -57,7 +57,7 @@ def test_json_and_every_option(tmp_path, capsys):
 def test_quiet_says_warnings_only(tmp_path, capsys):
     code, text, err = run(capsys, *SMALL, "-o", tmp_path / "plan.csv", "-q")
     assert (code, text) == (0, "")
-    assert "smaller one" in err
+    assert "do not determine" in err
 
 
 @pytest.mark.parametrize(

@@ -182,7 +182,8 @@ def test_an_interrupted_command_leaves_nothing(
     ARM.save(tmp_path / "arm.json")
     diagnose = bathyal.diagnose
     monkeypatch.setattr(
-        bathyal, "diagnose", lambda arm, data, **_: diagnose(arm, data, progress=alarm[0])
+        "bathyal.diagnosis.job.diagnose",
+        lambda arm, data, **_: diagnose(arm, data, progress=alarm[0]),
     )
     code, _, err = run(capsys, "diagnose", table, "--tracked", "--arm", tmp_path / "arm.json", "-o",
                        tmp_path / "out")  # fmt: skip

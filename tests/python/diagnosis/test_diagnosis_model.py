@@ -51,7 +51,7 @@ def test_joints_that_give_way_on_an_arm_of_unknown_masses(seed: int) -> None:
     assert report.verdict == "named"
     assert {effect.joint for effect in report.effects} == {1, 2}
     assert difference(report, data) < 1e-9
-    assert _rms(np.asarray(report.residuals_after).T) < 2.2 * _NOISE
+    assert _rms(np.asarray(report.residuals_after)) < 2.2 * _NOISE
     unused = rng.uniform(-1.5, 1.5, (500, 6))
     error = report.model.forward(unused)[:, :3, 3] - truth.forward(unused)[:, :3, 3]
     assert _rms(error) < 1.5 * _NOISE

@@ -151,7 +151,7 @@ def test_a_function_sees_what_was_recorded() -> None:
         (lambda data, joint: data.q[1:, 0], ValueError, "`effect mine`: .*got shape"),
         (lambda data, joint: 1.0, ValueError, "`effect mine`: .*got shape"),
         (lambda data, joint: "much", ValueError, "`effect mine`: .*got dtype"),
-        (lambda data, joint: None, ValueError, "`effect mine`: .*got dtype object"),
+        (lambda data, joint: None, ValueError, "`effect mine`: .*got NoneType"),
         (lambda data, joint: 1j * data.q[:, 0], ValueError, "`effect mine`: .*got dtype complex"),
     ],
     ids=["raises", "arguments", "nan", "wide", "short", "number", "text", "nothing", "complex"],

@@ -92,7 +92,9 @@ def test_points_that_have_names_are_called_by_them() -> None:
 
 def test_loose_prior_on_the_size_is_told() -> None:
     fit = bathyal.identify_arm(drawn(), touched().touches(), length_prior=0.1)
-    assert "length_prior" in warning(fit, "times its nominal size with lengths constrained to 100 mm only")
+    assert "length_prior" in warning(
+        fit, "times its nominal size with lengths constrained to 100 mm only"
+    )
 
 
 def test_wrong_distance_stretches_the_arm_and_is_told() -> None:

@@ -3,8 +3,6 @@
 
 import doctest
 import inspect
-import sys
-import types
 
 import numpy as np
 import pytest
@@ -240,10 +238,8 @@ def test_a_path_says_what_it_is_in_one_line():
 
 def test_write_and_show_hand_the_path_on(monkeypatch):
     calls = []
-    for module, function in (("paths", "write_path"), ("views", "show_path")):
-        stand_in = types.ModuleType(f"bathyal.{module}")
-        setattr(stand_in, function, lambda *arguments: calls.append(arguments) or "shown")
-        monkeypatch.setitem(sys.modules, f"bathyal.{module}", stand_in)
+    for function in ("bathyal.toolpath.paths.write_path", "bathyal.view.scene3d.show_path"):
+        monkeypatch.setattr(function, lambda *arguments: calls.append(arguments) or "shown")
     path = bathyal.plan_toolpath(PLANE, TOUR)
     assert path.write("path.csv") is None
     assert path.show() == "shown"
