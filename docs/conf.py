@@ -1,5 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
+import sys
+from pathlib import Path
+
 import bathyal
+
+sys.path.insert(0, str(Path(__file__).parent / "extensions"))
 
 project = "bathyal"
 author = "the bathyal authors"
@@ -7,15 +12,17 @@ copyright = "2026, the bathyal authors"
 release = bathyal.__version__
 
 extensions = [
-    "sphinx.ext.autodoc",
-    "sphinx.ext.autosummary",
-    "sphinx.ext.mathjax",
-    "sphinx.ext.napoleon",
+    "command_line",
+    "mathml",
     "myst_parser",
+    "sphinx.ext.autodoc",
+    "sphinx.ext.napoleon",
 ]
-myst_enable_extensions = ["colon_fence", "dollarmath"]
+myst_enable_extensions = ["colon_fence", "deflist", "dollarmath"]
+myst_heading_anchors = 3
 autodoc_member_order = "bysource"
 napoleon_google_docstring = False
+html_math_renderer = "mathml"
 html_theme = "furo"
 html_title = "bathyal"
 exclude_patterns = ["_build"]
