@@ -20,6 +20,7 @@ extensions = [
 ]
 myst_enable_extensions = ["colon_fence", "deflist", "dollarmath"]
 myst_heading_anchors = 3
+myst_update_mathjax = False  # formulas are MathML
 autodoc_member_order = "bysource"
 napoleon_google_docstring = False
 html_math_renderer = "mathml"

@@ -13,7 +13,7 @@ from types import ModuleType
 import pytest
 
 import bathyal
-from tests.support.command import bathyal_run
+from tests.support.command import run
 
 ROOT = Path(__file__).resolve().parents[3]
 DOCUMENTED = re.findall(
@@ -78,9 +78,9 @@ def sections() -> dict[str, str]:
 
 
 def test_every_command_is_in_the_reference(sections: dict[str, str]) -> None:
-    assert {"bathyal plan", "bathyal identify", "bathyal touches example"} <= set(sections)
-    for verb in (verb.split()[1] for verb in sections):
-        assert verb in bathyal_run("--help").stdout
+    verbs = ["plan", "triangulate", "info", "survey", "identify", "diagnose"]
+    expected = [*verbs, "touches example", "touches plan"]
+    assert set(sections) == {f"bathyal {verb}" for verb in expected}
 
 
 @pytest.mark.parametrize(
@@ -88,11 +88,13 @@ def test_every_command_is_in_the_reference(sections: dict[str, str]) -> None:
                 "touches example", "touches plan"],
 )  # fmt: skip
 def test_every_option_of_a_command_is_in_the_reference(
-    command: str, sections: dict[str, str]
-) -> None:
-    helped = bathyal_run(*command.split(), "--help").stdout
+    command: str, sections: dict[str, str], capsys: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:  # fmt: skip
+    monkeypatch.setenv("COLUMNS", "100")
+    _, helped, _ = run(capsys, *command.split(), "--help")
     options = set(re.findall(r"^[│|] +(?:\* +)?(--[a-z][a-z-]*)", helped, re.MULTILINE))
     assert len(options) >= 3
-    assert {option for option in options if f"`{option}`" not in sections[f"bathyal {command}"]} <= {
-        "--help"
-    }
+    assert {
+        option for option in options if f"`{option}`" not in sections[f"bathyal {command}"]
+    } <= {"--help"}
