@@ -63,6 +63,15 @@ def test_every_page_is_in_a_table_of_contents() -> None:
     assert pages - listed == {(docs / "index.md").resolve()}
 
 
+def test_files_that_define_constants_exist() -> None:
+    rooms = ROOT / "cpp" / "bathyal"
+    named = set()
+    for page in (ROOT / "docs" / "how_it_diagnoses").glob("*.md"):
+        named |= set(re.findall(r"`([a-z_/]+\.[ch]pp)` \|$", page.read_text("utf-8"), re.MULTILINE))
+    assert len(named) > 10
+    assert {name for name in named if not (rooms / name).is_file()} == set()
+
+
 @pytest.fixture(scope="module")
 def sections() -> dict[str, str]:
     """The command-line reference, by command."""
