@@ -26,9 +26,9 @@ if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64|amd64)$")
   set(BATHYAL_X86 ON)
   target_compile_definitions(bathyal_flags INTERFACE BATHYAL_X86_KERNELS)
 endif()
-# New compilers bring new warnings: only those of the compilers it is developed with are errors.
+# New compilers bring new warnings: only those of the compiler it is developed with are errors.
 if(BATHYAL_WERROR AND "${CMAKE_CXX_COMPILER_ID} ${CMAKE_CXX_COMPILER_VERSION}"
-   MATCHES "^(GNU 12|Clang 14)\\.")
+   MATCHES "^GNU 12\\.")
   target_compile_options(bathyal_flags INTERFACE -Werror)
 endif()
 if(BATHYAL_SANITIZE)
