@@ -18,6 +18,7 @@ from bathyal.errors import argument_error
 from bathyal.io.asides import aside_in, sweep
 from bathyal.io.manifest import check_file, release
 from bathyal.io.regular_files import check_document, open_regular
+from bathyal.io.regular_files import shown as shown
 
 PathLike = str | os.PathLike[str]
 
