@@ -166,7 +166,7 @@ TEST(GrowingArray, KeepsItsValuesWhileItGrowsAndWhenItIsHandedOver) {
 
 TEST(TextBlocks, GiveTheWholeTextInWholeLinesForAnyNumberOfThreads) {
   std::string text;
-  for (int i = 0; text.size() < 2 * TextBlocks::kBlock + 12345; ++i) {
+  for (std::int64_t i = 0; text.size() < 2 * TextBlocks::kBlock + 12345; ++i) {
     text += std::to_string(i * 7919) + "\n";
   }
   text += "the last line has no end";
