@@ -82,7 +82,7 @@ test: $(STAMPS)/apt-test $(STAMPS)/venv
 	ctest --test-dir $(TREE) --output-on-failure -j 2
 	cmake -G Ninja -B build/asan $(addprefix -D,$(FLAGS)) -DBATHYAL_WERROR=OFF -DBATHYAL_FUZZ=ON \
 	  -DBATHYAL_PCL=OFF -DBATHYAL_SANITIZE=ON -DCMAKE_BUILD_TYPE=Debug \
-	  -DCMAKE_CXX_FLAGS_DEBUG="-O0 -g1" \
+	  -DCMAKE_CXX_FLAGS_DEBUG="-O1 -g1" \
 	  -DCMAKE_CXX_COMPILER=clang++-14 -DCMAKE_C_COMPILER=clang-14 >/dev/null
 	cmake --build build/asan
 	ctest --test-dir build/asan --output-on-failure -j 2
