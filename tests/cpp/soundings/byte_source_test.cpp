@@ -40,7 +40,9 @@ class ByteSourceTest : public testing::Test {
     return "";
   }
 
-  fs::path folder_ = fs::path(testing::TempDir()) / "byte_source_test";
+  /// Of this test alone: others run at the same time.
+  fs::path folder_ =
+      fs::path(testing::TempDir()) / testing::UnitTest::GetInstance()->current_test_info()->name();
 };
 
 TEST_F(ByteSourceTest, OnlyRegularFilesAreOpened) {
