@@ -16,10 +16,6 @@
 namespace bathyal::python {
 namespace {
 
-py::array to_numpy(const Eigen::VectorXd& values) {
-  return python::to_numpy(std::vector<double>(values.data(), values.data() + values.size()));
-}
-
 /// What each coordinate is led by.
 template <class Value, class Get>
 std::vector<Value> of_coordinates(const Arm& arm, const Get& get) {
@@ -75,23 +71,23 @@ void add_properties(py::class_<Arm>& cls) {
       .def_property_readonly(
           "velocity",
           [](const Arm& arm) {
-            return python::to_numpy(
+            return to_numpy(
                 of_coordinates<double>(arm, [](const Joint& j) { return j.velocity; }));
           },
           "(n,) greatest speed of the joint that leads each coordinate [rad/s] or [m/s].")
       .def_property_readonly(
           "effort",
           [](const Arm& arm) {
-            return python::to_numpy(
+            return to_numpy(
                 of_coordinates<double>(arm, [](const Joint& j) { return j.effort; }));
           },
           "(n,) greatest torque [N m] or force [N] of that joint.")
       .def_property(
-          "base", [](const Arm& arm) { return python::to_numpy(arm.base()); },
+          "base", [](const Arm& arm) { return to_numpy(arm.base()); },
           [](Arm& arm, const OptionalArray& pose) { arm.set_base(pose_argument("base", pose)); },
           "(4, 4) world_from_base; may be set, None is the identity.")
       .def_property(
-          "tool", [](const Arm& arm) { return python::to_numpy(arm.tool()); },
+          "tool", [](const Arm& arm) { return to_numpy(arm.tool()); },
           [](Arm& arm, const OptionalArray& pose) { arm.set_tool(pose_argument("tool", pose)); },
           "(4, 4) flange_from_tool; may be set, None is the identity.")
       .def("__repr__", [](const Arm& arm) {

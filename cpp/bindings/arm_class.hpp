@@ -3,11 +3,21 @@
 
 #include <pybind11/pybind11.h>
 
+#include "arrays.hpp"
 #include "bathyal/arm/arm.hpp"
+#include "bathyal/arm/kinematics.hpp"
+#include "words.hpp"
 
-// What each file of the room adds to the module and to the class Arm.
+// What each file of the room adds to the module and to the class Arm, and what several of them use.
 
 namespace bathyal::python {
+
+/// "world" or "tool"
+const Words<TipFrame>& tip_frame_words();
+
+inline JointView view_of(const Rows& rows) {
+  return {rows.table.data(), rows.table.rows(), rows.table.cols()};
+}
 
 /// Link and DhTable; before the class.
 void bind_arm_tables(pybind11::module_& module);

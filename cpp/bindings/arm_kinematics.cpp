@@ -15,12 +15,14 @@
 #include "words.hpp"
 
 namespace bathyal::python {
-namespace {
 
-const Words<TipFrame>& frame_words() {
+const Words<TipFrame>& tip_frame_words() {
   static const Words<TipFrame> words{{"world", TipFrame::kWorld}, {"tool", TipFrame::kTool}};
   return words;
 }
+
+namespace {
+
 const Words<Manipulability>& manipulability_words() {
   static const Words<Manipulability> words{
       {"yoshikawa", Manipulability::kYoshikawa},
@@ -33,10 +35,6 @@ const Words<JacobianPart>& part_words() {
                                          {"linear", JacobianPart::kLinear},
                                          {"angular", JacobianPart::kAngular}};
   return words;
-}
-
-JointView view_of(const Rows& rows) {
-  return {rows.table.data(), rows.table.rows(), rows.table.cols()};
 }
 
 /// Memory for a result that is written whole: nobody touches its pages before those who write.
@@ -79,7 +77,7 @@ py::array forward_python(const Arm& arm, const ArrayLike& q, bool links, int num
 py::array jacobian_python(const Arm& arm, const ArrayLike& q, const std::string& frame,
                           int num_threads) {
   const Rows rows = rows_argument("q", q, arm.size());
-  const TipFrame tip = word_argument("frame", frame, frame_words());
+  const TipFrame tip = word_argument("frame", frame, tip_frame_words());
   const Fresh jacobians(rows.table.rows(), {6, arm.size()});
   {
     const py::gil_scoped_release release;
@@ -134,7 +132,7 @@ void add_kinematics(py::class_<Arm>& cls) {
   cls.def("forward", &forward_python, py::arg("q"), py::kw_only(), py::arg("links") = false,
           py::arg("num_threads") = 0, kForwardDoc)
       .def("jacobian", &jacobian_python, py::arg("q"), py::kw_only(),
-           py::arg("frame") = word_of(TipFrame::kWorld, frame_words()), py::arg("num_threads") = 0,
+           py::arg("frame") = word_of(TipFrame::kWorld, tip_frame_words()), py::arg("num_threads") = 0,
            kJacobianDoc)
       .def("manipulability", &manipulability_python, py::arg("q"), py::kw_only(),
            py::arg("kind") = word_of(Manipulability::kYoshikawa, manipulability_words()),
@@ -156,12 +154,12 @@ void add_kinematics(py::class_<Arm>& cls) {
                 payload_center_of_buoyancy.is_none()
                     ? options.payload.center_of_mass
                     : vector_argument("payload_center_of_buoyancy", payload_center_of_buoyancy);
-            options.frame = word_argument("frame", frame, frame_words());
+            options.frame = word_argument("frame", frame, tip_frame_words());
             options.num_threads = num_threads;
             return statics_python(arm, q, wrench, options);
           },
           py::arg("q"), py::arg("wrench") = py::none(), py::kw_only(),
-          py::arg("frame") = word_of(still.frame, frame_words()),
+          py::arg("frame") = word_of(still.frame, tip_frame_words()),
           py::arg("gravity") =
               py::make_tuple(still.gravity.x(), still.gravity.y(), still.gravity.z()),
           py::arg("water_density") = still.water_density, py::arg("payload") = still.payload.mass,

@@ -37,7 +37,7 @@ py::array column(const DhTable& table, const Get& get) {
   return python::to_numpy(std::move(values));
 }
 
-DhTable table_argument(const ArrayLike& a, const ArrayLike& alpha, const ArrayLike& d,
+DhTable dh_table_argument(const ArrayLike& a, const ArrayLike& alpha, const ArrayLike& d,
                        const ArrayLike& theta, const OptionalArray& beta,
                        const std::optional<std::vector<std::string>>& joint_types,
                        const std::string& convention, const OptionalArray& root,
@@ -195,7 +195,7 @@ void add_tables(py::class_<Arm>& cls) {
            options.velocity = list_argument("velocity", velocity);
            options.effort = list_argument("effort", effort);
            Arm arm = arm_from_dh(
-               table_argument(a, alpha, d, theta, beta, joint_types, convention, root, flange),
+               dh_table_argument(a, alpha, d, theta, beta, joint_types, convention, root, flange),
                options);
            arm.set_base(pose_argument("base", base));
            arm.set_tool(pose_argument("tool", tool));

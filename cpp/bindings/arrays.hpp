@@ -110,6 +110,17 @@ py::array to_numpy(std::vector<Scalar> values, std::vector<py::ssize_t> tail = {
   return read_only_array(owned->data(), std::move(tail), owned);
 }
 
+/// (N,)
+inline py::array to_numpy(const Eigen::VectorXd& values) {
+  return to_numpy(std::vector<double>(values.begin(), values.end()));
+}
+
+/// (N, k)
+inline py::array to_numpy(
+    const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>& table) {
+  return to_numpy(std::vector<double>(table.data(), table.data() + table.size()), {table.cols()});
+}
+
 /// (3,)
 inline py::array to_numpy(const Vec3& vector) {
   return to_numpy(std::vector<double>(vector.begin(), vector.end()));

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "arm_class.hpp"
 #include "arm_inverse.hpp"
 #include "bathyal/base/error.hpp"
 #include "effects_docs.hpp"
@@ -17,11 +18,6 @@
 
 namespace bathyal::python {
 namespace {
-
-const Words<TipFrame>& frame_words() {
-  static const Words<TipFrame> words{{"world", TipFrame::kWorld}, {"tool", TipFrame::kTool}};
-  return words;
-}
 
 // Arguments -------------------------------------------------------------------------------------
 
@@ -40,7 +36,7 @@ RowMatrix covariate_argument(const std::string& name, const py::object& object, 
   return table_argument(argument, array, array.ndim() == 2 ? array.shape(1) : 1);
 }
 
-Covariates covariates_argument(const CorrectedArm& model, const py::object& object) {
+Covariates query_covariates(const CorrectedArm& model, const py::object& object) {
   Covariates covariates;
   if (object.is_none()) return covariates;
   if (!py::isinstance<py::dict>(object)) {
@@ -56,10 +52,6 @@ Covariates covariates_argument(const CorrectedArm& model, const py::object& obje
     covariates[name] = covariate_argument(name, py::reinterpret_borrow<py::object>(value), columns);
   }
   return covariates;
-}
-
-JointView view_of(const Rows& rows) {
-  return {rows.table.data(), rows.table.rows(), rows.table.cols()};
 }
 
 Support::Range range_argument(const std::string& name, const py::object& object, Index columns) {
@@ -119,27 +111,27 @@ Support support_argument(const py::object& data) {
 
 // Results ---------------------------------------------------------------------------------------
 
-py::array to_numpy(const Support::Range& range) {
+py::array range_to_numpy(const Support::Range& range) {
   RowMatrix table(2, range.low.size());
   table << range.low.transpose(), range.high.transpose();
-  return python::to_numpy(table);
+  return to_numpy(table);
 }
 
-py::array to_numpy(const SupportMask& mask, bool single) {
+py::array mask_to_numpy(const SupportMask& mask, bool single) {
   py::array_t<bool> array({mask.rows(), mask.cols()});
   std::copy(mask.data(), mask.data() + mask.size(), array.mutable_data());
   array.attr("setflags")(py::arg("write") = false);
   return single ? py::array(array[py::int_(0)]) : py::array(array);
 }
 
-py::list to_python(const std::vector<std::vector<Support::Gap>>& gaps) {
+py::list gaps_to_python(const std::vector<std::vector<Support::Gap>>& gaps) {
   py::list out;
   for (const std::vector<Support::Gap>& of_joint : gaps) {
     RowMatrix table(static_cast<Index>(of_joint.size()), 2);
     for (std::size_t i = 0; i < of_joint.size(); ++i) {
       table.row(static_cast<Index>(i)) << of_joint[i].low, of_joint[i].high;
     }
-    out.append(python::to_numpy(table));
+    out.append(to_numpy(table));
   }
   return out;
 }
@@ -149,17 +141,17 @@ void warn_of_support(const CorrectedArm& model, const RowMatrix& q, const Covari
                      const SupportMask& mask) {
   if (mask.all()) return;
   py::dict out;
-  for (const auto& [name, values] : covariates) out[py::str(name)] = python::to_numpy(values);
+  for (const auto& [name, values] : covariates) out[py::str(name)] = to_numpy(values);
   hook(Hook::kWarnOfSupport)(py::cast(&model, py::return_value_policy::reference),
-                             python::to_numpy(q), out, to_numpy(mask, false));
+                             to_numpy(q), out, mask_to_numpy(mask, false));
 }
 
 // Methods ---------------------------------------------------------------------------------------
 
-py::array forward_python(const CorrectedArm& model, const ArrayLike& q,
+py::array forward_corrected(const CorrectedArm& model, const ArrayLike& q,
                          const OptionalCovariates& covariates, bool links, int num_threads) {
   const Rows rows = rows_argument("q", q, model.size());
-  const Covariates given = covariates_argument(model, covariates);
+  const Covariates given = query_covariates(model, covariates);
   CorrectedPoses found;
   {
     const py::gil_scoped_release release;
@@ -169,30 +161,30 @@ py::array forward_python(const CorrectedArm& model, const ArrayLike& q,
   warn_of_support(model, rows.table, given, found.in_support);
   std::vector<py::ssize_t> tail{4, 4};
   if (links) tail.insert(tail.begin(), static_cast<py::ssize_t>(model.arm().links().size()));
-  return python::to_numpy(std::move(found.poses), rows.single, std::move(tail));
+  return to_numpy(std::move(found.poses), rows.single, std::move(tail));
 }
 
-py::array jacobian_python(const CorrectedArm& model, const ArrayLike& q,
+py::array jacobian_corrected(const CorrectedArm& model, const ArrayLike& q,
                           const OptionalCovariates& covariates, const std::string& frame,
                           int num_threads) {
   const Rows rows = rows_argument("q", q, model.size());
-  const Covariates given = covariates_argument(model, covariates);
-  const TipFrame axes = word_argument("frame", frame, frame_words());
+  const Covariates given = query_covariates(model, covariates);
+  const TipFrame axes = word_argument("frame", frame, tip_frame_words());
   CorrectedJacobians found;
   {
     const py::gil_scoped_release release;
     found = model.jacobian(view_of(rows), given, axes, num_threads);
   }
   warn_of_support(model, rows.table, given, found.in_support);
-  return python::to_numpy(std::move(found.jacobians), rows.single, {6, model.size()});
+  return to_numpy(std::move(found.jacobians), rows.single, {6, model.size()});
 }
 
-InverseAnswer inverse_python(const CorrectedArm& model, const ArrayLike& poses,
+InverseAnswer inverse_corrected(const CorrectedArm& model, const ArrayLike& poses,
                              const OptionalArray& start, const OptionalCovariates& covariates,
                              const InverseOptions& options) {
   const Targets targets = targets_argument(poses, options.task);
   const Rows starts = start.is_none() ? Rows{} : rows_argument("start", start, model.size());
-  const Covariates given = covariates_argument(model, covariates);
+  const Covariates given = query_covariates(model, covariates);
   CorrectedInverse found;
   {
     const py::gil_scoped_release release;
@@ -207,16 +199,16 @@ InverseAnswer inverse_python(const CorrectedArm& model, const ArrayLike& poses,
 py::array in_support_python(const CorrectedArm& model, const ArrayLike& q,
                             const OptionalCovariates& covariates) {
   const Rows rows = rows_argument("q", q, model.size());
-  const Covariates given = covariates_argument(model, covariates);
+  const Covariates given = query_covariates(model, covariates);
   SupportMask mask;
   {
     const py::gil_scoped_release release;
     mask = model.in_support(view_of(rows), given);
   }
-  return to_numpy(mask, rows.single);
+  return mask_to_numpy(mask, rows.single);
 }
 
-std::string repr_of(const CorrectedArm& model) {
+std::string model_repr(const CorrectedArm& model) {
   const Arm& arm = model.arm();
   std::string text = "CorrectedArm(" + (arm.name().empty() ? "" : "\"" + arm.name() + "\", ");
   text += std::to_string(arm.size()) + (arm.size() == 1 ? " joint" : " joints");
@@ -232,24 +224,24 @@ void bind_support(py::module_& module) {
            py::arg("gravity") = py::none(), py::arg("covariates") = py::dict(),
            py::arg("sessions") = py::none())
       .def_property_readonly(
-          "joints", [](const Support& s) { return to_numpy(s.joints); },
+          "joints", [](const Support& s) { return range_to_numpy(s.joints); },
           "(2, n) least and greatest of each coordinate [rad] or [m].")
       .def_property_readonly(
-          "gaps", [](const Support& s) { return to_python(s.gaps); },
+          "gaps", [](const Support& s) { return gaps_to_python(s.gaps); },
           "Of each coordinate (g, 2) from and to: stretches within its range without data, wider "
           "than a 200th of it; an empty list where unknown.")
       .def_property_readonly(
-          "gravity", [](const Support& s) { return to_numpy(s.gravity); }, "(2, 3) [m/s²]")
+          "gravity", [](const Support& s) { return range_to_numpy(s.gravity); }, "(2, 3) [m/s²]")
       .def_property_readonly(
           "covariates",
           [](const Support& s) {
             py::dict dict;
-            for (const auto& [name, range] : s.covariates) dict[py::str(name)] = to_numpy(range);
+            for (const auto& [name, range] : s.covariates) dict[py::str(name)] = range_to_numpy(range);
             return dict;
           },
           "Name to (2, k): all but `session` and `gravity`.")
       .def_property_readonly(
-          "sessions", [](const Support& s) { return python::to_numpy(s.sessions); },
+          "sessions", [](const Support& s) { return to_numpy(s.sessions); },
           "(s,) of the training data.")
       .def("__repr__", [](const Support& s) {
         return "Support(" + std::to_string(s.joints.low.size()) + " joints, " +
@@ -270,13 +262,13 @@ void add_rigid_part(py::class_<CorrectedArm>& cls) {
       .def_property_readonly("size", &CorrectedArm::size,
                              "Number of coordinates n, the width of every q.")
       .def_property(
-          "base", [](const CorrectedArm& m) { return python::to_numpy(m.arm().base()); },
+          "base", [](const CorrectedArm& m) { return to_numpy(m.arm().base()); },
           [](CorrectedArm& m, const OptionalArray& pose) {
             m.set_base(pose_argument("base", pose));
           },
           "(4, 4) world_from_base; may be set, None is the identity.")
       .def_property(
-          "tool", [](const CorrectedArm& m) { return python::to_numpy(m.arm().tool()); },
+          "tool", [](const CorrectedArm& m) { return to_numpy(m.arm().tool()); },
           [](CorrectedArm& m, const OptionalArray& pose) {
             m.set_tool(pose_argument("tool", pose));
           },
@@ -303,7 +295,7 @@ void add_inverse(py::class_<CorrectedArm>& cls) {
         options.centering_steps = centering_steps;
         options.seed = seed;
         options.num_threads = num_threads;
-        return inverse_python(model, poses, start, covariates, options);
+        return inverse_corrected(model, poses, start, covariates, options);
       },
       py::arg("poses"), py::arg("start") = py::none(), py::kw_only(),
       py::arg("covariates") = py::none(), py::arg("task") = word_of(defaults.task, task_words()),
@@ -328,16 +320,16 @@ void bind_corrected_arm(py::module_& module) {
       .def_property_readonly("effects", &CorrectedArm::effects, "List of FoundEffect.")
       .def_property_readonly("support", &CorrectedArm::support, "The region that the data cover.")
       .def_property_readonly(
-          "gaps", [](const CorrectedArm& m) { return to_python(m.gaps()); },
+          "gaps", [](const CorrectedArm& m) { return gaps_to_python(m.gaps()); },
           "Of each coordinate (g, 2) from and to: gaps of the support in which a wave or curve "
           "along "
           "it is held.")
-      .def("forward", &forward_python, py::arg("q"), py::kw_only(),
+      .def("forward", &forward_corrected, py::arg("q"), py::kw_only(),
            py::arg("covariates") = py::none(), py::arg("links") = false, py::arg("num_threads") = 0,
            kCorrectedForwardDoc)
-      .def("jacobian", &jacobian_python, py::arg("q"), py::kw_only(),
+      .def("jacobian", &jacobian_corrected, py::arg("q"), py::kw_only(),
            py::arg("covariates") = py::none(),
-           py::arg("frame") = word_of(TipFrame::kWorld, frame_words()), py::arg("num_threads") = 0,
+           py::arg("frame") = word_of(TipFrame::kWorld, tip_frame_words()), py::arg("num_threads") = 0,
            kCorrectedJacobianDoc)
       .def("in_support", &in_support_python, py::arg("q"), py::kw_only(),
            py::arg("covariates") = py::none(), kInSupportDoc)
@@ -347,7 +339,7 @@ void bind_corrected_arm(py::module_& module) {
       .def("__copy__", [](const CorrectedArm& m) { return m; })
       .def(
           "__deepcopy__", [](const CorrectedArm& m, const py::dict&) { return m; }, py::arg("memo"))
-      .def("__repr__", &repr_of);
+      .def("__repr__", &model_repr);
   add_rigid_part(cls);
   add_inverse(cls);
 }

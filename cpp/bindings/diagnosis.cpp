@@ -35,7 +35,7 @@ std::optional<int> joint_or_none(int joint) {
 
 std::string on_joint(int joint) { return joint < 0 ? "" : ", joint=" + std::to_string(joint); }
 
-void bind_parts(py::module_& module) {
+void bind_diagnosis_parts(py::module_& module) {
   py::class_<Estimate>(module, "Estimate", kEstimateDoc)
       .def_readonly("name", &Estimate::name)
       .def_readonly("value", &Estimate::value)
@@ -202,7 +202,7 @@ const Arm& arm_argument(const py::object& arm) {
 
 using MaybeProgress = py::typing::Optional<py::typing::Callable<void(py::float_, py::str)>>;
 
-void bind_function(py::module_& module) {
+void bind_diagnose(py::module_& module) {
   const DiagnoseOptions defaults;
   module.def(
       "diagnose",
@@ -255,10 +255,10 @@ void bind_function(py::module_& module) {
 }  // namespace
 
 void bind_diagnosis(py::module_& module) {
-  bind_parts(module);
+  bind_diagnosis_parts(module);
   bind_held_out(module);
   bind_result(module);
-  bind_function(module);
+  bind_diagnose(module);
 }
 
 }  // namespace bathyal::python

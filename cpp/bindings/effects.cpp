@@ -99,7 +99,7 @@ std::shared_ptr<Effect> make_effect(std::string name, py::function function,
   return make_python_effect(std::move(user), std::move(function));
 }
 
-std::string text_of(const EffectInfo& info) {
+std::string effect_text(const EffectInfo& info) {
   std::string text = info.name;
   const auto line = [&text](const char* what, const std::string& value) {
     if (!value.empty()) text += "\n  " + std::string(what) + value;
@@ -166,7 +166,7 @@ py::dict by_parameter(const FoundEffect& found, const Get& get) {
   return dict;
 }
 
-std::string repr_of(const FoundEffect& found) {
+std::string effect_repr(const FoundEffect& found) {
   std::string text = "FoundEffect(\"" + found.variant.effect + "\"";
   if (found.variant.joint >= 0) text += ", joint=" + std::to_string(found.variant.joint);
   for (std::size_t i = 0; i < found.variant.parameters.size(); ++i) {
@@ -208,7 +208,7 @@ void bind_effect(py::module_& module) {
       .def_property_readonly(
           "by_difference", [](const Effect& e) { return e.info().by_difference; },
           "Whether it depends on how rows differ from their neighbours.")
-      .def("__str__", [](const Effect& e) { return text_of(e.info()); })
+      .def("__str__", [](const Effect& e) { return effect_text(e.info()); })
       .def("__repr__", [](const Effect& e) { return "Effect(\"" + e.info().name + "\")"; });
 }
 
@@ -255,7 +255,7 @@ void bind_found_effect(py::module_& module) {
           },
           "Name to a typical size.")
       .def_property_readonly("cause", [](const FoundEffect& f) { return f.variant.alias_group; })
-      .def("__repr__", &repr_of);
+      .def("__repr__", &effect_repr);
 }
 
 }  // namespace

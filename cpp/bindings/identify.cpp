@@ -47,7 +47,7 @@ const Words<BaseChoice>& base_words() {
 
 using AnyArm = std::variant<const Arm*, const CorrectedArm*>;
 
-void bind_function(py::module_& module) {
+void bind_identify_arm(py::module_& module) {
   using Options = IdentifyOptions;
   const Options defaults;
   module.def(
@@ -124,7 +124,7 @@ void bind_identify(py::module_& module) {
   bind_effects(module);
   bind_corrected_arm(module);
   bind_identify_fit(module);
-  bind_function(module);
+  bind_identify_arm(module);
 }
 
 }  // namespace bathyal::python

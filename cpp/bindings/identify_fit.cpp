@@ -18,7 +18,7 @@ py::list poses_to_list(const std::vector<Pose>& poses) {
   return list;
 }
 
-void bind_parts(py::module_& module) {
+void bind_fit_parts(py::module_& module) {
   py::class_<NullSpacePartner>(
       module, "Trade", "A parameter that takes part in an unobservable change of another one.")
       .def_readonly("name", &NullSpacePartner::name)
@@ -172,7 +172,7 @@ void bind_fit(py::module_& module) {
 }  // namespace
 
 void bind_identify_fit(py::module_& module) {
-  bind_parts(module);
+  bind_fit_parts(module);
   bind_fit(module);
 }
 

@@ -3,8 +3,6 @@
 
 #include <pybind11/pybind11.h>
 
-#include <vector>
-
 #include "arrays.hpp"
 #include "bathyal/effects/measurements.hpp"
 #include "bathyal/identify/model/arm_parameters.hpp"
@@ -13,16 +11,6 @@
 // Bindings of the room identify: its data and its results.
 
 namespace bathyal::python {
-
-/// (N,)
-inline py::array to_numpy(const Eigen::VectorXd& values) {
-  return to_numpy(std::vector<double>(values.begin(), values.end()));
-}
-
-/// (N, k)
-inline py::array to_numpy(const RowMatrix& table) {
-  return to_numpy(std::vector<double>(table.data(), table.data() + table.size()), {table.cols()});
-}
 
 /// "hayati" or "dh"
 const Words<Parametrization>& parametrization_words();

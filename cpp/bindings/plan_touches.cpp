@@ -13,7 +13,7 @@
 namespace bathyal::python {
 namespace {
 
-const Words<TouchCriterion>& criterion_words() {
+const Words<TouchCriterion>& touch_criterion_words() {
   static const Words<TouchCriterion> words{{"worst_tip", TouchCriterion::kWorstTip},
                                            {"d_optimal", TouchCriterion::kDOptimal},
                                            {"o1", TouchCriterion::kO1}};
@@ -198,7 +198,7 @@ void bind_functions(py::module_& module) {
          double length_prior, double angle_prior, double tool_prior, const OptionalArray& workspace,
          int workspace_poses, std::uint64_t seed, int num_threads) {
         const PlanTouchesOptions options{
-            .criterion = word_argument("criterion", criterion, criterion_words()),
+            .criterion = word_argument("criterion", criterion, touch_criterion_words()),
             .points = points_to_touch(points),
             .num_points = num_points,
             .known_distances = pairs_argument(known_distances),
@@ -220,7 +220,7 @@ void bind_functions(py::module_& module) {
       py::arg("distance_std") = defaults.distance_std,
       py::arg("known_points") = defaults.known_points, py::arg("point_std") = defaults.point_std,
       py::arg("feasible") = py::none(), py::arg("floor") = defaults.floor,
-      py::arg("criterion") = word_of(defaults.criterion, criterion_words()),
+      py::arg("criterion") = word_of(defaults.criterion, touch_criterion_words()),
       py::arg("candidates") = defaults.candidates, py::arg("passes") = defaults.passes,
       py::arg("parametrization") = word_of(forecast.parametrization, parametrization_words()),
       py::arg("nearly_parallel") = forecast.nearly_parallel, py::arg("noise") = forecast.noise,

@@ -56,7 +56,7 @@ class Function {
 };
 
 /// "KeyError: 'depth' (line 12 of mine.py)": what was raised, and where.
-std::string describe(const py::error_already_set& error) {
+std::string python_error_text(const py::error_already_set& error) {
   const auto text = [](const py::handle& object) { return py::str(object).cast<std::string>(); };
   std::string text_out = text(error.type().attr("__name__")) + ": " + text(error.value());
   py::object place = error.trace();
@@ -162,7 +162,7 @@ class PythonEffect final : public Effect {
                                               : function_.get()(rows);
     } catch (const py::error_already_set& error) {
       if (!error.matches(PyExc_Exception)) throw;  // an interrupt is the caller's own
-      throw Error(name() + ": its function raised " + describe(error));
+      throw Error(name() + ": its function raised " + python_error_text(error));
     }
     return numbers_of(result, data.rows(), parameters, width);
   }

@@ -128,7 +128,7 @@ py::dict state_of(const Shape& s) {
   return state;
 }
 
-std::string text_of(const Shape& s) {
+std::string shape_text(const Shape& s) {
   std::string text = "Shape(\"" + word_of(s.kind, kind_words()) + "\"";
   if (s.kind == ShapeKind::kBox) {
     text += ", size=(" + to_text(s.size.x()) + ", " + to_text(s.size.y()) + ", " +
@@ -177,7 +177,7 @@ void bind_shape(py::module_& module) {
       .def_readonly("part", &Shape::part, "The body that it outlines; empty where unknown.")
       .def("as_dict", &state_of,
            "What the constructor takes, without what the kind has not: for files and tables.")
-      .def("__repr__", &text_of)
+      .def("__repr__", &shape_text)
       .def("__reduce__", [](const py::object& self) -> py::typing::Tuple<py::function, py::tuple> {
         const py::object build = py::module_::import("functools").attr("partial");
         return py::make_tuple(build(py::type::of(self), **self.attr("as_dict")().cast<py::dict>()),

@@ -171,7 +171,7 @@ SamePlace same_place_argument(const std::string& text) {
   throw_argument("same_place", "\"keep\", \"shallowest\" or \"deepest\"", "\"" + text + "\"");
 }
 
-std::string to_text(SamePlace rule) {
+std::string rule_text(SamePlace rule) {
   switch (rule) {
     case SamePlace::kShallowest:
       return "shallowest";
@@ -248,7 +248,7 @@ void bind_clean(py::module_& module) {
         const py::gil_scoped_release release;
         return clean_cloud(input, options);
       },
-      py::arg("cloud"), py::kw_only(), py::arg("same_place") = to_text(d.same_place),
+      py::arg("cloud"), py::kw_only(), py::arg("same_place") = rule_text(d.same_place),
       py::arg("spike_sigma") = d.spike_sigma, py::arg("spike_height") = d.spike_height,
       py::arg("spike_neighbours") = d.spike_neighbours, py::arg("outlier_sigma") = d.outlier_sigma,
       py::arg("outlier_neighbours") = d.outlier_neighbours, py::arg("voxel") = d.voxel,

@@ -28,7 +28,7 @@ Surface surface_argument(const py::object& object) {
 
 Aims aims_argument(const py::object& object) { return table_argument("aims", object, 6); }
 
-const Words<AimsFrame>& frame_words() {
+const Words<AimsFrame>& aims_frame_words() {
   static const Words<AimsFrame> words{{"vehicle", AimsFrame::kVehicle},
                                       {"world", AimsFrame::kWorld}};
   return words;
@@ -54,7 +54,7 @@ TargetOptions target_options(const OptionalArray& world_from_vehicle, const std:
                              int num_threads) {
   TargetOptions options;
   options.reference.world_from_vehicle = pose_argument("world_from_vehicle", world_from_vehicle);
-  options.reference.frame = word_argument("frame", frame, frame_words());
+  options.reference.frame = word_argument("frame", frame, aims_frame_words());
   options.reference.vertical = word_argument("vertical", vertical, vertical_words());
   options.grazing_angle = grazing_angle;
   options.max_range = max_range;
@@ -232,7 +232,7 @@ void bind_toolpath(py::module_& module) {
       },
       py::arg("surface"), py::arg("aims"), py::kw_only(),
       py::arg("world_from_vehicle") = py::none(),
-      py::arg("frame") = word_of(target.reference.frame, frame_words()),
+      py::arg("frame") = word_of(target.reference.frame, aims_frame_words()),
       py::arg("vertical") = word_of(target.reference.vertical, vertical_words()),
       py::arg("grazing_angle") = target.grazing_angle, py::arg("max_range") = target.max_range,
       py::arg("num_threads") = target.num_threads, kFindTargetsDoc);
@@ -263,7 +263,7 @@ void bind_toolpath(py::module_& module) {
       },
       py::arg("surface"), py::arg("aims"), py::kw_only(),
       py::arg("world_from_vehicle") = py::none(),
-      py::arg("frame") = word_of(target.reference.frame, frame_words()),
+      py::arg("frame") = word_of(target.reference.frame, aims_frame_words()),
       py::arg("vertical") = word_of(target.reference.vertical, vertical_words()),
       py::arg("grazing_angle") = target.grazing_angle, py::arg("max_range") = target.max_range,
       py::arg("missed") = word_of(path.missed, missed_words()),
