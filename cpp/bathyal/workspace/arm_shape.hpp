@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "bathyal/arm/arm.hpp"
+#include "bathyal/arm/row_frames.hpp"
+#include "bathyal/workspace/capsule.hpp"
+
+// The body of an arm as capsules: what of it must not touch anything.
+
+namespace bathyal {
+
+/// A capsule that moves with a link. Its start may be fixed in the link before: a sliding joint
+/// draws it out.
+struct LinkCapsule {
+  int link = 0;        ///< index into arm.links(): 0 is the foot
+  int start_link = 0;  ///< in whose frame the start is given; `link` or the one before
+  Vec3 start = Vec3::Zero();
+  Vec3 end = Vec3::Zero();
+  double radius = 0.0;  ///< [m]
+};
+
+/// Segments from joint to joint, along d and then a of each row, and on to the tool centre point:
+/// all that is known of an arm without shapes. `radii` has none (0), one for all links, or one a
+/// link.
+/// \throw std::invalid_argument for another count, a radius that is negative or not finite.
+std::vector<LinkCapsule> capsules_of_rows(const Arm& arm, std::span<const double> radii = {});
+
+/// `shapes` has one list a link, in the link's own frame; the list of a link may be empty.
+/// \throw std::invalid_argument for another count of lists, and as Capsule::check.
+std::vector<LinkCapsule> capsules_of_links(const Arm& arm,
+                                           std::span<const std::vector<Capsule>> shapes);
+
+/// The capsules of a pose: start and end from the frames of the rows, in their common frame.
+Capsule placed(const Arm& arm, const LinkCapsule& capsule, const RowFrames& frames);
+
+/// How far any point of a capsule of the link can move while each coordinate moves by at most
+/// `change` from the pose that the frames are of [m].
+///
+/// The joints are moved one after the other, the last first. Each turns the point about its own
+/// axis, by no more than the angle times the distance from that axis: the distance in the pose
+/// given, plus what the joints behind it have moved the point by (arc over chord, triangle
+/// inequality). Sliding joints move it by their change.
+double displacement_bound(const Arm& arm, const RowFrames& frames, int link, const Capsule& placed,
+                          std::span<const double> change);
+
+}  // namespace bathyal
