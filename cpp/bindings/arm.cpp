@@ -11,7 +11,7 @@
 #include "arm_parts.hpp"
 #include "arrays.hpp"
 #include "bindings.hpp"
-#include "words.hpp"
+#include "enum_names.hpp"
 
 namespace bathyal::python {
 namespace {
@@ -54,7 +54,7 @@ void add_properties(py::class_<Arm>& cls) {
           "joint_types",
           [](const Arm& arm) {
             return of_coordinates<std::string>(
-                arm, [](const Joint& j) { return word_of(j.type, type_words()); });
+                arm, [](const Joint& j) { return enum_name(j.type, type_names()); });
           },
           "One word a coordinate, \"revolute\" or \"prismatic\".")
       .def_property_readonly(

@@ -7,13 +7,13 @@
 
 #include "arrays.hpp"
 #include "bathyal/arm/inverse.hpp"
-#include "words.hpp"
+#include "enum_names.hpp"
 
 // What every kind of arm's `inverse` takes and gives.
 
 namespace bathyal::python {
 
-const Words<InverseTask>& task_words();
+const EnumNames<InverseTask>& task_names();
 
 /// (N, 4, 4) or (4, 4); of a task that looks at positions alone also (N, 3) or (3,).
 struct Targets {

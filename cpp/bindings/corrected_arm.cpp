@@ -18,9 +18,9 @@
 namespace bathyal::python {
 namespace {
 
-const Words<TipFrame>& frame_words() {
-  static const Words<TipFrame> words{{"world", TipFrame::kWorld}, {"tool", TipFrame::kTool}};
-  return words;
+const EnumNames<TipFrame>& frame_names() {
+  static const EnumNames<TipFrame> names{{"world", TipFrame::kWorld}, {"tool", TipFrame::kTool}};
+  return names;
 }
 
 // Arguments -------------------------------------------------------------------------------------
@@ -177,7 +177,7 @@ py::array jacobian_python(const CorrectedArm& model, const ArrayLike& q,
                           int num_threads) {
   const Rows rows = rows_argument("q", q, model.size());
   const Covariates given = covariates_argument(model, covariates);
-  const TipFrame axes = word_argument("frame", frame, frame_words());
+  const TipFrame axes = enum_argument("frame", frame, frame_names());
   CorrectedJacobians found;
   {
     const py::gil_scoped_release release;
@@ -293,7 +293,7 @@ void add_inverse(py::class_<CorrectedArm>& cls) {
          int max_iterations, int max_starts, int candidates, std::optional<int> centering_steps,
          std::uint64_t seed, int num_threads) {
         InverseOptions options;
-        options.task = word_argument("task", task, task_words());
+        options.task = enum_argument("task", task, task_names());
         options.axis = vector_argument("axis", axis);
         options.position_tolerance = position_tolerance;
         options.angle_tolerance = angle_tolerance;
@@ -306,7 +306,7 @@ void add_inverse(py::class_<CorrectedArm>& cls) {
         return inverse_python(model, poses, start, covariates, options);
       },
       py::arg("poses"), py::arg("start") = py::none(), py::kw_only(),
-      py::arg("covariates") = py::none(), py::arg("task") = word_of(defaults.task, task_words()),
+      py::arg("covariates") = py::none(), py::arg("task") = enum_name(defaults.task, task_names()),
       py::arg("axis") = py::make_tuple(defaults.axis.x(), defaults.axis.y(), defaults.axis.z()),
       py::arg("position_tolerance") = defaults.position_tolerance,
       py::arg("angle_tolerance") = defaults.angle_tolerance,
@@ -337,8 +337,8 @@ void bind_corrected_arm(py::module_& module) {
            kCorrectedForwardDoc)
       .def("jacobian", &jacobian_python, py::arg("q"), py::kw_only(),
            py::arg("covariates") = py::none(),
-           py::arg("frame") = word_of(TipFrame::kWorld, frame_words()), py::arg("num_threads") = 0,
-           kCorrectedJacobianDoc)
+           py::arg("frame") = enum_name(TipFrame::kWorld, frame_names()),
+           py::arg("num_threads") = 0, kCorrectedJacobianDoc)
       .def("in_support", &in_support_python, py::arg("q"), py::kw_only(),
            py::arg("covariates") = py::none(), kInSupportDoc)
       .def(

@@ -8,7 +8,7 @@
 #include "arrays.hpp"
 #include "bathyal/effects/measurements.hpp"
 #include "bathyal/identify/model/arm_parameters.hpp"
-#include "words.hpp"
+#include "enum_names.hpp"
 
 // Bindings of the room identify: its data and its results.
 
@@ -25,7 +25,7 @@ inline py::array to_numpy(const RowMatrix& table) {
 }
 
 /// "hayati" or "dh"
-const Words<Parametrization>& parametrization_words();
+const EnumNames<Parametrization>& parametrization_names();
 
 /// Touches and Tracked.
 void bind_identify_data(py::module_& module);
