@@ -12,21 +12,21 @@
 #include "bathyal/compensation/corrected_arm.hpp"
 #include "bindings.hpp"
 #include "diagnosis_docs.hpp"
+#include "enum_names.hpp"
 #include "identify_parts.hpp"
-#include "words.hpp"
 
 namespace bathyal::python {
 namespace {
 
 namespace py = pybind11;
 
-const Words<Verdict>& verdict_words() {
-  static const Words<Verdict> words{{"none", Verdict::kNone},
-                                    {"clean", Verdict::kClean},
-                                    {"named", Verdict::kNamed},
-                                    {"ambiguous", Verdict::kAmbiguous},
-                                    {"unknown", Verdict::kUnknown}};
-  return words;
+const EnumNames<Verdict>& verdict_names() {
+  static const EnumNames<Verdict> names{{"none", Verdict::kNone},
+                                        {"clean", Verdict::kClean},
+                                        {"named", Verdict::kNamed},
+                                        {"ambiguous", Verdict::kAmbiguous},
+                                        {"unknown", Verdict::kUnknown}};
+  return names;
 }
 
 std::optional<int> joint_or_none(int joint) {
@@ -53,7 +53,7 @@ void bind_diagnosis_parts(py::module_& module) {
   py::class_<Cause>(module, "Cause", "A cause by name, as lists of rivals hold it.")
       .def_readonly("name", &Cause::name)
       .def_property_readonly("joint", [](const Cause& c) { return joint_or_none(c.joint); })
-      .def_readonly("words", &Cause::words)
+      .def_readonly("words", &Cause::description)
       .def_readonly("odds", &Cause::odds, "Against the best explanation, 0 to 1.")
       .def("__repr__", [](const Cause& c) { return "Cause(" + c.name + on_joint(c.joint) + ")"; });
   py::class_<NamedEffect>(module, "NamedEffect", kNamedEffectDoc)
@@ -61,7 +61,7 @@ void bind_diagnosis_parts(py::module_& module) {
       .def_property_readonly(
           "joint", [](const NamedEffect& e) { return joint_or_none(e.joint); },
           "Coordinate in error, from 0, or None.")
-      .def_readonly("words", &NamedEffect::words)
+      .def_readonly("words", &NamedEffect::description)
       .def_property_readonly(
           "parameters",
           [](const NamedEffect& e) {
@@ -80,13 +80,14 @@ void bind_diagnosis_parts(py::module_& module) {
       .def_readonly("held_out_after", &NamedEffect::held_out_after, "With it, 3-D rms [m].")
       .def_readonly("p_value", &NamedEffect::p_value,
                     "Of its F test among the others, corrected for all that was tried.")
-      .def_readonly("rivals", &NamedEffect::rivals, "Cause: the best other explanations of it.")
+      .def_readonly("rivals", &NamedEffect::alternatives,
+                    "Cause: the best other explanations of it.")
       .def("__repr__",
            [](const NamedEffect& e) { return "NamedEffect(" + e.name + on_joint(e.joint) + ")"; });
-  module.attr("BEYOND_NOISE") = kBeyondNoise;
+  module.attr("BEYOND_NOISE") = selection::kBeyondNoise;
   py::class_<Structure>(module, "Structure", "A dependence of residuals, made by chance or not.")
       .def_readonly("against", &Structure::against)
-      .def_readonly("words", &Structure::words)
+      .def_readonly("words", &Structure::description)
       .def_readonly("size", &Structure::size, "rms per axis, noise taken out [m].")
       .def_readonly("share", &Structure::share, "Of the residuals' variance, noise taken out.")
       .def_readonly("p_value", &Structure::p_value, "Corrected for all that was asked.")
@@ -128,7 +129,7 @@ void bind_result(py::module_& module) {
           },
           "Touches or Tracked: what it was found from.")
       .def_property_readonly(
-          "verdict", [](const Diagnosis& d) { return word_of(d.verdict, verdict_words()); },
+          "verdict", [](const Diagnosis& d) { return enum_name(d.verdict, verdict_names()); },
           "\"clean\", \"named\", \"ambiguous\", \"unknown\", or \"none\" where nothing can be held "
           "out.")
       .def_readonly("effects", &Diagnosis::effects,
@@ -142,10 +143,10 @@ void bind_result(py::module_& module) {
             return to_numpy(none ? RowMatrix(0, d.arm.size()) : RowMatrix(d.next_poses));
           },
           "(m, n) poses that would tell them apart [rad or m].")
-      .def_readonly("shown", &Diagnosis::shown,
+      .def_readonly("shown", &Diagnosis::lack_of_fit_before,
                     "Structure in the residuals of geometry alone, likeliest first: what is beyond "
                     "noise; where nothing is, the least unlikely.")
-      .def_readonly("leftover", &Diagnosis::leftover,
+      .def_readonly("leftover", &Diagnosis::unexplained,
                     "Structure beside all that was named; its size is 0 when there is none.")
       .def_readonly("held_out", &Diagnosis::held_out)
       .def_readonly("gain", &Diagnosis::gain, "(r0² - r1²) / (r0² - noise²) of held-out rms.")
@@ -167,7 +168,7 @@ void bind_result(py::module_& module) {
           "(N, 3) the same with the effects [m].")
       .def_readonly("warnings", &Diagnosis::warnings, "Sentences.")
       .def("__repr__", [](const Diagnosis& d) {
-        std::string text = "Diagnosis(" + word_of(d.verdict, verdict_words());
+        std::string text = "Diagnosis(" + enum_name(d.verdict, verdict_names());
         for (const NamedEffect& e : d.effects) {
           text += ", " + e.name + (e.joint < 0 ? "" : "[" + std::to_string(e.joint) + "]");
         }
@@ -214,7 +215,7 @@ void bind_diagnose(py::module_& module) {
         const Arm& arm = arm_argument(told);
         const DiagnoseOptions options{
             .parametrization =
-                word_argument("parametrization", parametrization, parametrization_words()),
+                enum_argument("parametrization", parametrization, parametrization_names()),
             .fixed = std::move(fixed),
             .blocks = blocks,
             .rival_odds = rival_odds,
@@ -245,7 +246,7 @@ void bind_diagnose(py::module_& module) {
         throw_argument("data", "Touches or Tracked", type_of(data));
       },
       py::arg("arm"), py::arg("data"), py::kw_only(), py::arg("effects") = py::none(),
-      py::arg("parametrization") = word_of(defaults.parametrization, parametrization_words()),
+      py::arg("parametrization") = enum_name(defaults.parametrization, parametrization_names()),
       py::arg("fixed") = defaults.fixed, py::arg("blocks") = defaults.blocks,
       py::arg("rival_odds") = defaults.rival_odds, py::arg("leftover") = defaults.leftover,
       py::arg("num_next_poses") = defaults.num_next_poses, py::arg("progress") = py::none(),

@@ -11,9 +11,9 @@
 #include "bathyal/base/error.hpp"
 #include "effects_docs.hpp"
 #include "effects_parts.hpp"
+#include "enum_names.hpp"
 #include "hooks.hpp"
 #include "identify_parts.hpp"
-#include "words.hpp"
 
 namespace bathyal::python {
 namespace {
@@ -22,12 +22,12 @@ namespace py = pybind11;
 
 constexpr double kTypicalSize = 1e-3;  ///< of a parameter without a given scale
 
-const Words<UserSite>& site_words() {
-  static const Words<UserSite> words{{"joint", UserSite::kJoint},
-                                     {"base", UserSite::kBase},
-                                     {"tool", UserSite::kTool},
-                                     {"lengths", UserSite::kLengths}};
-  return words;
+const EnumNames<UserSite>& site_names() {
+  static const EnumNames<UserSite> names{{"joint", UserSite::kJoint},
+                                         {"base", UserSite::kBase},
+                                         {"tool", UserSite::kTool},
+                                         {"lengths", UserSite::kLengths}};
+  return names;
 }
 
 /// Value by name; `otherwise` where the dict does not have it.
@@ -72,7 +72,7 @@ std::shared_ptr<Effect> make_effect(std::string name, py::function function,
   user.info.by_difference = by_difference;
   if (!(period > 0.0)) throw_argument("period", "a length above 0", to_text(period));
   user.period = period;
-  user.site = word_argument("site", site, site_words());
+  user.site = enum_argument("site", site, site_names());
   for (auto& [parameter, unit] :
        items_argument<std::string>("parameters", parameters, "a dict of name to unit")) {
     const double scale = value_or_default(scales, parameter, kTypicalSize);

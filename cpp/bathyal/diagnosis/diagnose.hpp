@@ -41,9 +41,9 @@ struct Diagnosis {
   std::vector<NamedEffect> effects;  ///< those that explain most first; partial when unknown
   std::vector<Cause> ambiguous;      ///< all causes among which these data cannot choose
   RowMatrix next_poses;              ///< (m, n) poses that would tell them apart
-  std::vector<Structure> shown;      ///< in the residuals of geometry alone, beyond noise;
-                                     ///< where none is, the least unlikely of all
-  Structure leftover;                ///< beside all that was named; size 0 when nothing
+  std::vector<Structure> lack_of_fit_before;  ///< in the residuals of geometry alone, beyond noise;
+                                              ///< where none is, the least unlikely of all
+  Structure unexplained;                      ///< beside all that was named; size 0 when nothing
   HeldOut held_out;
   double gain = 0.0;               ///< (r₀² - r₁²) / (r₀² - σ²) of held-out rms
   ArmFit fit;                      ///< geometry alone

@@ -33,16 +33,16 @@ struct Estimate {
 /// A cause by name: what lists of rivals hold.
 struct Cause {
   std::string name;
-  int joint = -1;     ///< coordinate, or -1
-  std::string words;  ///< "a harmonic of order 2 along joint 3"
-  double odds = 1.0;  ///< against the best explanation, in (0, 1]
+  int joint = -1;           ///< coordinate, or -1
+  std::string description;  ///< "a harmonic of order 2 along joint 3"
+  double odds = 1.0;        ///< against the best explanation, in (0, 1]
 };
 
 /// A cause that was found, and its evidence.
 struct NamedEffect {
   std::string name;
   int joint = -1;
-  std::string words;
+  std::string description;
   std::vector<Estimate> parameters;
   std::vector<int> rows;  ///< of `outliers`: the rows
   double size = 0.0;      ///< rms of what it moves beside all else that was fitted, per axis [m]
@@ -50,17 +50,17 @@ struct NamedEffect {
   double held_out_before = 0.0;  ///< rms (3-D) on data not used, without it [m]
   double held_out_after = 0.0;   ///< with it [m]
   double p_value = 1.0;          ///< of its F test within the set, corrected for all that was tried
-  std::vector<Cause> rivals;     ///< the best other explanations of what it explains
+  std::vector<Cause> alternatives;  ///< the best other explanations of what it explains
 };
 
 /// A dependence of the residuals, which chance may make or not.
 struct Structure {
-  std::string against;   ///< "joint 3", "position", "time, period 12.1 s", "joints 2 and 3"
-  std::string words;     ///< a sentence
-  double size = 0.0;     ///< rms of it, per axis, noise taken out [m]
-  double share = 0.0;    ///< of the residuals' variance, noise taken out
-  double p_value = 1.0;  ///< corrected for all that were asked
-  bool is_beyond_noise() const { return p_value <= kBeyondNoise; }
+  std::string against;      ///< "joint 3", "position", "time, period 12.1 s", "joints 2 and 3"
+  std::string description;  ///< a sentence
+  double size = 0.0;        ///< rms of it, per axis, noise taken out [m]
+  double share = 0.0;       ///< of the residuals' variance, noise taken out
+  double p_value = 1.0;     ///< corrected for all that were asked
+  bool is_beyond_noise() const { return p_value <= selection::kBeyondNoise; }
 };
 
 /// What was held out, and how well it was foretold.

@@ -103,8 +103,8 @@ TEST(Diagnose, CallsSessionsAsTheRecordDoes) {
   const Diagnosis found = diagnose(six_joints(), data);
   ASSERT_EQ(found.effects.size(), 1u);
   EXPECT_EQ(found.effects[0].name, "base_shift");
-  EXPECT_NE(found.effects[0].words.find("from session 20261121 on"), std::string::npos)
-      << found.effects[0].words;
+  EXPECT_NE(found.effects[0].description.find("from session 20261121 on"), std::string::npos)
+      << found.effects[0].description;
   ASSERT_GE(found.held_out.parts.size(), 2u);
   EXPECT_EQ(found.held_out.parts[0].name, "session 7");
   EXPECT_EQ(found.held_out.parts[1].name, "session 20261121");

@@ -11,7 +11,7 @@
 #include "bathyal/base/text.hpp"
 #include "bathyal/effects/gravity_load.hpp"
 
-namespace bathyal {
+namespace bathyal::diagnosis {
 namespace {
 
 using Effects = std::vector<std::shared_ptr<const Effect>>;
@@ -44,7 +44,7 @@ std::string instead_of(const std::string& covariate) {
   return found == known.end() ? "" : "; " + found->second;
 }
 
-void doubt_missing(const EffectData& data, const Effects& effects, Sentences& out) {
+void check_missing(const EffectData& data, const Effects& effects, Sentences& out) {
   for (const auto& [name, values] : data.covariates) {
     const auto missing = static_cast<Index>(
         std::count_if(values.rowwise().begin(), values.rowwise().end(),
@@ -61,11 +61,11 @@ void doubt_missing(const EffectData& data, const Effects& effects, Sentences& ou
 
 /// Of gravity and sessions it is no news. A load that never changes still weighs on an arm whose
 /// masses are known.
-void doubt_constant(const EffectData& data, Sentences& out) {
+void check_constant(const EffectData& data, Sentences& out) {
   for (const auto& [name, values] : data.covariates) {
-    const bool told =
+    const bool expected =
         name == "gravity" || name == "session" || (name == "payload" && masses_known(*data.arm));
-    if (told || data.rows() < 2 || !data.has(name)) continue;
+    if (expected || data.rows() < 2 || !data.has(name)) continue;
     if ((values.rowwise() - values.row(0)).cwiseAbs().maxCoeff() > 0.0) continue;
     out.push_back("`" + name +
                   "` is the same in all rows: what goes with it cannot be told from the rest of "
@@ -82,7 +82,7 @@ std::map<double, std::vector<int>> rows_by_session(const EffectData& data) {
   return out;
 }
 
-void doubt_time(const EffectData& data, Sentences& out) {
+void check_time(const EffectData& data, Sentences& out) {
   if (!data.has("time")) return;
   const RowMatrix& time = data.covariate("time");
   std::vector<int> back;
@@ -113,7 +113,7 @@ void doubt_time(const EffectData& data, Sentences& out) {
   }
 }
 
-void doubt_sessions(const EffectData& data, Sentences& out) {
+void check_sessions(const EffectData& data, Sentences& out) {
   if (!data.has("session")) return;
   const auto sessions = rows_by_session(data);
   const auto few = std::count_if(sessions.begin(), sessions.end(), [](const auto& session) {
@@ -126,7 +126,7 @@ void doubt_sessions(const EffectData& data, Sentences& out) {
                 " fewer than three rows: whether base or tool moved there cannot be seen.");
 }
 
-void doubt_own_effects(const EffectData& data, const Effects& effects, Sentences& out) {
+void check_own_effects(const EffectData& data, const Effects& effects, Sentences& out) {
   std::set<std::string> library;
   for (const auto& effect : library_effects()) library.insert(effect->info().name);
   for (const auto& effect : effects) {
@@ -142,14 +142,14 @@ void doubt_own_effects(const EffectData& data, const Effects& effects, Sentences
 
 }  // namespace
 
-std::vector<std::string> doubt_record(const EffectData& data, const Effects& effects) {
+std::vector<std::string> check_record(const EffectData& data, const Effects& effects) {
   Sentences out;
-  doubt_missing(data, effects, out);
-  doubt_constant(data, out);
-  doubt_time(data, out);
-  doubt_sessions(data, out);
-  doubt_own_effects(data, effects, out);
+  check_missing(data, effects, out);
+  check_constant(data, out);
+  check_time(data, out);
+  check_sessions(data, out);
+  check_own_effects(data, effects, out);
   return out;
 }
 
-}  // namespace bathyal
+}  // namespace bathyal::diagnosis

@@ -7,7 +7,7 @@
 #include <memory>
 #include <numbers>
 
-namespace bathyal {
+namespace bathyal::diagnosis {
 namespace {
 
 using Functions = Eigen::MatrixXd;  ///< (N, k) a function of something in each column
@@ -51,9 +51,9 @@ Functions products(const Functions& a, const Functions& b) {
   return out;
 }
 
-class ProbeMaker {
+class LackOfFitTermMaker {
  public:
-  ProbeMaker(const EffectData& data, const Eigen::Matrix3Xd& position)
+  LackOfFitTermMaker(const EffectData& data, const Eigen::Matrix3Xd& position)
       : data_(data), position_(position) {
     for (const Joint& joint : data.arm->joints()) {
       if (joint.type == JointType::kFixed ||
@@ -67,14 +67,14 @@ class ProbeMaker {
     if (data.has("time")) when_ = data.covariate("time").col(0);
   }
 
-  std::vector<Probe> make() {
+  std::vector<LackOfFitTerm> make() {
     if (position_.cols() > 0) of_position();
     of_joints();
     of_pairs();
     of_time();
     of_approach();
     of_covariates();
-    return std::move(probes_);
+    return std::move(lack_of_fit_terms_);
   }
 
  private:
@@ -93,36 +93,37 @@ class ProbeMaker {
     return out;
   }
 
-  void along_axes(std::string against, std::string words, Axes axes, double trials,
+  void along_axes(std::string against, std::string description, Axes axes, double multiplicity,
                   std::function<Functions()> functions, int family = -1) {
     const int frame = axes == Axes::kBase ? 0 : static_cast<int>(data_.arm->joints().size()) + 1;
-    probes_.push_back({std::move(against), std::move(words), family, trials,
-                       [frame, functions = std::move(functions)] {
-                         const Functions f = functions();
-                         std::vector<Perturbation> out;
-                         for (Eigen::Index c = 0; c < f.cols(); ++c) {
-                           for (int axis = 0; axis < 3; ++axis) {
-                             Perturbation perturbation{PerturbationSite::kFrame, frame,
-                                                       RowMatrix::Zero(f.rows(), 6)};
-                             perturbation.values.col(axis) = f.col(c);
-                             out.push_back(std::move(perturbation));
-                           }
-                         }
-                         return out;
-                       }});
+    lack_of_fit_terms_.push_back({std::move(against), std::move(description), family, multiplicity,
+                                  [frame, functions = std::move(functions)] {
+                                    const Functions f = functions();
+                                    std::vector<Perturbation> out;
+                                    for (Eigen::Index c = 0; c < f.cols(); ++c) {
+                                      for (int axis = 0; axis < 3; ++axis) {
+                                        Perturbation perturbation{PerturbationSite::kFrame, frame,
+                                                                  RowMatrix::Zero(f.rows(), 6)};
+                                        perturbation.values.col(axis) = f.col(c);
+                                        out.push_back(std::move(perturbation));
+                                      }
+                                    }
+                                    return out;
+                                  }});
   }
 
-  void on_joint(std::string against, std::string words, int joint, double trials,
+  void on_joint(std::string against, std::string description, int joint, double multiplicity,
                 std::function<Functions()> functions, int family = -1) {
-    probes_.push_back({std::move(against), std::move(words), family, trials,
-                       [joint, functions = std::move(functions)] {
-                         const Functions f = functions();
-                         std::vector<Perturbation> out;
-                         for (Eigen::Index c = 0; c < f.cols(); ++c) {
-                           out.push_back({PerturbationSite::kJoint, joint, RowMatrix(f.col(c))});
-                         }
-                         return out;
-                       }});
+    lack_of_fit_terms_.push_back(
+        {std::move(against), std::move(description), family, multiplicity,
+         [joint, functions = std::move(functions)] {
+           const Functions f = functions();
+           std::vector<Perturbation> out;
+           for (Eigen::Index c = 0; c < f.cols(); ++c) {
+             out.push_back({PerturbationSite::kJoint, joint, RowMatrix(f.col(c))});
+           }
+           return out;
+         }});
   }
 
   void of_position() {
@@ -201,7 +202,7 @@ class ProbeMaker {
   /// Up to one period in two poses, in steps that a recording of this length tells apart.
   void of_periods() {
     const double whole = when_.maxCoeff() - when_.minCoeff();
-    const int count = static_cast<int>(std::min<Index>(data_.rows(), kMostPeriods));
+    const int count = static_cast<int>(std::min<Index>(data_.rows(), kMaxPeriods));
     const int n = static_cast<int>(data_.q.cols());
     const double most = static_cast<double>(data_.rows()) / 2.0;
     for (int site = -1; site < n; ++site) {
@@ -277,7 +278,7 @@ class ProbeMaker {
     std::vector<double> names(session.data(), session.data() + session.size());
     std::sort(names.begin(), names.end());
     names.erase(std::unique(names.begin(), names.end()), names.end());
-    if (names.size() < 2 || names.size() > kMostSessions) return;
+    if (names.size() < 2 || names.size() > kMaxSessions) return;
     const int n = static_cast<int>(data_.q.cols());
     for (int j = 0; j < n; ++j) {
       on_joint("session", "a zero of joint " + number(j) + " that is another in each session", j, n,
@@ -292,28 +293,29 @@ class ProbeMaker {
     }
   }
 
-  static constexpr Index kMostPeriods = 400;
-  static constexpr std::size_t kMostSessions = 20;
+  static constexpr Index kMaxPeriods = 400;
+  static constexpr std::size_t kMaxSessions = 20;
 
   const EffectData& data_;
   const Eigen::Matrix3Xd position_;
   std::vector<bool> slides_;
   Eigen::VectorXd when_;
-  std::vector<Probe> probes_;
+  std::vector<LackOfFitTerm> lack_of_fit_terms_;
 };
 
 }  // namespace
 
-std::vector<Probe> make_probes(const EffectData& data, const Eigen::Matrix3Xd& position) {
-  auto maker = std::make_shared<ProbeMaker>(data, position);
-  std::vector<Probe> probes = maker->make();
-  for (Probe& probe : probes) {
+std::vector<LackOfFitTerm> make_lack_of_fit_terms(const EffectData& data,
+                                                  const Eigen::Matrix3Xd& position) {
+  auto maker = std::make_shared<LackOfFitTermMaker>(data, position);
+  std::vector<LackOfFitTerm> probes = maker->make();
+  for (LackOfFitTerm& term : probes) {
     // The maker's arrays live as long as any probe.
-    probe.perturbations = [maker, perturbations = std::move(probe.perturbations)] {
+    term.perturbations = [maker, perturbations = std::move(term.perturbations)] {
       return perturbations();
     };
   }
   return probes;
 }
 
-}  // namespace bathyal
+}  // namespace bathyal::diagnosis

@@ -10,21 +10,22 @@
 // Ways in which an arm's residuals may have structure that is no cause: what they depend on. For
 // use inside the room.
 
-namespace bathyal {
+namespace bathyal::diagnosis {
 
 /// Actions that show a dependence on something.
-struct Probe {
-  std::string against;  ///< "joints 2 and 3"
-  std::string words;    ///< "what moves joint 4 with joints 2 and 3 together"
+struct LackOfFitTerm {
+  std::string against;      ///< "joints 2 and 3"
+  std::string description;  ///< "what moves joint 4 with joints 2 and 3 together"
   /// Probes of one family are alternatives over one number (a period), in its order; else -1.
   int family = -1;
-  double trials = 1.0;
+  double multiplicity = 1.0;
   std::function<std::vector<Perturbation>()> perturbations;  ///< one for each column
 };
 
 /// All that can be asked of these data. `position` (3, N) is where the model has the tips, in
 /// the arm's base frame; without columns where a field over space could not be seen, as at touched
 /// points that are free. `data` must outlive the probes.
-std::vector<Probe> make_probes(const EffectData& data, const Eigen::Matrix3Xd& position);
+std::vector<LackOfFitTerm> make_lack_of_fit_terms(const EffectData& data,
+                                                  const Eigen::Matrix3Xd& position);
 
-}  // namespace bathyal
+}  // namespace bathyal::diagnosis

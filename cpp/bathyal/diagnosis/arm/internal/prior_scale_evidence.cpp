@@ -8,15 +8,15 @@
 
 // The sizes that values of one kind are held to, learned from the data.
 
-namespace bathyal {
+namespace bathyal::diagnosis {
 namespace {
 
-constexpr std::size_t kRigid = 6;     ///< values of a rigid motion: more of a kind are learned
-constexpr double kSizeSettled = 0.2;  ///< relative
-constexpr int kSizeRounds = 40;
-constexpr double kSizeFound = 0.02;   ///< relative, of sizes and noise where the model is linear
-constexpr double kNoiseFound = 5e-3;  ///< relative
-constexpr double kLeastSize = 1e-3;   ///< of what the effect's description calls plausible
+constexpr std::size_t kRigid = 6;      ///< values of a rigid motion: more of a kind are learned
+constexpr double kScaleSettled = 0.2;  ///< relative
+constexpr int kScaleRounds = 40;
+constexpr double kScaleFound = 0.02;     ///< relative, of sizes and noise where the model is linear
+constexpr double kNoiseFound = 5e-3;     ///< relative
+constexpr double kMinPriorScale = 1e-3;  ///< of what the effect's description calls plausible
 
 /// Where the model is linear: values of effects beside all else, with normal priors about 0.
 class LinearEffects {
@@ -29,10 +29,10 @@ class LinearEffects {
   void solve() { found_ = root().solve(-told_.col(last_).head(last_) / (noise_ * noise_)); }
 
   /// The noise that the values leave; by how much it is another, relative.
-  double refine_noise(double freedom) {
+  double refine_noise(double dof) {
     const double left = told_(last_, last_) + 2.0 * found_.dot(told_.col(last_).head(last_)) +
                         found_.dot(told_.topLeftCorner(last_, last_) * found_);
-    const double next = std::sqrt(std::max(left, 0.0) / freedom);
+    const double next = std::sqrt(std::max(left, 0.0) / dof);
     const double change = std::abs(next / noise_ - 1.0);
     noise_ = std::max(next, kLeastNoise);
     return change;
@@ -46,8 +46,8 @@ class LinearEffects {
 
   /// The size of the values at `places`, relative to what is plausible of them: Σ value² over the
   /// number of values that the data tell rather than the prior. By how much it is another.
-  double refine_size(const std::vector<Index>& places, const Eigen::VectorXd& spread,
-                     double& size) {
+  double refine_scale(const std::vector<Index>& places, const Eigen::VectorXd& spread,
+                      double& size) {
     const auto values = found_.tail(weight_.size());
     double squares = 0.0, told = 0.0;
     for (const Index i : places) {
@@ -55,7 +55,7 @@ class LinearEffects {
       told += 1.0 - spread[i] * weight_[i];
     }
     const double old = size;
-    size = std::clamp(old * std::sqrt(squares / std::max(told, 1.0)), kLeastSize, 1.0);
+    size = std::clamp(old * std::sqrt(squares / std::max(told, 1.0)), kMinPriorScale, 1.0);
     for (const Index i : places) weight_[i] *= std::pow(old / size, 2);
     return std::abs(size / old - 1.0);
   }
@@ -77,13 +77,13 @@ class LinearEffects {
 
 }  // namespace
 
-/// Standing ones whose sizes can be learned: the places of their values among the effects'.
-std::map<ArmSubject::Family, std::vector<Index>> ArmSubject::large_families() const {
+/// ActiveSet ones whose sizes can be learned: the places of their values among the effects'.
+std::map<ArmModel::Family, std::vector<Index>> ArmModel::large_families() const {
   std::map<Family, std::vector<Index>> out;
   Index count = 0;
-  for (const int form : standing_) {
-    for (std::size_t i = 0; i < sources_[form].variant.parameters.size(); ++i) {
-      out[family_of(form)].push_back(count++);
+  for (const int term : active_) {
+    for (std::size_t i = 0; i < sources_[term].variant.parameters.size(); ++i) {
+      out[family_of(term)].push_back(count++);
     }
   }
   std::erase_if(out, [](const auto& family) { return family.second.size() <= kRigid; });
@@ -92,11 +92,11 @@ std::map<ArmSubject::Family, std::vector<Index>> ArmSubject::large_families() co
 
 /// Squares of all that moves and of the misfit about effects of 0, where the model is as at `x`, by
 /// the data alone. `weight`: what the system holds effects' values with.
-Eigen::MatrixXd ArmSubject::told_by_data(const Eigen::VectorXd& x,
-                                         const Eigen::VectorXd& weight) const {
+Eigen::MatrixXd ArmModel::data_normal_equations(const Eigen::VectorXd& x,
+                                                const Eigen::VectorXd& weight) const {
   const ArmResiduals& system = *problem_.system;
   const Eigen::VectorXd y = system.scaled(x);
-  const Eigen::MatrixXd to_free = moves();
+  const Eigen::MatrixXd to_free = admissible_changes();
   const Index wide = to_free.rows(), last = to_free.cols(), effects = weight.size();
   Eigen::MatrixXd to_all = Eigen::MatrixXd::Zero(wide + 1, last + 1);
   to_all.topLeftCorner(wide, last) = to_free;
@@ -117,38 +117,38 @@ Eigen::MatrixXd ArmSubject::told_by_data(const Eigen::VectorXd& x,
 /// directions that the data hardly tell. They are held to the size that the others show, by the
 /// evidence (MacKay 1992). Sizes, noise and values are found together where the model is as at `x`,
 /// so that no fit sets out with sizes at which weak directions run off to where it is another.
-bool ArmSubject::learn_sizes(const Eigen::VectorXd& x) {
+bool ArmModel::learn_prior_scales(const Eigen::VectorXd& x) {
   const auto families = large_families();
   if (families.empty()) return false;
   std::vector<Parameter>& columns = problem_.parameters.parameters;
-  Eigen::VectorXd weight(problem_.system->columns() - held_.rows());
+  Eigen::VectorXd weight(problem_.system->columns() - observable_.rows());
   for (Index i = 0; i < weight.size(); ++i) {
     const Parameter& column = columns[geometry_ + static_cast<std::size_t>(i)];
     weight[i] = std::pow(column.scale / column.prior_std, 2);
   }
-  LinearEffects model(told_by_data(x, weight), weight);
-  const double freedom = free_rows().sum() - static_cast<double>(held_.cols() + weight.size());
-  const bool noise_is_free = !problem_.options.noise && freedom > 0.5;
+  LinearEffects model(data_normal_equations(x, weight), weight);
+  const double dof = free_rows().sum() - static_cast<double>(observable_.cols() + weight.size());
+  const bool noise_is_free = !problem_.options.noise && dof > 0.5;
   std::map<Family, double> sizes;
   for (const auto& [family, places] : families) {
-    sizes[family] = sizes_.try_emplace(family, 1.0).first->second;
+    sizes[family] = prior_scales_.try_emplace(family, 1.0).first->second;
   }
-  for (int round = 0; round < kSizeRounds; ++round) {
+  for (int round = 0; round < kScaleRounds; ++round) {
     model.solve();
-    const double change = noise_is_free ? model.refine_noise(freedom) : 0.0;
-    if (change > kSizeFound) continue;  // with too much noise, all sizes look like none
+    const double change = noise_is_free ? model.refine_noise(dof) : 0.0;
+    if (change > kScaleFound) continue;  // with too much noise, all sizes look like none
     bool settled = change < kNoiseFound;
     const Eigen::VectorXd spread = model.spread();
     for (const auto& [family, places] : families) {
-      settled = model.refine_size(places, spread, sizes[family]) < kSizeFound && settled;
+      settled = model.refine_scale(places, spread, sizes[family]) < kScaleFound && settled;
     }
     if (settled) break;
   }
   bool learned = false;
   for (const auto& [family, places] : families) {
-    double& size = sizes_[family];
+    double& size = prior_scales_[family];
     const double change = sizes[family] / size;
-    if (std::abs(change - 1.0) < kSizeSettled) continue;
+    if (std::abs(change - 1.0) < kScaleSettled) continue;
     learned = true;
     size = sizes[family];
     for (const Index i : places) {
@@ -158,4 +158,4 @@ bool ArmSubject::learn_sizes(const Eigen::VectorXd& x) {
   return learned;
 }
 
-}  // namespace bathyal
+}  // namespace bathyal::diagnosis

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <vector>
 
-namespace bathyal {
+namespace bathyal::diagnosis {
 namespace {
 
-constexpr double kLeastStep = 1e-5;  ///< [rad]; finer ones move no tip by what can be measured
+constexpr double kMinStep = 1e-5;  ///< [rad]; finer ones move no tip by what can be measured
 constexpr double kDigitTolerance =
     2e-8;                        ///< [rad] that Euclid's steps may make of a value's last digits
 constexpr double kWhole = 1e-2;  ///< how far from a whole number a multiple may lie
@@ -43,13 +43,13 @@ double common_measure(double a, double b, double tolerance) {
 
 }  // namespace
 
-double logged_step(const RowMatrix& q, const Arm& arm) {
+double quantisation_step(const RowMatrix& q, const Arm& arm) {
   const std::vector<double> values = sizes(q, arm);
   if (values.size() < kFewest) return 0.0;
   double step = values.front();
   for (const double value : values) {
     step = common_measure(value, step, kDigitTolerance);
-    if (step < kLeastStep) return 0.0;
+    if (step < kMinStep) return 0.0;
   }
   // The smallest value knows the step with its own rounding only: larger ones sharpen it.
   for (const double value : values) {
@@ -63,4 +63,4 @@ double logged_step(const RowMatrix& q, const Arm& arm) {
   return step;
 }
 
-}  // namespace bathyal
+}  // namespace bathyal::diagnosis
