@@ -28,7 +28,20 @@ _LONG = ("residuals_before_m", "residuals_after_m")  # a number a row: of files,
 @dataclass(frozen=True)
 class Diagnosed:
     """A diagnosis with everything it was made from; `write` makes the files of
-    `bathyal diagnose`."""
+    `bathyal diagnose`.
+
+    Attributes
+    ----------
+    nominal : Arm
+        The arm before identification.
+    data : Touches or Tracked
+        What was read.
+    report : Diagnosis
+    settings : dict
+        Options that were given.
+    provenance : dict
+        Version, arm and files.
+    """
 
     nominal: Arm
     data: Touches | Tracked

@@ -38,7 +38,20 @@ _MOST_NAMES = 6
 @dataclass(frozen=True)
 class Identification:
     """An arm that was identified, with everything it was found from; `write` makes the files of
-    `bathyal identify`."""
+    `bathyal identify`.
+
+    Attributes
+    ----------
+    nominal : Arm
+        The arm before identification.
+    data : Touches or Tracked
+        What was read.
+    fit : ArmFit
+    settings : dict
+        Options that were given.
+    provenance : dict
+        Version, arm and files.
+    """
 
     nominal: Arm
     data: Touches | Tracked

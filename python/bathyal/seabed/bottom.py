@@ -34,15 +34,24 @@ EITHER_SUFFIXES = (".ply", ".vtp")
 
 @dataclass(frozen=True)
 class Bottom:
-    """What a path is planned on, and how it came about.
+    """What a path is planned on, and how it was made.
 
+    Attributes
+    ----------
     surface : Scene or Plane
+        What rays and sections meet, in the frame of the survey [m], z up.
     mesh : TriangleMesh or None
         None where the bottom is a plane.
     soundings : int
         How many the bottom rests on; 0 for a mesh that was given.
-    settings, provenance : dict
-        Options that were given, and what was read and dropped.
+    crs, vertical_datum : str
+        Reference systems of x, y and of z; empty if unknown.
+    settings : dict
+        Options that were given.
+    provenance : dict
+        What was read and dropped.
+    warnings : list of str
+        What a person should know before a path is planned on it.
     """
 
     surface: Scene | Plane

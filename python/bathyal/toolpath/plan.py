@@ -25,7 +25,22 @@ from bathyal.toolpath.aims import read_axes
 
 @dataclass(frozen=True)
 class Plan:
-    """A tool path with everything it was made from; `write` makes the files of `bathyal plan`."""
+    """A tool path with everything it was made from; `write` makes the files of `bathyal plan`.
+
+    Attributes
+    ----------
+    bottom : Bottom
+        What the path was planned on.
+    aims : (N, 6) array
+        Camera axes: position [m] and direction of each, in the frame of the survey.
+    path : ToolPath
+    settings : dict
+        Options that were given.
+    provenance : dict
+        What was read.
+    seconds : dict of str to float
+        Time that each stage took [s].
+    """
 
     bottom: Bottom
     aims: NDArray[np.float64]
