@@ -89,7 +89,7 @@ def pair_figure(report: Diagnosis) -> Figure | None:
     return figure
 
 
-def left_figure(report: Diagnosis) -> Figure | None:
+def residual_figure(report: Diagnosis) -> Figure | None:
     """The same with the causes taken out, on a scale of its own; None where none were."""
     if not report.effects and not report.ambiguous:
         return None

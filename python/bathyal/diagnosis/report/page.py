@@ -23,8 +23,8 @@ from bathyal.diagnosis.report.figure import (
     curve_figure,
     curves_of,
     gain_figure,
-    left_figure,
     pair_figure,
+    residual_figure,
     show_figure,
     support_figure,
 )
@@ -102,7 +102,7 @@ def write_page(
         beyond=_beyond(report),
         held=html.escape(_held(report)),
         parts=_parts(report),
-        left=_left(report),
+        residuals=_residuals(report),
         poses=_poses(report),
         **{f"{name}_picture": drawing for name, drawing in drawings.items()},
     )
@@ -121,7 +121,7 @@ _DRAWINGS: dict[str, tuple[str, Callable[[Any], Figure | None]]] = {
         support_figure,
     ),
     "gain": ("error on data held out, before and after", gain_figure),
-    "left": ("residuals with the causes taken out", left_figure),
+    "residuals": ("residuals with the causes taken out", residual_figure),
 }
 
 
@@ -262,7 +262,7 @@ def _held(report: Diagnosis) -> str:
     return sentence(report.held_out.how or "No data could be held out")
 
 
-def _left(report: Diagnosis) -> str:
+def _residuals(report: Diagnosis) -> str:
     if not report.effects and not report.ambiguous:
         return ""
     return (

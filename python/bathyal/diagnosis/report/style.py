@@ -93,8 +93,8 @@ speaks.</p>
 <p>{held}</p>
 {gain_picture}
 {parts}
-{left}
-{left_picture}
+{residuals}
+{residuals_picture}
 {poses}
 </body>
 </html>
