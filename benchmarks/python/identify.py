@@ -137,9 +137,9 @@ def main() -> None:
     print(
         "The whole of `identify_arm`, one thread: start, what can be determined, search, "
         "covariance, checks, report. SciPy's `least_squares` as it comes, on a residual that NumPy "
-        "computes for all touches at once: left to itself with all parameters, given which of them base and "
-        "tool leave, and given exact derivatives of those. One length is held: all minimise "
-        "the same.\n"
+        "computes for all touches at once: left to itself with all parameters, given which of "
+        "them base and tool leave, and given exact derivatives of those. One length is held: all "
+        "minimise the same.\n"
     )
     print(touches_row(options.rounds))
     print(tracked_row(options.data / SERIES_A, max(3, options.rounds // 3)))

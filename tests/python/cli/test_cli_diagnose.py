@@ -155,7 +155,7 @@ def test_a_table_for_each_session(tmp_path, capsys, asked, undrawn):
     assert session.tolist() == [0] * 100 + [1] * 140
     code, _, err = run(capsys, "diagnose", *files, *options, "--session", "run")
     assert code == 1
-    assert "expected one file where a column tells the sessions, got 2 files" in err
+    assert "expected one file where a column gives the sessions, got 2 files" in err
 
 
 def test_columns_by_name(tmp_path, capsys, asked, undrawn):
