@@ -36,7 +36,7 @@ void add_copies(py::class_<Arm>& cls) {
 }
 
 void add_properties(py::class_<Arm>& cls) {
-  cls.def_property_readonly("name", &Arm::name)
+  cls.def_property_readonly("name", &Arm::name, "For people; may be empty.")
       .def_property_readonly("source", &Arm::source, "Where the numbers come from.")
       .def_property_readonly("size", &Arm::size, "Number of coordinates n, the width of every q.")
       .def_property_readonly(

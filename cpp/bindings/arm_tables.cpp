@@ -96,7 +96,7 @@ void bind_link(py::module_& module) {
            py::arg("inertia") = py::none(), py::arg("volume") = Link().body.volume,
            py::arg("center_of_buoyancy") = py::make_tuple(0, 0, 0), py::arg("frame") = py::none(),
            py::arg("collision") = std::vector<Shape>(), py::arg("visual") = std::vector<Shape>())
-      .def_readonly("name", &Link::name)
+      .def_readonly("name", &Link::name, "As the file of the arm calls it; may be empty.")
       .def_readonly("body", &Link::body, "The RigidBody in the link's frame.")
       .def_property_readonly(
           "mass", [](const Link& l) { return l.body.mass; }, "[kg]; 0 is unknown.")

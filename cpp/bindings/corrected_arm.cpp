@@ -256,7 +256,8 @@ void add_rigid_part(py::class_<CorrectedArm>& cls) {
   cls.def_property_readonly(
          "arm", [](const CorrectedArm& m) { return m.arm(); },
          "Arm: a copy of the rigid part, for uses without effects (its .to_urdf()).")
-      .def_property_readonly("name", [](const CorrectedArm& m) { return m.arm().name(); })
+      .def_property_readonly(
+          "name", [](const CorrectedArm& m) { return m.arm().name(); }, "Of the rigid arm.")
       .def_property_readonly(
           "source", [](const CorrectedArm& m) { return m.arm().source(); },
           "Where the numbers come from.")

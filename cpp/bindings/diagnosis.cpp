@@ -37,9 +37,10 @@ std::string on_joint(int joint) { return joint < 0 ? "" : ", joint=" + std::to_s
 
 void bind_diagnosis_parts(py::module_& module) {
   py::class_<Estimate>(module, "Estimate", kEstimateDoc)
-      .def_readonly("name", &Estimate::name)
-      .def_readonly("value", &Estimate::value)
-      .def_readonly("unit", &Estimate::unit)
+      .def_readonly("name", &Estimate::name, "Of the parameter.")
+      .def_readonly("value", &Estimate::value, "In `unit`.")
+      .def_readonly("unit", &Estimate::unit,
+                    "\"rad\", \"m\", …; empty of a setting, which has none.")
       .def_readonly("std", &Estimate::std, "0 of what was counted or chosen, not measured.")
       .def_property_readonly(
           "interval", [](const Estimate& e) { return py::make_tuple(e.low, e.high); },
@@ -50,18 +51,22 @@ void bind_diagnosis_parts(py::module_& module) {
         return "Estimate(" + e.name + "=" + to_text(e.value) + " " + e.unit + ", " +
                to_text(e.low) + " to " + to_text(e.high) + ")";
       });
-  py::class_<Cause>(module, "Cause", "A cause by name, as lists of rivals hold it.")
-      .def_readonly("name", &Cause::name)
-      .def_property_readonly("joint", [](const Cause& c) { return joint_or_none(c.joint); })
-      .def_readonly("words", &Cause::description)
+  py::class_<Cause>(module, "Cause", "A cause by name, as lists of alternatives hold it.")
+      .def_readonly("name", &Cause::name, "Of the effect.")
+      .def_property_readonly(
+          "joint", [](const Cause& c) { return joint_or_none(c.joint); },
+          "Counted from 0; None of an effect of the whole arm.")
+      .def_readonly("words", &Cause::description,
+                    "Description, as \"a harmonic of order 2 along joint 3\".")
       .def_readonly("odds", &Cause::odds, "Against the best explanation, 0 to 1.")
       .def("__repr__", [](const Cause& c) { return "Cause(" + c.name + on_joint(c.joint) + ")"; });
   py::class_<NamedEffect>(module, "NamedEffect", kNamedEffectDoc)
-      .def_readonly("name", &NamedEffect::name)
+      .def_readonly("name", &NamedEffect::name, "Of the effect.")
       .def_property_readonly(
           "joint", [](const NamedEffect& e) { return joint_or_none(e.joint); },
           "Coordinate in error, from 0, or None.")
-      .def_readonly("words", &NamedEffect::description)
+      .def_readonly("words", &NamedEffect::description,
+                    "Description, as \"a harmonic of order 2 along joint 3\".")
       .def_property_readonly(
           "parameters",
           [](const NamedEffect& e) {
@@ -86,8 +91,9 @@ void bind_diagnosis_parts(py::module_& module) {
            [](const NamedEffect& e) { return "NamedEffect(" + e.name + on_joint(e.joint) + ")"; });
   module.attr("BEYOND_NOISE") = selection::kBeyondNoise;
   py::class_<Structure>(module, "Structure", "A dependence of residuals, made by chance or not.")
-      .def_readonly("against", &Structure::against)
-      .def_readonly("words", &Structure::description)
+      .def_readonly("against", &Structure::against,
+                    "What the residuals depend on, as \"joint 3\" or \"position\".")
+      .def_readonly("words", &Structure::description, "Description, a sentence.")
       .def_readonly("size", &Structure::size, "rms per axis, noise taken out [m].")
       .def_readonly("share", &Structure::share, "Of the residuals' variance, noise taken out.")
       .def_readonly("p_value", &Structure::p_value, "Corrected for all that was asked.")
@@ -101,18 +107,19 @@ void bind_diagnosis_parts(py::module_& module) {
 
 void bind_held_out(py::module_& module) {
   py::class_<HeldOut::Part>(module, "HeldOutPart", "One session, or one touched point.")
-      .def_readonly("name", &HeldOut::Part::name)
-      .def_readonly("rows", &HeldOut::Part::rows)
+      .def_readonly("name", &HeldOut::Part::name, "As \"session 2\", \"point 0\" or \"all\".")
+      .def_readonly("rows", &HeldOut::Part::rows, "Number of its rows.")
       .def_readonly("rms_before", &HeldOut::Part::rms_before, "3-D [m].")
       .def_readonly("rms_after", &HeldOut::Part::rms_after, "3-D [m].");
   py::class_<HeldOut>(module, "HeldOut", "Errors of rows that were foretold by all others.")
       .def_readonly("how", &HeldOut::how, "What was held out at once.")
-      .def_readonly("blocks", &HeldOut::blocks)
+      .def_readonly("blocks", &HeldOut::blocks, "Number of folds.")
       .def_readonly("rms_before", &HeldOut::rms_before, "Geometry alone, 3-D [m].")
       .def_readonly("rms_after", &HeldOut::rms_after, "With the effects, 3-D [m].")
       .def_readonly("noise", &HeldOut::noise, "Floor, 3-D [m].")
       .def_readonly("p_value", &HeldOut::p_value, "That the gain is luck, over the blocks.")
-      .def_readonly("parts", &HeldOut::parts)
+      .def_readonly("parts", &HeldOut::parts,
+                    "Errors by session, station or point: HeldOutPart of each.")
       .def_property_readonly(
           "before", [](const HeldOut& h) { return to_numpy(h.before); },
           "(N,) geometry alone [m]; NaN of outliers.")
@@ -142,20 +149,22 @@ void bind_result(py::module_& module) {
             const bool none = d.next_poses.rows() == 0;  // of whatever width
             return to_numpy(none ? RowMatrix(0, d.arm.size()) : RowMatrix(d.next_poses));
           },
-          "(m, n) poses that would tell them apart [rad or m].")
+          "(m, n) poses that would distinguish them [rad or m].")
       .def_readonly("shown", &Diagnosis::lack_of_fit_before,
                     "Structure in the residuals of geometry alone, likeliest first: what is beyond "
                     "noise; where nothing is, the least unlikely.")
       .def_readonly("leftover", &Diagnosis::unexplained,
-                    "Structure beside all that was named; its size is 0 when there is none.")
-      .def_readonly("held_out", &Diagnosis::held_out)
+                    "Structure that remains with all named effects in the model; its size is 0 "
+                    "when there is none.")
+      .def_readonly("held_out", &Diagnosis::held_out,
+                    "HeldOut: errors of cross-validation, before and after.")
       .def_readonly("gain", &Diagnosis::gain, "(r0² - r1²) / (r0² - noise²) of held-out rms.")
       .def_readonly("fit", &Diagnosis::fit, "ArmFit: geometry alone.")
       .def_property_readonly(
           "model", [](const Diagnosis& d) { return CorrectedArm(d.arm, d.found, d.support); },
           "CorrectedArm: geometry and effects, with the support that taught them.")
       .def_readonly("noise", &Diagnosis::noise, "Standard deviation per axis [m].")
-      .def_readonly("noise_source", &Diagnosis::noise_source)
+      .def_readonly("noise_source", &Diagnosis::noise_source, "What `noise` was estimated from.")
       .def_readonly("detectable", &Diagnosis::detectable,
                     "Size of an effect that would have been found, per axis [m].")
       .def_property_readonly(

@@ -178,10 +178,10 @@ std::string effect_repr(const FoundEffect& found) {
 
 void bind_effect(py::module_& module) {
   py::class_<EffectInfo::Range>(module, "EffectRange", "Plausible sizes of a parameter.")
-      .def_readonly("parameter", &EffectInfo::Range::parameter)
-      .def_readonly("unit", &EffectInfo::Range::unit)
-      .def_readonly("low", &EffectInfo::Range::low)
-      .def_readonly("high", &EffectInfo::Range::high)
+      .def_readonly("parameter", &EffectInfo::Range::parameter, "Name of the parameter.")
+      .def_readonly("unit", &EffectInfo::Range::unit, "Of `low` and `high`.")
+      .def_readonly("low", &EffectInfo::Range::low, "Smallest plausible size, in `unit`.")
+      .def_readonly("high", &EffectInfo::Range::high, "Largest plausible size, in `unit`.")
       .def("__repr__", [](const EffectInfo::Range& range) {
         return "EffectRange(" + range.parameter + ", " + to_text(range.low) + " to " +
                to_text(range.high) + " " + range.unit + ")";
@@ -193,10 +193,13 @@ void bind_effect(py::module_& module) {
            py::arg("formula") = "", py::arg("source") = "",
            py::arg("scales") = std::map<std::string, double>{}, py::arg("by_difference") = false,
            py::arg("period") = std::numeric_limits<double>::infinity())
-      .def_property_readonly("name", [](const Effect& e) { return e.info().name; })
+      .def_property_readonly(
+          "name", [](const Effect& e) { return e.info().name; }, "As diagnosis names it.")
       .def_property_readonly(
           "words", [](const Effect& e) { return e.info().description; }, "Description.")
-      .def_property_readonly("formula", [](const Effect& e) { return e.info().formula; })
+      .def_property_readonly(
+          "formula", [](const Effect& e) { return e.info().formula; },
+          "What it adds, as text for people.")
       .def_property_readonly(
           "source", [](const Effect& e) { return e.info().source; }, "Paper or textbook.")
       .def_property_readonly(
@@ -218,7 +221,8 @@ void bind_found_effect(py::module_& module) {
            py::arg("joint") = py::none(), py::arg("settings") = std::map<std::string, double>{},
            py::arg("units") = std::map<std::string, std::string>{},
            py::arg("scales") = std::map<std::string, double>{}, py::arg("cause") = "")
-      .def_property_readonly("name", [](const FoundEffect& f) { return f.variant.effect; })
+      .def_property_readonly(
+          "name", [](const FoundEffect& f) { return f.variant.effect; }, "Of its effect.")
       .def_property_readonly(
           "effect", [](const FoundEffect& f) { return std::const_pointer_cast<Effect>(f.effect); },
           "The Effect itself.")
@@ -254,7 +258,9 @@ void bind_found_effect(py::module_& module) {
                 f, [&](std::size_t i) { return py::float_(f.variant.parameters[i].scale); });
           },
           "Name to a typical size.")
-      .def_property_readonly("cause", [](const FoundEffect& f) { return f.variant.alias_group; })
+      .def_property_readonly(
+          "cause", [](const FoundEffect& f) { return f.variant.alias_group; },
+          "Effects of one cause are descriptions of the same thing.")
       .def("__repr__", &effect_repr);
 }
 

@@ -143,8 +143,9 @@ void bind_plan(py::module_& module) {
           "(k, 3) positions of the points, world [m].")
       .def_readonly("known_distances", &TouchPlan::known_distances,
                     "Pairs of points whose distance is to be measured.")
-      .def_property_readonly("criterion",
-                             [](const TouchPlan& p) { return std::string(to_text(p.criterion)); })
+      .def_property_readonly(
+          "criterion", [](const TouchPlan& p) { return std::string(to_text(p.criterion)); },
+          "\"worst_tip\", \"d_optimal\" or \"o1\": what was optimised.")
       .def_readonly("value", &TouchPlan::value, "Of the criterion: worst_tip [m], ln det, or O1.")
       .def_readonly("forecast", &TouchPlan::forecast, "TouchForecast of these touches.")
       .def_property_readonly(

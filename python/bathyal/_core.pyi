@@ -102,7 +102,9 @@ class PointCloud:
         """
     @property
     def crs(self) -> str:
-        ...
+        """
+        Reference system of x and y, as its file gives it; empty if unknown.
+        """
     @property
     def points(self) -> numpy.ndarray:
         """
@@ -110,7 +112,9 @@ class PointCloud:
         """
     @property
     def vertical_datum(self) -> str:
-        ...
+        """
+        What z is measured from; empty if unknown.
+        """
 class TriangleMesh:
     """
     Vertices and the triangles over them.
@@ -160,7 +164,9 @@ class TriangleMesh:
         """
     @property
     def crs(self) -> str:
-        ...
+        """
+        Reference system of x and y, as its file gives it; empty if unknown.
+        """
     @property
     def triangles(self) -> numpy.ndarray:
         """
@@ -168,7 +174,9 @@ class TriangleMesh:
         """
     @property
     def vertical_datum(self) -> str:
-        ...
+        """
+        What z is measured from; empty if unknown.
+        """
     @property
     def vertices(self) -> numpy.ndarray:
         """
@@ -285,7 +293,9 @@ class MeshReport:
         """
     @property
     def triangle_count(self) -> int:
-        ...
+        """
+        Triangles of the mesh.
+        """
     @property
     def unused_vertices(self) -> int:
         """
@@ -293,7 +303,9 @@ class MeshReport:
         """
     @property
     def vertex_count(self) -> int:
-        ...
+        """
+        Vertices, used or not.
+        """
     @property
     def volume(self) -> float:
         """
@@ -301,7 +313,9 @@ class MeshReport:
         """
     @property
     def zero_area_triangles(self) -> int:
-        ...
+        """
+        Triangles whose area is 0.
+        """
 class RigidBody:
     """
     What a body weighs, how it resists turning, and the water it displaces.
@@ -476,7 +490,9 @@ class TextTable:
         ...
     @property
     def decimal(self) -> str:
-        ...
+        """
+        Decimal point or comma.
+        """
     @property
     def extra(self) -> list:
         """
@@ -494,7 +510,9 @@ class TextTable:
         """
     @property
     def separator(self) -> str:
-        ...
+        """
+        Character between two columns.
+        """
     @property
     def table(self) -> numpy.ndarray:
         """
@@ -514,10 +532,14 @@ class CleanReport:
         """
     @property
     def after(self) -> int:
-        ...
+        """
+        Soundings that remain.
+        """
     @property
     def before(self) -> int:
-        ...
+        """
+        Soundings given.
+        """
     @property
     def duplicates(self) -> int:
         """
@@ -530,7 +552,9 @@ class CleanReport:
         """
     @property
     def outliers(self) -> int:
-        ...
+        """
+        Dropped as outliers.
+        """
     @property
     def same_place(self) -> int:
         """
@@ -538,10 +562,14 @@ class CleanReport:
         """
     @property
     def same_place_dropped(self) -> int:
-        ...
+        """
+        Dropped as another depth at the same x, y.
+        """
     @property
     def spikes(self) -> int:
-        ...
+        """
+        Dropped as spikes.
+        """
     @property
     def thinned(self) -> int:
         """
@@ -588,7 +616,9 @@ class PlaneFit:
         """
     @property
     def inlier_count(self) -> int:
-        ...
+        """
+        Number of `inliers`.
+        """
     @property
     def inliers(self) -> numpy.ndarray:
         """
@@ -1301,7 +1331,9 @@ class Link:
         """
     @property
     def name(self) -> str:
-        ...
+        """
+        As the file of the arm calls it; may be empty.
+        """
     @property
     def visual(self) -> tuple[Shape, ...]:
         """
@@ -1794,7 +1826,9 @@ class Arm:
         """
     @property
     def name(self) -> str:
-        ...
+        """
+        For people; may be empty.
+        """
     @property
     def size(self) -> int:
         """
@@ -1891,10 +1925,14 @@ class Touches:
         """
     @property
     def known_distances(self) -> dict:
-        ...
+        """
+        {(label, label): distance [m]} between touched points.
+        """
     @property
     def known_points(self) -> dict:
-        ...
+        """
+        {label: (3,) position [m]} in the world.
+        """
     @property
     def names(self) -> dict[int, str]:
         """
@@ -1902,7 +1940,9 @@ class Touches:
         """
     @property
     def planes(self) -> dict:
-        ...
+        """
+        {name: (K,) rows} of planes touched in many places.
+        """
     @property
     def point(self) -> numpy.ndarray:
         """
@@ -2061,16 +2101,24 @@ class EffectRange:
         ...
     @property
     def high(self) -> float:
-        ...
+        """
+        Largest plausible size, in `unit`.
+        """
     @property
     def low(self) -> float:
-        ...
+        """
+        Smallest plausible size, in `unit`.
+        """
     @property
     def parameter(self) -> str:
-        ...
+        """
+        Name of the parameter.
+        """
     @property
     def unit(self) -> str:
-        ...
+        """
+        Of `low` and `high`.
+        """
 class Effect:
     """
     An error of an arm that its geometric parameters cannot represent.
@@ -2137,10 +2185,14 @@ class Effect:
         """
     @property
     def formula(self) -> str:
-        ...
+        """
+        What it adds, as text for people.
+        """
     @property
     def name(self) -> str:
-        ...
+        """
+        As diagnosis names it.
+        """
     @property
     def needs(self) -> list[str]:
         """
@@ -2199,7 +2251,9 @@ class FoundEffect:
         ...
     @property
     def cause(self) -> str:
-        ...
+        """
+        Effects of one cause are descriptions of the same thing.
+        """
     @property
     def effect(self) -> Effect:
         """
@@ -2212,7 +2266,9 @@ class FoundEffect:
         """
     @property
     def name(self) -> str:
-        ...
+        """
+        Of its effect.
+        """
     @property
     def parameters(self) -> dict:
         """
@@ -2517,7 +2573,9 @@ class CorrectedArm:
         """
     @property
     def name(self) -> str:
-        ...
+        """
+        Of the rigid arm.
+        """
     @property
     def size(self) -> int:
         """
@@ -2564,10 +2622,14 @@ class Trade:
         """
     @property
     def name(self) -> str:
-        ...
+        """
+        Of the parameter, as "theta_3".
+        """
     @property
     def words(self) -> str:
-        ...
+        """
+        Description, as "theta of row 3".
+        """
 class FitParameter:
     """
     One parameter as estimated by `identify_arm`.
@@ -2580,31 +2642,49 @@ class FitParameter:
         ...
     @property
     def group(self) -> str:
-        ...
+        """
+        Part of the arm, as "row 3", "tool" or "base".
+        """
     @property
     def name(self) -> str:
-        ...
+        """
+        As "theta_3".
+        """
     @property
     def nominal(self) -> float:
-        ...
+        """
+        In `unit`; of a tool or a base, where the search started.
+        """
     @property
     def status(self) -> str:
-        ...
+        """
+        How it is determined; see the class.
+        """
     @property
     def std(self) -> float:
-        ...
+        """
+        Standard deviation, in `unit`: 0 when fixed, inf when undetermined.
+        """
     @property
     def trades(self) -> list[Trade]:
-        ...
+        """
+        Parameters that take part in an unobservable change of it.
+        """
     @property
     def unit(self) -> str:
-        ...
+        """
+        "m" or "rad".
+        """
     @property
     def value(self) -> float:
-        ...
+        """
+        Estimate, in `unit`.
+        """
     @property
     def words(self) -> str:
-        ...
+        """
+        Description, as "theta of row 3".
+        """
 class Outlier:
     """
     A row that contradicts the others.
@@ -2628,7 +2708,9 @@ class Outlier:
         """
     @property
     def row(self) -> int:
-        ...
+        """
+        Row of the data, counted from 0.
+        """
 class ArmFit:
     """
     Result of `identify_arm`: the arm with its uncertainty.
@@ -2686,7 +2768,9 @@ class ArmFit:
         """
     @property
     def converged(self) -> bool:
-        ...
+        """
+        Whether the search ended before its limit of iterations.
+        """
     @property
     def covariance(self) -> numpy.ndarray:
         """
@@ -2694,7 +2778,9 @@ class ArmFit:
         """
     @property
     def degrees_of_freedom(self) -> float:
-        ...
+        """
+        Position rows less those of points and parameters.
+        """
     @property
     def distances(self) -> dict:
         """
@@ -2717,7 +2803,9 @@ class ArmFit:
         """
     @property
     def outliers(self) -> list[Outlier]:
-        ...
+        """
+        Outlier of each row that contradicts the others.
+        """
     @property
     def pairs_after(self) -> float:
         """
@@ -2735,7 +2823,9 @@ class ArmFit:
         """
     @property
     def point_labels(self) -> list[int]:
-        ...
+        """
+        (K,) label of each touched point, in the order of `points`.
+        """
     @property
     def point_rms_after(self) -> numpy.ndarray:
         """
@@ -2808,7 +2898,9 @@ class ArmFit:
         """
     @property
     def scale_std(self) -> float:
-        ...
+        """
+        Relative standard deviation of `scale`.
+        """
     @property
     def singular_values(self) -> numpy.ndarray:
         """
@@ -2945,7 +3037,9 @@ class TouchPlan:
         """
     @property
     def criterion(self) -> str:
-        ...
+        """
+        "worst_tip", "d_optimal" or "o1": what was optimised.
+        """
     @property
     def forecast(self) -> TouchForecast:
         """
@@ -3044,7 +3138,9 @@ class Estimate:
         """
     @property
     def name(self) -> str:
-        ...
+        """
+        Of the parameter.
+        """
     @property
     def std(self) -> float:
         """
@@ -3052,10 +3148,14 @@ class Estimate:
         """
     @property
     def unit(self) -> str:
-        ...
+        """
+        "rad", "m", …; empty of a setting, which has none.
+        """
     @property
     def value(self) -> float:
-        ...
+        """
+        In `unit`.
+        """
 class Cause:
     """
     A cause by name, as lists of rivals hold it.
@@ -3064,10 +3164,14 @@ class Cause:
         ...
     @property
     def joint(self) -> int | None:
-        ...
+        """
+        Counted from 0; None of an effect of the whole arm.
+        """
     @property
     def name(self) -> str:
-        ...
+        """
+        Of the effect.
+        """
     @property
     def odds(self) -> float:
         """
@@ -3075,7 +3179,9 @@ class Cause:
         """
     @property
     def words(self) -> str:
-        ...
+        """
+        Description, as "a harmonic of order 2 along joint 3".
+        """
 class NamedEffect:
     """
     A cause that was found, with its evidence.
@@ -3104,7 +3210,9 @@ class NamedEffect:
         """
     @property
     def name(self) -> str:
-        ...
+        """
+        Of the effect.
+        """
     @property
     def p_value(self) -> float:
         """
@@ -3132,7 +3240,9 @@ class NamedEffect:
         """
     @property
     def words(self) -> str:
-        ...
+        """
+        Description, as "a harmonic of order 2 along joint 3".
+        """
 class Structure:
     """
     A dependence of residuals, made by chance or not.
@@ -3141,7 +3251,9 @@ class Structure:
         ...
     @property
     def against(self) -> str:
-        ...
+        """
+        What the residuals depend on, as "joint 3" or "position".
+        """
     @property
     def is_beyond_noise(self) -> bool:
         """
@@ -3164,14 +3276,18 @@ class Structure:
         """
     @property
     def words(self) -> str:
-        ...
+        """
+        Description, a sentence.
+        """
 class HeldOutPart:
     """
     One session, or one touched point.
     """
     @property
     def name(self) -> str:
-        ...
+        """
+        As "session 2", "point 0" or "all".
+        """
     @property
     def rms_after(self) -> float:
         """
@@ -3184,7 +3300,9 @@ class HeldOutPart:
         """
     @property
     def rows(self) -> int:
-        ...
+        """
+        Number of its rows.
+        """
 class HeldOut:
     """
     Errors of rows that were foretold by all others.
@@ -3201,7 +3319,9 @@ class HeldOut:
         """
     @property
     def blocks(self) -> int:
-        ...
+        """
+        Number of folds.
+        """
     @property
     def how(self) -> str:
         """
@@ -3219,7 +3339,9 @@ class HeldOut:
         """
     @property
     def parts(self) -> list[HeldOutPart]:
-        ...
+        """
+        Errors by session, station or point: HeldOutPart of each.
+        """
     @property
     def rms_after(self) -> float:
         """
@@ -3287,7 +3409,9 @@ class Diagnosis:
         """
     @property
     def held_out(self) -> HeldOut:
-        ...
+        """
+        HeldOut: errors of cross-validation, before and after.
+        """
     @property
     def leftover(self) -> Structure:
         """
@@ -3310,7 +3434,9 @@ class Diagnosis:
         """
     @property
     def noise_source(self) -> str:
-        ...
+        """
+        What `noise` was estimated from.
+        """
     @property
     def residuals_after(self) -> numpy.ndarray:
         """

@@ -65,12 +65,12 @@ def structure(
     return Structure(against=against, words=words, size=size, share=share, p_value=p_value)
 
 
-def effect(name: str, joint: int | None, words: str, **told: object) -> SimpleNamespace:
+def effect(name: str, joint: int | None, words: str, **numbers: object) -> SimpleNamespace:
     given = {
         "parameters": {}, "gain": 0.9, "held_out_before": 4e-4, "held_out_after": 0.6e-4,
         "p_value": 1e-300, "size": 2e-4, "rivals": [], "rows": [],
     }  # fmt: skip
-    return SimpleNamespace(name=name, joint=joint, words=words, **{**given, **told})
+    return SimpleNamespace(name=name, joint=joint, words=words, **{**given, **numbers})
 
 
 def harmonic() -> SimpleNamespace:
@@ -264,9 +264,9 @@ def many(count: int = 20) -> Report:
     report.effects = []
     for k in range(count):
         name, joint, words, numbers = kinds[k % len(kinds)]
-        told = {key: estimate(*value) for key, value in numbers.items()}
+        estimates = {key: estimate(*value) for key, value in numbers.items()}
         report.effects.append(
-            effect(name, joint, words, parameters=told, gain=0.5 / (k + 1),
+            effect(name, joint, words, parameters=estimates, gain=0.5 / (k + 1),
                    rows=list(range(12)) if name == "outliers" else [])
         )  # fmt: skip
     return report

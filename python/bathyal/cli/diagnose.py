@@ -25,7 +25,7 @@ def diagnose(
     ],
     job: own.Job,
     reading: own.TouchColumns,
-    beside: own.Beside,
+    beside: own.CovariateColumns,
     known: own.Known,
     json: opt.Json = False,
     quiet: opt.Quiet = False,

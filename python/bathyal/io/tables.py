@@ -83,7 +83,7 @@ class Table:
     ) -> NDArray[np.float64]:
         """A column in SI units.
 
-        `units` are those that may stand in its title, with their factors; `default` is taken where
+        `units` are those that its title may name, with their factors; `default` is taken where
         none does, and None makes that an error. Not-a-number cells are the caller's business.
         """
         place = self.place(name)
@@ -107,7 +107,7 @@ class Table:
 
 
 def split_unit(title: str) -> tuple[str, str]:
-    """Name and unit of a title, in small letters; the unit is empty where none stands."""
+    """Name and unit of a title, in small letters; the unit is empty where there is none."""
     title = title.strip().lower()
     if match := _BRACKETED.match(title):
         return match["name"], match["unit"].strip()

@@ -108,8 +108,8 @@ def done_well(*arguments):
         done = bathyal_run(*arguments, *more)
         assert done.returncode == 0, done.stderr
         if more:
-            told = json.loads(done.stdout)
-    return told
+            summary = json.loads(done.stdout)
+    return summary
 
 
 def test_a_plan_of_files_whose_names_are_not_utf_8(job, latin):
@@ -117,10 +117,10 @@ def test_a_plan_of_files_whose_names_are_not_utf_8(job, latin):
     survey.write_bytes((job / "survey.xyz").read_bytes())
     aims.write_bytes((job / "aims.csv").read_bytes())
     out = latin / os.fsdecode(b"pl\xe4n")
-    told = done_well("plan", survey, "--aims", aims, "--step", 0.3, "-o", out)
+    summary = done_well("plan", survey, "--aims", aims, "--step", 0.3, "-o", out)
     assert sorted(os.listdir(out)) == sorted([*FILES, NAME])
-    assert [os.path.basename(file) for file in told["files"]] == FILES
-    assert all(os.path.exists(file) for file in told["files"]), "names come back as they are"
+    assert [os.path.basename(file) for file in summary["files"]] == FILES
+    assert all(os.path.exists(file) for file in summary["files"]), "names come back as they are"
     facts = json.loads((out / "path.json").read_bytes().decode("utf-8"))["provenance"]
     assert (facts["input"]["file"], facts["aims"]["file"]) == ("t\\xe4.xyz", "a\\xff.csv")
     assert "t\\xe4.xyz" in (out / "plan.html").read_text(encoding="utf-8")
@@ -154,8 +154,8 @@ def test_touches_in_files_whose_names_are_not_utf_8(latin):
               "--picture", latin / os.fsdecode(b"pl\xe4n.png"))  # fmt: skip
     made = latin / os.fsdecode(b"m\xe4de.xyz")
     aims = latin / os.fsdecode(b"\xe4ims.csv")
-    told = done_well("survey", made, "--aims-out", aims, "--length", 5, "--width", 5)
-    assert told["files"] == [str(made), str(aims)]
+    summary = done_well("survey", made, "--aims-out", aims, "--length", 5, "--width", 5)
+    assert summary["files"] == [str(made), str(aims)]
 
 
 def test_a_terminal_of_few_signs_ends_no_job(job, monkeypatch):

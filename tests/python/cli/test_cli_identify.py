@@ -78,7 +78,7 @@ def test_identify_twice_gives_the_same_bytes(found, job, tmp_path, capsys):
         assert (out / name).read_bytes() == (tmp_path / "b" / name).read_bytes(), name
 
 
-def test_people_are_told_what_was_found_and_what_to_touch_next(job, tmp_path, capsys, monkeypatch):
+def test_people_see_what_was_found_and_what_to_touch_next(job, tmp_path, capsys, monkeypatch):
     monkeypatch.setenv("COLUMNS", "200")
     code, out, err = run(capsys, "identify", job, "--arm", "UR10e", "--out", tmp_path)
     assert code == 0, err
@@ -89,8 +89,8 @@ def test_people_are_told_what_was_found_and_what_to_touch_next(job, tmp_path, ca
     assert (code, out) == (0, "")
 
 
-def test_warnings_are_told_first_and_do_not_fail(job, tmp_path, capsys, monkeypatch):
-    """Whatever the fit warns of stands on stderr, in the page and in the summary."""
+def test_warnings_are_printed_first_and_do_not_fail(job, tmp_path, capsys, monkeypatch):
+    """Whatever the fit warns of is on stderr, in the page and in the summary."""
     from bathyal.identify import job as identify_report
 
     class Warned:
@@ -287,7 +287,7 @@ def test_angles_need_their_unit():
         values.angle("2mm")
 
 
-def test_what_is_known_is_told_by_name():
+def test_what_is_known_is_given_by_name():
     known = Known(
         known_distance=["left, right=50mm", "a,b = 0.2 m"], known_point=["pin=500,-200,10.5mm"],
         plane=["deck"],

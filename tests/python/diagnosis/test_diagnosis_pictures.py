@@ -109,7 +109,7 @@ def test_a_sheet_has_room_for_its_pictures_whatever_there_is_to_say():
     assert min(tops) > 0
 
 
-def test_a_cause_of_many_numbers_is_told_without_them():
+def test_a_cause_of_many_numbers_is_described_without_them():
     report = cases.many(6)
     assert "told by 6 numbers" in effect_text(report.effects[5])
 
@@ -125,10 +125,10 @@ def test_sheet_has_a_panel_for_each_step():
 def test_gaps_are_cut_out_of_the_range() -> None:
     report = cases.named()
     report.model.gaps = (*cases.Arm.gaps[:2], np.array([[0.1, 0.8]]), *cases.Arm.gaps[3:])
-    told = [one.gaps for one in tables.supports(report)]
-    assert told[1] == ()
-    assert len(told[2]) == 1
-    np.testing.assert_allclose(told[2][0], np.degrees([0.1, 0.8]))
+    gaps = [one.gaps for one in tables.supports(report)]
+    assert gaps[1] == ()
+    assert len(gaps[2]) == 1
+    np.testing.assert_allclose(gaps[2][0], np.degrees([0.1, 0.8]))
     figure = support_figure(report)
     bars = figure.axes[0].patches
     figure_before = support_figure(cases.named())

@@ -27,7 +27,7 @@ ALL = pytest.mark.parametrize("name", cases.CASES)
      (3e-6, "3.00 µm"), (-1.5e-3, "−1.50 mm"), (1.25, "1.25 m"), (1e-12, "under 1 nm"),
      (0.0, "0 mm"), (math.nan, "?")],
 )  # fmt: skip
-def test_lengths_are_told_in_the_unit_that_suits(metres, text):
+def test_lengths_are_shown_in_the_unit_that_suits(metres, text):
     assert numbers.length_text(metres) == text
 
 
@@ -53,7 +53,7 @@ def test_estimates_carry_their_interval_and_no_more_figures(name, value, unit, s
     st.sampled_from(["rad", "m", "1/K", "", "rad/(N m)", "odd"]),
 )  # fmt: skip
 @settings(max_examples=200, deadline=None)
-def test_any_estimate_is_told_within_its_interval(value, std, unit):
+def test_any_estimate_is_shown_within_its_interval(value, std, unit):
     text = numbers.estimate_text("x", cases.estimate(value, unit, std))
     assert "nan" not in text
     found = [float(n.replace("−", "-")) for n in re.findall(r"−?\d+(?:\.\d+)?(?:e[+−]?\d+)?", text)]
@@ -84,7 +84,7 @@ def test_a_named_cause_comes_with_its_evidence():
     assert "Warning" not in summary(cases.named(), warnings=False)
 
 
-def test_what_is_left_over_is_told():
+def test_what_is_unexplained_is_reported():
     report = cases.named()
     report.leftover = cases.structure(
         "joint 5", "The residual bends along joint 5", 3e-5, 0.1, 1e-4
@@ -131,7 +131,7 @@ def test_what_is_sure_leads_where_it_does_more_than_what_is_open():
     )
 
 
-def test_groups_of_causes_that_cannot_be_told_apart_stay_apart():
+def test_groups_of_causes_that_cannot_be_distinguished_stay_apart():
     report = cases.ambiguous()
     report.ambiguous += [
         cases.cause("joint_harmonic", 2, report.effects[0].words),
@@ -145,15 +145,15 @@ def test_groups_of_causes_that_cannot_be_told_apart_stay_apart():
     assert "Beside them" not in summary(report)
 
 
-def test_a_crowd_of_rivals_does_not_flood_the_page():
+def test_a_crowd_of_alternatives_does_not_flood_the_page():
     report = cases.ambiguous()
-    report.ambiguous += [cases.cause("x", None, f"rival {k}", 0.2) for k in range(60)]
+    report.ambiguous += [cases.cause("x", None, f"alternative {k}", 0.2) for k in range(60)]
     assert headline(report).endswith(", the base drifts or any of 60 others.")
     assert len(summary(report)) < 2000
     assert len(groups_of(report)[0]) == 63
 
 
-def test_causes_of_the_noise_are_told_by_their_likelihood(tmp_path):
+def test_causes_of_the_noise_are_described_by_their_likelihood(tmp_path):
     report = cases.named()
     report.effects.append(
         cases.effect(
@@ -186,7 +186,7 @@ def test_none_says_why():
     assert "nan" not in text
 
 
-def test_what_was_not_recorded_is_told():
+def test_what_was_not_recorded_is_reported():
     report = cases.clean()
     assert "Record payload and direction as well" in next_steps(report)[-1]
     data = report.data

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Touches and tracked poses that cannot be taken: refused with the argument's name and the way out.
 
-URDFs that are none stand in test_urdf_refusals.py; data that can be taken but tell too little, in
-test_identify_warnings.py.
+URDFs that are none are in test_urdf_refusals.py; data that can be taken but determine too little,
+in test_identify_warnings.py.
 """
 
 from __future__ import annotations

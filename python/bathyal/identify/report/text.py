@@ -60,11 +60,11 @@ def known_text(fit: ArmFit, data: Touches | Tracked) -> str:
     if not known:
         return ""
     if len(known) > _MOST_TOLD:
-        off = [1e3 * (d.found - d.told) for d in known]
+        off = [1e3 * (d.found - d.given) for d in known]
         ends = f"{number(min(off), sign='+')} … {number(max(off), sign='+')}"
         return f"{len(known)} known distances were found, off by {ends} mm."
     told = [
-        f"{d.first} to {d.second} told {1e3 * d.told:.3f} mm, found {1e3 * d.found:.3f} mm"
+        f"{d.first} to {d.second} told {1e3 * d.given:.3f} mm, found {1e3 * d.found:.3f} mm"
         for d in known
     ]
     return f"Known distances: {'; '.join(told)}."
