@@ -2638,7 +2638,9 @@ class ArmFit:
     def __repr__(self) -> str:
         ...
     def __str__(self) -> str:
-        ...
+        """
+        Verdict, numbers with units and the next step, in a few lines.
+        """
     def summary(self, *, warnings: bool = True) -> str:
         """
         One paragraph; ``warnings=False`` leaves the warnings to the caller.
@@ -3236,6 +3238,10 @@ class Diagnosis:
     """
     def __repr__(self) -> str:
         ...
+    def __str__(self) -> str:
+        """
+        Verdict, numbers with units and the next step, in a few lines.
+        """
     def summary(self) -> str:
         """
         One paragraph that a person can act on.
