@@ -2633,7 +2633,7 @@ class ArmFit:
     """
     Result of `identify_arm`: the arm with its uncertainty.
     
-    ``str(fit)`` and ``fit.summary()`` describe it in one paragraph.
+    ``str(fit)`` describes it in a few lines, ``fit.summary()`` in one paragraph.
     """
     def __repr__(self) -> str:
         ...

@@ -57,7 +57,8 @@ def example(
     hide_size: Annotated[
         float | None,
         typer.Option(
-            help="By how much it moves the tip, rms over the touches. "
+            help="By how much it moves the tip, rms over the touches, before geometry is "
+            "fitted. "
             "[dim]\\[default: 1mm; of thermal 0.3mm][/]",
             parser=length,
             metavar="LENGTH",

@@ -73,7 +73,7 @@ class HiddenEffect:
     joint : int or None
         From 0.
     size : float
-        By how much it moves the tip, 3-D rms over the touches [m].
+        By how much it moves the tip, 3-D rms over the touches, before geometry is fitted [m].
     parameters : dict of str to float
         Its values, SI units.
     """

@@ -17,8 +17,8 @@ Floats = NDArray[np.float64]
 # What a status of `FitParameter` says.
 STATUS = {
     "identified": "identified",
-    "gauge": "redundant with base or tool",
-    "prior": "determined with a prior",
+    "gauge": "redundant",
+    "prior": "with a prior",
     "not_identifiable": "not determined",
     "fixed": "fixed on request",
     "pruned": "set to nominal",

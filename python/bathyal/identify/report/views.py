@@ -102,7 +102,7 @@ def show_singular_values(fit: ArmFit) -> go.Figure:
     place = np.arange(1, len(values) + 1)
     figure = go.Figure()
     for some, colour, name in (
-        (place <= fit.rank, AFTER, "told"), (place > fit.rank, GAP, "not told"),
+        (place <= fit.rank, AFTER, "determined"), (place > fit.rank, GAP, "not determined"),
     ):  # fmt: skip
         figure.add_trace(
             go.Scatter(
