@@ -170,7 +170,6 @@ void bind_fit(py::module_& module) {
       .def("summary", py::overload_cast<const ArmFit&, bool>(&summarize), py::kw_only(),
            py::arg("warnings") = true,
            "One paragraph; ``warnings=False`` leaves the warnings to the caller.")
-      .def("__str__", [](const ArmFit& f) { return summarize(f); })
       .def("__repr__", [](const ArmFit& f) {
         return "ArmFit(rms_before=" + to_text(f.rms_before) +
                ", rms_after=" + to_text(f.rms_after) + ", rank=" + std::to_string(f.rank) + " of " +

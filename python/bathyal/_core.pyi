@@ -2715,12 +2715,14 @@ class ArmFit:
     """
     Result of `identify_arm`: the arm with its uncertainty.
     
-    ``str(fit)`` and ``fit.summary()`` describe it in one paragraph.
+    ``str(fit)`` describes it in a few lines, ``fit.summary()`` in one paragraph.
     """
     def __repr__(self) -> str:
         ...
     def __str__(self) -> str:
-        ...
+        """
+        Verdict, numbers with units and the next step, in a few lines.
+        """
     def summary(self, *, warnings: bool = True) -> str:
         """
         One paragraph; ``warnings=False`` leaves the warnings to the caller.
@@ -3358,6 +3360,10 @@ class Diagnosis:
     """
     def __repr__(self) -> str:
         ...
+    def __str__(self) -> str:
+        """
+        Verdict, numbers with units and the next step, in a few lines.
+        """
     def summary(self) -> str:
         """
         One paragraph that a person can act on.

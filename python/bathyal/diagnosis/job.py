@@ -16,11 +16,13 @@ from bathyal._core import Arm, Diagnosis, Touches, Tracked, diagnose
 from bathyal.arm.files import find_arm
 from bathyal.diagnosis.files import contents, write_diagnosis, write_residuals
 from bathyal.diagnosis.report.advice import next_steps
-from bathyal.diagnosis.report.text import facts_of, summary
+from bathyal.diagnosis.report.brief import brief_of
+from bathyal.diagnosis.report.text import facts_of
 from bathyal.identify.job import plain_settings, read_data
 from bathyal.io.files import PathLike
 from bathyal.io.provenance import Step, file_facts
 from bathyal.io.result_sets import filling
+from bathyal.view.brief import Brief
 
 _LONG = ("residuals_before_m", "residuals_after_m")  # a number a row: of files, not of a screen
 
@@ -55,9 +57,9 @@ class Diagnosed:
         return list(self.report.warnings)
 
     @property
-    def words(self) -> str:
-        """The diagnosis as one paragraph."""
-        return summary(self.report, warnings=False)
+    def brief(self) -> Brief:
+        """The diagnosis at first sight."""
+        return brief_of(self.report)
 
     @property
     def next(self) -> list[str]:

@@ -24,13 +24,15 @@ from bathyal._core import (
 )
 from bathyal.arm.files import find_arm
 from bathyal.errors import argument_error
+from bathyal.identify.report.brief import brief_of
 from bathyal.identify.report.tables import distances, groups, write_parameters, write_residuals
-from bathyal.identify.report.text import next_touches, surely_text
+from bathyal.identify.report.text import next_touches
 from bathyal.identify.touch_files import read_touches, read_tracked
 from bathyal.io.files import PathLike, shown
 from bathyal.io.provenance import Step, file_facts
 from bathyal.io.result_sets import filling
 from bathyal.io.tables import read_table
+from bathyal.view.brief import Brief
 
 _MOST_NAMES = 6
 
@@ -65,9 +67,9 @@ class Identification:
         return list(self.fit.warnings)
 
     @property
-    def words(self) -> str:
-        """What was found and how surely, as one paragraph."""
-        return f"{self.fit.summary(warnings=False)} {surely_text(self.fit)}"
+    def brief(self) -> Brief:
+        """The identification at first sight."""
+        return brief_of(self.fit, self.data)
 
     @property
     def next(self) -> list[str]:

@@ -82,8 +82,8 @@ def test_people_see_what_was_found_and_what_to_touch_next(job, tmp_path, capsys,
     monkeypatch.setenv("COLUMNS", "200")
     code, out, err = run(capsys, "identify", job, "--arm", "UR10e", "--out", tmp_path)
     assert code == 0, err
-    for word in ("scatter", "20 of 27", "prior on lengths (1 mm)", "left, right, top",
-                 "Measure one distance", "left to right", "report.png"):  # fmt: skip
+    for word in ("error falls", "20 of 27", "prior on lengths (1 mm)", "left, right, top",
+                 "measure one distance", "left to right", "report.png"):  # fmt: skip
         assert word in out, word
     code, out, _ = run(capsys, "identify", job, "--arm", "ur10e", "--out", tmp_path, "--quiet")
     assert (code, out) == (0, "")
@@ -121,7 +121,7 @@ def test_warnings_are_printed_first_and_do_not_fail(job, tmp_path, capsys, monke
     page = (tmp_path / "report.html").read_text(encoding="utf-8")
     assert page.count("The &lt;lights&gt; are off.") == 1
     assert page.index("lights") < page.index("What was found")
-    assert "Look into what the warnings say" in page
+    assert "Resolve the warnings" in page
 
 
 def test_exports_on_request(job, tmp_path, capsys):

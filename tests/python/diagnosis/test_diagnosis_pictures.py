@@ -111,7 +111,7 @@ def test_a_sheet_has_room_for_its_pictures_whatever_there_is_to_say():
 
 def test_a_cause_of_many_numbers_is_described_without_them():
     report = cases.many(6)
-    assert "told by 6 numbers" in effect_text(report.effects[5])
+    assert "with 6 parameters" in effect_text(report.effects[5])
 
 
 def test_sheet_has_a_panel_for_each_step():

@@ -75,9 +75,9 @@ def test_a_named_cause_comes_with_its_evidence():
     for words in (
         "Named: a harmonic of order 2 along joint 3 with amplitude 0.0286°, cosine 0.01719° (0.016",
         "(moves the tip by 0.200 mm per axis)",
-        "the error falls from 0.194 mm to 0.051 mm (3-D rms)",
-        "with a floor of 0.052 mm by noise", "100 % of the variance above noise is gone",
-        "that this is luck has p < 0.001", "Nothing beyond noise is left over",
+        "the error falls from 0.194 mm to 0.051 mm (3-D rms; noise alone 0.052 mm)",
+        "100 % of the variance above noise is explained (p < 0.001)",
+        "Nothing beyond noise remains unexplained",
         "4.8 to 1 against it", "Warning: The arm's masses are not known",
     ):  # fmt: skip
         assert words in text
@@ -89,29 +89,30 @@ def test_what_is_unexplained_is_reported():
     report.leftover = cases.structure(
         "joint 5", "The residual bends along joint 5", 3e-5, 0.1, 1e-4
     )
-    assert "Left over: The residual bends along joint 5 (0.030 mm per axis, p < 0.001)." in summary(
-        report
-    )
+    text = "Unexplained: The residual bends along joint 5 (0.030 mm per axis, p < 0.001)."
+    assert text in summary(report)
 
 
 def test_clean_says_what_would_have_been_seen():
     text = summary(cases.clean())
-    assert text.startswith("Clean: 240 poses show nothing beyond noise")
-    assert "the most suspect, against joint 1, has p = 0.1." in text
-    assert "What moves the tip by 0.012 mm or more per axis would have been seen" in text
+    assert text.startswith("Clean: geometry explains 240 poses to within noise")
+    assert "the strongest dependence, on joint 1, has p = 0.1." in text
+    assert (
+        "An effect that moves the tip by 0.012 mm or more per axis would have been detected" in text
+    )
     assert "noise is 0.030 mm per axis, by exact repeats of 12 poses" in text
     report = cases.clean()
     report.shown = []
-    assert "no structure that was looked for has a chance below 0.002" in summary(report)
+    assert "no dependence has a p-value below 0.002" in summary(report)
 
 
 def test_ambiguous_lists_all_and_asks_for_poses():
     report = cases.ambiguous()
     text = summary(report)
     assert text.startswith(
-        "Ambiguous, these data cannot tell apart: the tool slipped after 120 rows, the base moved "
-        "between sessions 1 and 2 (as likely) or the base drifts (9 to 1 against it). Beside them "
-        "stands: a harmonic of order 2 along joint 3 with amplitude"
+        "Ambiguous, these data cannot distinguish: the tool slipped after 120 rows, the base moved "
+        "between sessions 1 and 2 (as likely) or the base drifts (9 to 1 against it). Certain "
+        "is: a harmonic of order 2 along joint 3 with amplitude"
     )
     assert "Measure the 5 poses of report.next_poses" in next_steps(report)[0]
     report.next_poses = np.empty((0, 6))
@@ -123,11 +124,11 @@ def test_what_is_sure_leads_where_it_does_more_than_what_is_open():
     report.effects[0].size = 2 * report.effects[1].size
     text = summary(report)
     assert text.startswith(
-        "Ambiguous, but in the main this stands: a harmonic of order 2 along joint 3 with amplitude"
+        "Ambiguous, but mainly: a harmonic of order 2 along joint 3 with amplitude"
     )
-    assert "Among lesser causes these data cannot tell apart: the tool slipped after 120" in text
+    assert "Among lesser causes these data cannot distinguish: the tool slipped after 120" in text
     assert headline(report) == (
-        "Ambiguous: in the main a harmonic of order 2 along joint 3. A lesser choice is open."
+        "Ambiguous: mainly a harmonic of order 2 along joint 3. A lesser choice is open."
     )
 
 
@@ -142,7 +143,7 @@ def test_groups_of_causes_that_cannot_be_distinguished_stay_apart():
         "the base drifts; and a harmonic of order 2 along joint 3 or joint 3 moved along by "
         "joint 2."
     )
-    assert "Beside them" not in summary(report)
+    assert "Certain is" not in summary(report)
 
 
 def test_a_crowd_of_alternatives_does_not_flood_the_page():
