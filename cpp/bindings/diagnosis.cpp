@@ -153,7 +153,7 @@ void bind_result(py::module_& module) {
                     "Structure in the residuals of geometry alone, likeliest first: what is beyond "
                     "noise; where nothing is, the least unlikely.")
       .def_readonly("leftover", &Diagnosis::leftover,
-                    "Structure that nothing named explains; its size is 0 when there is none.")
+                    "Structure beside all that was named; its size is 0 when there is none.")
       .def_readonly("held_out", &Diagnosis::held_out,
                     "HeldOut: errors of cross-validation, before and after.")
       .def_readonly("gain", &Diagnosis::gain, "(r0² - r1²) / (r0² - noise²) of held-out rms.")

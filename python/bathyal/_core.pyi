@@ -3415,7 +3415,7 @@ class Diagnosis:
     @property
     def leftover(self) -> Structure:
         """
-        Structure that nothing named explains; its size is 0 when there is none.
+        Structure beside all that was named; its size is 0 when there is none.
         """
     @property
     def model(self) -> CorrectedArm:
