@@ -3415,7 +3415,7 @@ class Diagnosis:
     @property
     def leftover(self) -> Structure:
         """
-        Structure beside all that was named; its size is 0 when there is none.
+        Structure that remains with all named effects in the model; its size is 0 when there is none.
         """
     @property
     def model(self) -> CorrectedArm:
@@ -3425,7 +3425,7 @@ class Diagnosis:
     @property
     def next_poses(self) -> numpy.ndarray:
         """
-        (m, n) poses that would tell them apart [rad or m].
+        (m, n) poses that would distinguish them [rad or m].
         """
     @property
     def noise(self) -> float:
