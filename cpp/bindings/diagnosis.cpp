@@ -77,7 +77,7 @@ void bind_diagnosis_parts(py::module_& module) {
           "Estimate of each parameter, by name.")
       .def_readonly("rows", &NamedEffect::rows, "Of outliers: the rows.")
       .def_readonly("size", &NamedEffect::size,
-                    "rms of what it moves beside all else that was fitted, per axis [m].")
+                    "rms of what it moves, projected off all else that was fitted, per axis [m].")
       .def_readonly("gain", &NamedEffect::gain,
                     "Share of the held-out variance above noise that it removes; of effects on the "
                     "noise itself: held-out log likelihood.")
@@ -111,13 +111,13 @@ void bind_held_out(py::module_& module) {
       .def_readonly("rows", &HeldOut::Part::rows, "Number of its rows.")
       .def_readonly("rms_before", &HeldOut::Part::rms_before, "3-D [m].")
       .def_readonly("rms_after", &HeldOut::Part::rms_after, "3-D [m].");
-  py::class_<HeldOut>(module, "HeldOut", "Errors of rows that were foretold by all others.")
+  py::class_<HeldOut>(module, "HeldOut", "Errors of rows that were predicted from all others.")
       .def_readonly("how", &HeldOut::how, "What was held out at once.")
       .def_readonly("blocks", &HeldOut::blocks, "Number of folds.")
       .def_readonly("rms_before", &HeldOut::rms_before, "Geometry alone, 3-D [m].")
       .def_readonly("rms_after", &HeldOut::rms_after, "With the effects, 3-D [m].")
       .def_readonly("noise", &HeldOut::noise, "Floor, 3-D [m].")
-      .def_readonly("p_value", &HeldOut::p_value, "That the gain is luck, over the blocks.")
+      .def_readonly("p_value", &HeldOut::p_value, "p-value of the gain, over the folds.")
       .def_readonly("parts", &HeldOut::parts,
                     "Errors by session, station or point: HeldOutPart of each.")
       .def_property_readonly(
@@ -162,7 +162,7 @@ void bind_result(py::module_& module) {
       .def_readonly("fit", &Diagnosis::fit, "ArmFit: geometry alone.")
       .def_property_readonly(
           "model", [](const Diagnosis& d) { return CorrectedArm(d.arm, d.found, d.support); },
-          "CorrectedArm: geometry and effects, with the support that taught them.")
+          "CorrectedArm: geometry and effects, with the support of their training data.")
       .def_readonly("noise", &Diagnosis::noise, "Standard deviation per axis [m].")
       .def_readonly("noise_source", &Diagnosis::noise_source, "What `noise` was estimated from.")
       .def_readonly("detectable", &Diagnosis::detectable,

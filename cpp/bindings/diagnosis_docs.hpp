@@ -17,14 +17,14 @@ inline constexpr const char* kDiagnoseDoc =
     R"(Show what the best rigid model of an arm gets wrong, name the cause, measure the gain.
 
 The arm's geometry is identified first. What it leaves is compared with each effect of the library,
-alone and in growing sets, fitted jointly with the geometry; sets are judged by their likelihood
-less what their freedom costs, and each name must foretell data that it has not seen. Structure that
-nothing in the library explains is told as such, without a name.
+alone and in growing sets, fitted jointly with the geometry; sets are compared by their likelihood
+less a penalty on their degrees of freedom, and each effect must predict held-out data. Structure
+that nothing in the library explains is reported as such, without a name.
 
 Parameters
 ----------
 arm : Arm
-    Nominal; its masses, where they are told, make loads of gravity known.
+    Nominal; its masses, where they are given, make loads of gravity known.
 data : Touches or Tracked
     With any of the covariates `temperature` (N,) [°C], `time` (N,) [s], `payload` (N,) [kg at the
     tool centre point], `direction` (N, n) -1, 0 or 1, `gravity` (N, 3) [m/s², base frame] and
@@ -39,12 +39,13 @@ fixed : list of str
 blocks : int
     How many blocks are held out in turn, 3 to 50.
 rival_odds : float
-    Odds of a rival against the best explanation from which the two count as not to be told apart.
+    Odds of an alternative against the best explanation from which the data do not distinguish
+    the two.
 leftover : float
-    Structure left over, as a share of the variance that the names removed, from which the verdict
-    is "unknown" and the names stand as partial.
+    Unexplained structure, as a share of the variance that the effects removed, from which the
+    verdict is "unknown" and the effects are partial.
 num_next_poses : int
-    How many poses to propose where causes cannot be told apart.
+    How many poses to propose where the data do not distinguish causes.
 progress : callable, optional
     Called with (share done, what comes next), often within a stage; what it raises ends the run.
 num_threads : int

@@ -3160,7 +3160,7 @@ class Estimate:
         """
 class Cause:
     """
-    A cause by name, as lists of rivals hold it.
+    A cause by name, as lists of alternatives hold it.
     """
     def __repr__(self) -> str:
         ...
@@ -3238,7 +3238,7 @@ class NamedEffect:
     @property
     def size(self) -> float:
         """
-        rms of what it moves beside all else that was fitted, per axis [m].
+        rms of what it moves, projected off all else that was fitted, per axis [m].
         """
     @property
     def words(self) -> str:
@@ -3307,7 +3307,7 @@ class HeldOutPart:
         """
 class HeldOut:
     """
-    Errors of rows that were foretold by all others.
+    Errors of rows that were predicted from all others.
     """
     @property
     def after(self) -> numpy.ndarray:
@@ -3337,7 +3337,7 @@ class HeldOut:
     @property
     def p_value(self) -> float:
         """
-        That the gain is luck, over the blocks.
+        p-value of the gain, over the folds.
         """
     @property
     def parts(self) -> list[HeldOutPart]:
@@ -3421,17 +3421,17 @@ class Diagnosis:
     @property
     def leftover(self) -> Structure:
         """
-        Structure beside all that was named; its size is 0 when there is none.
+        Structure that remains with all named effects in the model; its size is 0 when there is none.
         """
     @property
     def model(self) -> CorrectedArm:
         """
-        CorrectedArm: geometry and effects, with the support that taught them.
+        CorrectedArm: geometry and effects, with the support of their training data.
         """
     @property
     def next_poses(self) -> numpy.ndarray:
         """
-        (m, n) poses that would tell them apart [rad or m].
+        (m, n) poses that would distinguish them [rad or m].
         """
     @property
     def noise(self) -> float:
@@ -3580,14 +3580,14 @@ def diagnose(arm: Arm, data: Touches | Tracked, *, effects: collections.abc.Iter
     Show what the best rigid model of an arm gets wrong, name the cause, measure the gain.
     
     The arm's geometry is identified first. What it leaves is compared with each effect of the library,
-    alone and in growing sets, fitted jointly with the geometry; sets are judged by their likelihood
-    less what their freedom costs, and each name must foretell data that it has not seen. Structure that
-    nothing in the library explains is told as such, without a name.
+    alone and in growing sets, fitted jointly with the geometry; sets are compared by their likelihood
+    less a penalty on their degrees of freedom, and each effect must predict held-out data. Structure
+    that nothing in the library explains is reported as such, without a name.
     
     Parameters
     ----------
     arm : Arm
-        Nominal; its masses, where they are told, make loads of gravity known.
+        Nominal; its masses, where they are given, make loads of gravity known.
     data : Touches or Tracked
         With any of the covariates `temperature` (N,) [°C], `time` (N,) [s], `payload` (N,) [kg at the
         tool centre point], `direction` (N, n) -1, 0 or 1, `gravity` (N, 3) [m/s², base frame] and
@@ -3602,12 +3602,13 @@ def diagnose(arm: Arm, data: Touches | Tracked, *, effects: collections.abc.Iter
     blocks : int
         How many blocks are held out in turn, 3 to 50.
     rival_odds : float
-        Odds of a rival against the best explanation from which the two count as not to be told apart.
+        Odds of an alternative against the best explanation from which the data do not distinguish
+        the two.
     leftover : float
-        Structure left over, as a share of the variance that the names removed, from which the verdict
-        is "unknown" and the names stand as partial.
+        Unexplained structure, as a share of the variance that the effects removed, from which the
+        verdict is "unknown" and the effects are partial.
     num_next_poses : int
-        How many poses to propose where causes cannot be told apart.
+        How many poses to propose where the data do not distinguish causes.
     progress : callable, optional
         Called with (share done, what comes next), often within a stage; what it raises ends the run.
     num_threads : int
