@@ -10,14 +10,14 @@
 namespace bathyal::diagnosis {
 namespace {
 
-using Functions = Eigen::MatrixXd;  ///< (N, k) a function of something in each column
+using Functions = Eigen::MatrixXd;  ///< (N, k) one function per column
 
-/// Frames whose axes a shift is told along.
+/// Frames whose axes a shift is resolved along.
 enum class Axes { kBase, kFlange };
 
 std::string number(int coordinate) { return std::to_string(coordinate + 1); }
 
-/// -1 … 1 over the data; all 0 for what never changes.
+/// Scaled to -1 … 1 over the data; 0 for a constant.
 Eigen::VectorXd spread_out(const Eigen::VectorXd& values) {
   const double low = values.minCoeff(), high = values.maxCoeff();
   if (!(high > low)) return Eigen::VectorXd::Zero(values.size());
@@ -32,7 +32,7 @@ Functions curve(const Eigen::VectorXd& u) {
   return out;
 }
 
-/// cos(π m t), t from 0 to 1, m = 1 … count: what wanders slowly.
+/// cos(π m t), t from 0 to 1, m = 1 … count: slow drift.
 Functions waves(const Eigen::VectorXd& u, int count) {
   Functions out(u.size(), count);
   for (int m = 1; m <= count; ++m) {
@@ -199,7 +199,7 @@ class LackOfFitTermMaker {
     if (data_.has("time")) of_periods();
   }
 
-  /// Up to one period in two poses, in steps that a recording of this length tells apart.
+  /// Up to one period in two poses, at the frequency resolution of a recording of this length.
   void of_periods() {
     const double whole = when_.maxCoeff() - when_.minCoeff();
     const int count = static_cast<int>(std::min<Index>(data_.rows(), kMaxPeriods));
@@ -273,7 +273,7 @@ class LackOfFitTermMaker {
     }
   }
 
-  /// A joint whose zero is another in each session.
+  /// A zero of a joint that differs between sessions.
   void of_sessions(const Eigen::VectorXd& session) {
     std::vector<double> names(session.data(), session.data() + session.size());
     std::sort(names.begin(), names.end());
@@ -310,7 +310,7 @@ std::vector<LackOfFitTerm> make_lack_of_fit_terms(const EffectData& data,
   auto maker = std::make_shared<LackOfFitTermMaker>(data, position);
   std::vector<LackOfFitTerm> probes = maker->make();
   for (LackOfFitTerm& term : probes) {
-    // The maker's arrays live as long as any probe.
+    // The maker's arrays live as long as any term.
     term.perturbations = [maker, perturbations = std::move(term.perturbations)] {
       return perturbations();
     };
