@@ -53,10 +53,33 @@ struct NamedEffect {
   std::vector<Cause> alternatives;  ///< the best other explanations of the same
 };
 
+/// What residuals depend on.
+struct Dependence {
+  enum class Kind {
+    kNone,
+    kPosition,  ///< of the tip
+    kJoints,    ///< values of one joint, or of two together
+    kTime,      ///< a drift, or a vibration where `period` is given
+    kOrder,     ///< of the rows, where no times are recorded
+    kApproach,  ///< the direction of a joint's last move
+    kSession,
+    kCovariate,
+  };
+  Kind kind = Kind::kNone;
+  std::vector<int> coordinates = {};  ///< of the joints, from 0, ascending
+  std::optional<double> period = {};  ///< [s]
+  std::string covariate = {};         ///< its name
+  std::optional<int> component = {};  ///< column of a covariate that has several, from 0
+};
+
+/// "joint 3", "joints 2 and 3", "position", "time, period 12.1 s": joints counted from 1.
+std::string to_text(const Dependence& dependence);
+
 /// A lack-of-fit test: a dependence of the residuals, significant or not.
 struct Structure {
-  std::string against;      ///< "joint 3", "position", "time, period 12.1 s", "joints 2 and 3"
-  std::string description;  ///< a sentence
+  Dependence dependence;
+  int joint = -1;           ///< coordinate that is in error; -1: the tip is
+  std::string description;  ///< "what moves joint 4 with joints 2 and 3 together"
   double size = 0.0;        ///< rms per axis, less noise [m]
   double share = 0.0;       ///< of the residuals' variance, less noise
   double p_value = 1.0;     ///< corrected for multiplicity

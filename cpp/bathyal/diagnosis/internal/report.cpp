@@ -96,8 +96,8 @@ class Reporter {
       if (d.p > selection::kBeyondNoise && !out_.lack_of_fit_before.empty())
         break;  // the most significant is reported in any case
       if (!reported.insert(term_at(d.term).effect).second) continue;
-      out_.lack_of_fit_before.push_back({term_at(d.term).effect, term_at(d.term).description,
-                                         d.size * found_.base_noise, d.share, d.p});
+      out_.lack_of_fit_before.push_back(
+          structure(d.term, d.size * found_.base_noise, d.share, d.p));
     }
   }
 
@@ -277,6 +277,11 @@ class Reporter {
     out_.effects.push_back(std::move(named));
   }
 
+  Structure structure(int index, double size, double share, double p_value) const {
+    const LackOfFitTerm& term = model_.lack_of_fit_term(index);
+    return {term.dependence, term.joint, term.description, size, share, p_value};
+  }
+
   Cause cause(int index, double odds) const {
     return {term_at(index).effect, term_at(index).joint, term_at(index).description, odds};
   }
@@ -289,10 +294,9 @@ class Reporter {
                            return a.explained < b.explained;
                          });
     const auto rows = static_cast<double>(3 * m_.rows());
-    out_.unexplained = {term_at(most->term).effect, term_at(most->term).description,
-                        std::sqrt(found_.unexplained / rows) * model_.mean_unit(),
-                        found_.base_squares > 0.0 ? found_.unexplained / found_.base_squares : 0.0,
-                        most->p};
+    out_.unexplained = structure(
+        most->term, std::sqrt(found_.unexplained / rows) * model_.mean_unit(),
+        found_.base_squares > 0.0 ? found_.unexplained / found_.base_squares : 0.0, most->p);
   }
 
   void decide() {

@@ -21,7 +21,6 @@ from bathyal.diagnosis.report.numbers import (
     shown_unit,
     spaced,
 )
-from bathyal.diagnosis.report.quantities import against_text
 from bathyal.view.text import bare, counted, listed, lower, sentence, upper
 
 if TYPE_CHECKING:
@@ -229,7 +228,7 @@ def _clean(report: Diagnosis) -> list[str]:
     suspect = (
         f"no structure that was looked for has a chance below {BEYOND_NOISE}, all tests counted"
         if least is None
-        else f"the most suspect, against {against_text(least)}, has {chance_text(least.p_value)}"
+        else f"the most suspect, against {least.against}, has {chance_text(least.p_value)}"
     )
     held = report.held_out
     return [

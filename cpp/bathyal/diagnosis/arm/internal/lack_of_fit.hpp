@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "bathyal/diagnosis/diagnosis.hpp"
 #include "bathyal/effects/effect.hpp"
 
 // Lack-of-fit terms of an arm: dependences of the residuals that are no causes by themselves.
@@ -13,7 +14,8 @@ namespace bathyal::diagnosis {
 
 /// Perturbations that test for a dependence of the residuals.
 struct LackOfFitTerm {
-  std::string against;      ///< "joints 2 and 3"
+  Dependence dependence;
+  int joint = -1;           ///< coordinate that is perturbed; -1: the tip
   std::string description;  ///< "what moves joint 4 with joints 2 and 3 together"
   /// Terms of one family differ in one number only (a period), in its order; else -1.
   int family = -1;

@@ -168,8 +168,8 @@ void ArmModel::gather_terms(const Effects& effects) {
   for (int p = 0; p < static_cast<int>(lack_of_fit_terms_.size()); ++p) {
     const LackOfFitTerm& about = lack_of_fit_terms_[p];
     if (about.family >= 0) families[about.family].push_back(static_cast<int>(terms_.size()));
-    terms_.push_back({about.against, -1, "lack of fit " + about.description, about.description,
-                      about.multiplicity});
+    terms_.push_back({to_text(about.dependence), -1, "lack of fit " + about.description,
+                      about.description, about.multiplicity});
     terms_.back().lack_of_fit = true;
     sources_.push_back({nullptr, {}, p});
   }

@@ -56,6 +56,10 @@ class ArmModel final : public selection::Model {
   /// Null for lack-of-fit terms.
   const Effect* effect(int term) const { return sources_[term].effect.get(); }
   const EffectVariant& variant(int term) const { return sources_[term].variant; }
+  /// \pre the term is a lack-of-fit term
+  const LackOfFitTerm& lack_of_fit_term(int term) const {
+    return lack_of_fit_terms_[sources_[term].lack_of_fit];
+  }
   /// Warnings that no effect explains: another arm, another scale, poses too alike.
   const std::vector<std::string>& geometry_warnings() const { return geometry_warnings_; }
   /// Warnings on terms with too many parameters for these data.
