@@ -33,8 +33,8 @@ void check_positions_differ(const RowMatrix& position) {
   throw_argument("position", "positions that differ", "the same in all rows");
 }
 
-/// Of a long record of tracked poses, what a search in some rows finds; else nothing. They are
-/// drawn, so that they follow no grid of the record.
+/// Of a long record of tracked poses, the result of a search in a subset of rows; else empty. Rows
+/// are drawn at random, so that they follow no grid of the record.
 selection::Shortlist shortlist_from_subset(ArmModel& arm_model, int num_threads,
                                            const DiagnosisProgress& progress) {
   constexpr int kLong = 6000, kLookedAt = 3000;
@@ -63,7 +63,7 @@ Diagnosis run(const Arm& arm, const Measurement& measurement, const Covariates& 
   identify.parametrization = options.parametrization;
   identify.fixed = options.fixed;
   identify.num_threads = options.num_threads;
-  // Bad covariates are refused before anything takes its time.
+  // Bad covariates are refused before the long computation.
   make_effect_data(arm, measurement.q, covariates, measurement.has_rotation());
   ArmModel arm_model(arm, measurement, covariates, identify, effects);
   const selection::SelectionOptions asked{options.num_threads, options.blocks};

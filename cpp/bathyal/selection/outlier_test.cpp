@@ -175,15 +175,16 @@ Eigen::VectorXd exclude_outliers(const Linearization& at, const Eigen::MatrixXd&
   const std::vector<ObservationTest> tests = test_observations(at, basis, weights, dof);
   const double threshold = kOutlierLevel / static_cast<double>(weights.size());
   Eigen::VectorXd out = weights;
-  Index odd = 0;
+  Index outliers = 0;
   for (Index i = 0; i < weights.size(); ++i) {
     const bool belongs = tests[static_cast<std::size_t>(i)].p > threshold;
-    if (!belongs) ++odd;
+    if (!belongs) ++outliers;
     if (belongs && !(weights[i] > 0.0)) out[i] = 1.0;
     if (!belongs) out[i] = 0.0;
   }
-  return static_cast<double>(odd) > kMaxOutliers * static_cast<double>(weights.size()) ? weights
-                                                                                       : out;
+  return static_cast<double>(outliers) > kMaxOutliers * static_cast<double>(weights.size())
+             ? weights
+             : out;
 }
 
 VarianceComponentFit fit_noise(const VarianceComponent& term, const Linearization& at,

@@ -208,10 +208,10 @@ Shortlist TermSelector::shortlist(const std::vector<int>& terms) const {
   const Eigen::MatrixXd replacement = candidates.exchange_scores(set);
   Shortlist out{terms, terms};
   for (int m = 0; m < candidates.size(); ++m) {
-    const bool stands = std::find(set.begin(), set.end(), m) != set.end();
+    const bool selected = std::find(set.begin(), set.end(), m) != set.end();
     const double best =
         set.empty() ? forward[m] : std::max(forward[m], replacement.col(m).maxCoeff());
-    if (!stands && best > now->score - kFarBehind)
+    if (!selected && best > now->score - kFarBehind)
       out.candidates.push_back(candidates.term_index(m));
   }
   return out;

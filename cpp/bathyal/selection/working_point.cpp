@@ -109,19 +109,19 @@ double WorkingPoint::score(const std::vector<int>& terms, const Eigen::VectorXd&
   const auto fit = candidates.evaluate(all_members(candidates));
   if (!fit) return -std::numeric_limits<double>::infinity();
   // Excluded observations count as rows, each explained by a column of its own.
-  double odd = 0.0, cost = 0.0;
+  double outlier_rows = 0.0, cost = 0.0;
   const NuisanceBasis& whole = nuisance(terms);
   const std::vector<ObservationTest> tests =
       test_observations(model_.linearization(), whole.basis, weights, whole.dof);
   for (Index i = 0; i < weights.size(); ++i) {
     if (weights[i] > 0.0) continue;
     const ObservationTest& test = tests[static_cast<std::size_t>(i)];
-    odd += test.rows;
+    outlier_rows += test.rows;
     cost += complexity_penalty(test.rows, test.distance) +
             std::log(static_cast<double>(weights.size()));
   }
   // As CandidateSet::evaluate, in metres: the unit of residuals differs between selections.
-  const double rows = base.dof + odd;
+  const double rows = base.dof + outlier_rows;
   return fit->score + 0.5 * base.dof * std::log(fit->residual_sum) -
          0.5 * rows * std::log(fit->residual_sum * model_.noise() * model_.noise()) - cost;
 }

@@ -23,7 +23,7 @@ Arm three_joints() {
   return arm_from_dh(table);
 }
 
-/// Poses in which joint 1 moves by a third of a turn only, and has an error of two waves.
+/// Poses in which joint 1 turns by a third of a turn only, with an error of two waves.
 Tracked little_moved(double size) {
   const Arm arm = three_joints();
   Tracked out;
@@ -43,7 +43,7 @@ Tracked little_moved(double size) {
   return out;
 }
 
-/// The largest value that a curve of twelve waves along joint 1 is fitted with.
+/// The largest value of a fitted curve of twelve waves along joint 1.
 double largest_value(double size) {
   const Arm arm = three_joints();
   const IdentifyOptions options;
@@ -61,8 +61,8 @@ double largest_value(double size) {
   return 0.0;
 }
 
-TEST(ArmModel, NumbersThatTheDataHardlyTellAreHeldToTheSizeOfTheOthers) {
-  // Plausible are 2e-2 rad, and by themselves such waves over a third of a turn run up to that.
+TEST(ArmModel, HardlyDeterminedValuesShrinkToTheScaleOfTheOthers) {
+  // 2e-2 rad are plausible; without shrinkage, such waves over a third of a turn reach that.
   EXPECT_LT(largest_value(1e-3), 4e-3);
   EXPECT_LT(largest_value(1e-4), 1e-3);
 }
@@ -76,7 +76,7 @@ int wave_of_joint_1(const ArmModel& arm_model) {
   return -1;
 }
 
-TEST(ArmModel, StandsAgainWhereItStood) {
+TEST(ArmModel, RestoresACheckpoint) {
   const Arm arm = three_joints();
   const IdentifyOptions options;
   const Measurement measurement = to_measurement(arm, little_moved(1e-3));
@@ -117,9 +117,8 @@ Tracked elastic() {
   return out;
 }
 
-/// Torques follow the geometry: those that were fitted must be those that whoever has the fitted
-/// arm computes.
-TEST(ArmModel, EffectsAreThoseOfTheArmThatWasFittedWithThem) {
+/// Torques depend on the geometry: the fitted ones must be those that the fitted arm gives.
+TEST(ArmModel, EffectsAreEvaluatedAtTheFittedArm) {
   const Arm arm = three_joints();
   const IdentifyOptions options;
   const Measurement measurement = to_measurement(arm, elastic());
@@ -134,14 +133,14 @@ TEST(ArmModel, EffectsAreThoseOfTheArmThatWasFittedWithThem) {
   const CorrectedArm model(arm_model.arm(), arm_model.found(), support_of(measurement.q, {}));
   const std::vector<double> poses =
       model.forward({measurement.q.data(), measurement.q.rows(), measurement.q.cols()}).poses;
-  Eigen::Matrix3Xd left(3, measurement.rows());
+  Eigen::Matrix3Xd residuals(3, measurement.rows());
   for (Index i = 0; i < measurement.rows(); ++i) {
-    for (Index axis = 0; axis < 3; ++axis) left(axis, i) = poses[16 * i + 4 * axis + 3];
+    for (Index axis = 0; axis < 3; ++axis) residuals(axis, i) = poses[16 * i + 4 * axis + 3];
   }
-  left -= measurement.position;
-  EXPECT_LT((left - arm_model.deviations()).cwiseAbs().maxCoeff(), 1e-12);
-  EXPECT_LT(std::sqrt(left.squaredNorm() / static_cast<double>(left.size())), 1.05e-5);
-  // Where it stood before it comes back to, by the arm that it had there.
+  residuals -= measurement.position;
+  EXPECT_LT((residuals - arm_model.deviations()).cwiseAbs().maxCoeff(), 1e-12);
+  EXPECT_LT(std::sqrt(residuals.squaredNorm() / static_cast<double>(residuals.size())), 1.05e-5);
+  // A checkpoint restores the arm at which effects were evaluated, too.
   const auto checkpoint = arm_model.save();
   const Eigen::Matrix3Xd there = arm_model.deviations();
   arm_model.fit({});
@@ -149,9 +148,9 @@ TEST(ArmModel, EffectsAreThoseOfTheArmThatWasFittedWithThem) {
   EXPECT_EQ(arm_model.deviations(), there);
 }
 
-/// Rows of a subject, seen alone or among all: an effect that looks at neighbours in time (clocks
-/// out of step) does the same in both.
-TEST(ArmModel, SomeRowsSeeWhatTheRecordSees) {
+/// An effect that depends on neighbours in time (clocks out of step) is the same in a subset of
+/// rows as in the whole record.
+TEST(ArmModel, ASubsetEvaluatesEffectsAsTheWholeRecord) {
   const Arm arm = three_joints();
   const IdentifyOptions options;
   const Tracked tracked = little_moved(1e-3);
@@ -161,14 +160,14 @@ TEST(ArmModel, SomeRowsSeeWhatTheRecordSees) {
   ArmModel whole(arm, measurement, {{"time", time}}, options, library_effects());
   std::vector<int> rows;
   for (int i = 0; i < measurement.rows(); i += 2) rows.push_back(i);
-  const ArmModel some(whole, rows);
-  ASSERT_EQ(some.terms().size(), whole.terms().size());
+  const ArmModel subset(whole, rows);
+  ASSERT_EQ(subset.terms().size(), whole.terms().size());
   int asked = 0;
   for (int term = 0; term < static_cast<int>(whole.terms().size()); ++term) {
     const std::string& effect = whole.terms()[term].effect;
     if (effect != "clock_shift" && effect != "tool_slip" && effect != "joint_map") continue;
     const Eigen::MatrixXd all = whole.columns(std::vector<int>{term}).front();
-    const Eigen::MatrixXd part = some.columns(std::vector<int>{term}).front();
+    const Eigen::MatrixXd part = subset.columns(std::vector<int>{term}).front();
     ASSERT_EQ(part.cols(), all.cols());
     // In units of each one's noise, at geometries that differ a little.
     for (Index c = 0; c < all.cols(); ++c) {
@@ -176,7 +175,7 @@ TEST(ArmModel, SomeRowsSeeWhatTheRecordSees) {
       for (Index i = 0; i < same.size() / 3; ++i) {
         same.segment<3>(3 * i) = all.col(c).segment<3>(3 * rows[i]);
       }
-      same *= whole.noise() / some.noise();
+      same *= whole.noise() / subset.noise();
       EXPECT_LT((part.col(c) - same).norm(), 0.05 * same.norm() + 1e-9) << effect << " " << c;
     }
     ++asked;
@@ -184,7 +183,7 @@ TEST(ArmModel, SomeRowsSeeWhatTheRecordSees) {
   EXPECT_GT(asked, 3);
 }
 
-TEST(ArmModel, RowsStandInTheOrderOfTheirTimes) {
+TEST(ArmModel, RowsAreOrderedByTime) {
   const Arm arm = three_joints();
   const IdentifyOptions options;
   const Measurement measurement = to_measurement(arm, little_moved(1e-3));
@@ -198,7 +197,7 @@ TEST(ArmModel, RowsStandInTheOrderOfTheirTimes) {
   }
 }
 
-/// Mean squares of rows along what rounded joints do, and across it, in units of noise.
+/// Mean squares of rows along the errors of rounded joints, and across them [noise²].
 std::pair<double, double> along_and_across(const ArmModel& arm_model,
                                            const Eigen::MatrixXd& loads) {
   const selection::Linearization& at = arm_model.linearization();
@@ -213,7 +212,7 @@ std::pair<double, double> along_and_across(const ArmModel& arm_model,
   return {along, across};
 }
 
-TEST(ArmModel, ErrorsOfRoundedJointsWeighAlikeInAllDirections) {
+TEST(ArmModel, RoundedJointsAreWhitened) {
   const Arm arm = three_joints();
   const IdentifyOptions options;
   constexpr double kStep = 2e-3;
@@ -235,7 +234,7 @@ TEST(ArmModel, ErrorsOfRoundedJointsWeighAlikeInAllDirections) {
   EXPECT_NEAR(along_then, 1.0, 0.35);
   EXPECT_NEAR(across_then, 1.0, 0.35);
   EXPECT_NEAR(arm_model.noise(), 1e-4, 1.5e-5);
-  // What was whitened is told as it was measured.
+  // Whitened residuals are converted back to metres.
   const Eigen::Matrix3Xd metres = arm_model.in_metres(arm_model.linearization().residual);
   EXPECT_LT((metres + arm_model.deviations()).norm(), 1e-6 * metres.norm());
   const double rms = std::sqrt(metres.squaredNorm() / static_cast<double>(metres.size()));

@@ -27,10 +27,10 @@ Term named(const std::string& effect, int joint) {
   return {effect, joint, effect + std::to_string(joint), effect, 4.0};
 }
 
-constexpr double kPlausible = 1e6;  ///< so large that it holds nothing
+constexpr double kPlausible = 1e6;  ///< so large that the prior has no effect
 
-/// Three base columns, six candidates of two columns each; the misfit is made of the second and the
-/// fifth one, some of the base, and noise of size 1.
+/// Three base columns, six candidates of two columns each; the residual is made of the second and
+/// the fifth one, of the base, and of noise of variance 1.
 class CandidateSetTest : public ::testing::Test {
  protected:
   CandidateSetTest() : base_(random_columns(1, 3)), basis_(orthonormal(base_)) {
@@ -54,7 +54,7 @@ class CandidateSetTest : public ::testing::Test {
   Eigen::VectorXd residual_;
 };
 
-TEST_F(CandidateSetTest, WhatIsLeftIsThatOfLeastSquares) {
+TEST_F(CandidateSetTest, ResidualSumIsThatOfLeastSquares) {
   const CandidateSet p = candidates();
   const std::vector<int> set{1, 4};
   Eigen::MatrixXd all(kRows, 7);
@@ -66,7 +66,7 @@ TEST_F(CandidateSetTest, WhatIsLeftIsThatOfLeastSquares) {
   EXPECT_EQ(fit->dof, kRows - 7.0);
 }
 
-TEST_F(CandidateSetTest, WaldIsWhatGoesWithoutTheMember) {
+TEST_F(CandidateSetTest, WaldStatisticIsTheIncreaseWithoutTheMember) {
   const CandidateSet p = candidates();
   const std::vector<int> both{1, 4}, alone{4};
   const auto fit = p.evaluate(both);
@@ -74,7 +74,7 @@ TEST_F(CandidateSetTest, WaldIsWhatGoesWithoutTheMember) {
   EXPECT_NEAR(fit->f[0] * 2.0 * fit->noise(), without->residual_sum - fit->residual_sum, 1e-9);
 }
 
-TEST_F(CandidateSetTest, TheScoreIsThatOfTheContract) {
+TEST_F(CandidateSetTest, ScoreFollowsItsFormula) {
   const CandidateSet p = candidates();
   const std::vector<int> set{1, 4};
   const auto fit = p.evaluate(set);
@@ -87,7 +87,7 @@ TEST_F(CandidateSetTest, TheScoreIsThatOfTheContract) {
   EXPECT_NEAR(fit->score, score, 1e-9);
 }
 
-TEST_F(CandidateSetTest, QuickScoresAreTheTrueOnesForTheFirstMember) {
+TEST_F(CandidateSetTest, ForwardScoresAreExactForTheFirstMember) {
   const CandidateSet p = candidates();
   const Eigen::VectorXd quick = p.forward_scores({});
   for (int m = 0; m < p.size(); ++m) {
@@ -96,7 +96,7 @@ TEST_F(CandidateSetTest, QuickScoresAreTheTrueOnesForTheFirstMember) {
   }
 }
 
-TEST_F(CandidateSetTest, WorthOfTheOnlyMemberIsWhatItsNameGains) {
+TEST_F(CandidateSetTest, MarginalScoreOfASingleMemberIsItsGain) {
   const CandidateSet p = candidates();
   for (int m = 0; m < p.size(); ++m) {
     const std::vector<int> alone{m};
@@ -105,8 +105,8 @@ TEST_F(CandidateSetTest, WorthOfTheOnlyMemberIsWhatItsNameGains) {
   }
 }
 
-TEST_F(CandidateSetTest, ScoresInsteadAreThoseBesideTheRest) {
-  // But for what the others' costs change when a member goes, which is the same for all.
+TEST_F(CandidateSetTest, ExchangeScoresAreForwardScoresOfTheRest) {
+  // Up to the change of the others' penalties when a member is removed, which is the same for all.
   const CandidateSet p = candidates();
   const std::vector<int> both{1, 4}, rest{4};
   const Eigen::VectorXd forward = p.forward_scores(rest);
@@ -117,9 +117,9 @@ TEST_F(CandidateSetTest, ScoresInsteadAreThoseBesideTheRest) {
   EXPECT_TRUE(std::isinf(replacement(0, 1)) && std::isinf(replacement(0, 4)));
 }
 
-TEST_F(CandidateSetTest, ValuesAreHeldToWhatIsPlausible) {
-  // One standard deviation of noise at the largest plausible size, three times over: the value that
-  // noise alone asks for is shrunk by 1 + 1 / 9, and what holds it there counts as left over.
+TEST_F(CandidateSetTest, PriorShrinksValues) {
+  // At the plausible size the column is three standard deviations of noise long: the least-squares
+  // value shrinks by 1 + 1 / 9, and the prior penalty counts as unexplained.
   columns_[0] = random_columns(97, 1);
   columns_[0] -= basis_ * (basis_.transpose() * columns_[0]);
   columns_[0] *= 3.0 / columns_[0].norm();
@@ -130,7 +130,7 @@ TEST_F(CandidateSetTest, ValuesAreHeldToWhatIsPlausible) {
   EXPECT_NEAR(p.evaluate(one)->residual_sum, 36.0 * unexplained, 1e-9);
 }
 
-TEST_F(CandidateSetTest, TwoWordsForOneThingAreNotNamedTogether) {
+TEST_F(CandidateSetTest, CollinearTermsAreNotSelectedTogether) {
   for (auto& columns : columns_) columns /= kPlausible;
   columns_[2] = columns_[1];
   const CandidateSet p = candidates();
@@ -138,28 +138,28 @@ TEST_F(CandidateSetTest, TwoWordsForOneThingAreNotNamedTogether) {
   EXPECT_FALSE(p.evaluate(both));
 }
 
-TEST_F(CandidateSetTest, WhatCouldNotBeSeenAtItsLargestIsNoCandidate) {
+TEST_F(CandidateSetTest, ATermBelowNoiseAtItsLargestIsNoCandidate) {
   columns_[2] = 0.9 * random_columns(95, 1) / random_columns(95, 1).norm();
   EXPECT_EQ(candidates().size(), 5);
 }
 
-TEST_F(CandidateSetTest, TheSearchFindsTheSetAndNothingBesideIt) {
+TEST_F(CandidateSetTest, BeamSearchFindsTheTrueSet) {
   EXPECT_EQ(beam_search(candidates()), (std::vector<int>{1, 4}));
 }
 
-TEST_F(CandidateSetTest, NoiseAloneHasNoCause) {
+TEST_F(CandidateSetTest, NoiseAloneSelectsNothing) {
   residual_ = random_columns(98, 1);
   EXPECT_TRUE(beam_search(candidates()).empty());
 }
 
-TEST_F(CandidateSetTest, WhatTheBaseCanDoIsNoCandidate) {
+TEST_F(CandidateSetTest, ATermInTheSpanOfTheBaseIsNoCandidate) {
   columns_[2] = base_ * Eigen::MatrixXd::Random(3, 2);
   const CandidateSet p = candidates();
   EXPECT_EQ(p.size(), 5);
   for (int m = 0; m < p.size(); ++m) EXPECT_NE(p.term_index(m), 2);
 }
 
-TEST_F(CandidateSetTest, TwoWordsForOneThingAreRivals) {
+TEST_F(CandidateSetTest, CollinearTermsAreAlternatives) {
   columns_[2] = columns_[1] * Eigen::Matrix2d{{1.0, 1.0}, {0.0, 2.0}};
   const CandidateSet p = candidates();
   const std::vector<int> set = beam_search(p);
@@ -174,14 +174,14 @@ TEST_F(CandidateSetTest, TwoWordsForOneThingAreRivals) {
   EXPECT_TRUE(found);
 }
 
-TEST_F(CandidateSetTest, WhatHelpsBesideAMemberIsNoRivalOfIt) {
+TEST_F(CandidateSetTest, ATermThatAddsToAMemberIsNoAlternative) {
   const CandidateSet p = candidates();
   const std::vector<int> incomplete{1};
   for (const Alternative& alternative : find_alternatives(p, incomplete))
     EXPECT_LT(alternative.odds, 0.05);
 }
 
-TEST_F(CandidateSetTest, TheSameForAnyNumberOfThreads) {
+TEST_F(CandidateSetTest, IsTheSameForAnyNumberOfThreads) {
   const std::vector<int> set{0, 1, 2, 3, 4, 5};
   EXPECT_EQ(candidates(1).evaluate(set)->score, candidates(2).evaluate(set)->score);
 }

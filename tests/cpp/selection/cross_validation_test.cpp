@@ -30,7 +30,7 @@ Eigen::MatrixXd normal(std::uint64_t seed, Index rows, Index columns) {
   return out;
 }
 
-TEST(FoldLeastSquares, ForetellsAsAFitToTheOthersDoes) {
+TEST(FoldLeastSquares, PredictsAsAFitToTheOtherFolds) {
   constexpr Index kRows = 60;
   Eigen::MatrixXd columns = normal(1, kRows, 4);
   columns.colwise().normalize();
@@ -67,7 +67,7 @@ TEST(FoldLeastSquares, ForetellsAsAFitToTheOthersDoes) {
   EXPECT_NEAR(held.log_predictive_density({0, 1, 3}), density, 1e-5);
 }
 
-TEST(Folds, PointsThatEverySessionTouchesAreHeldOutEachByItself) {
+TEST(Folds, GroupsInEverySessionAreHeldOutOneByOne) {
   Observations observations = observations_of(180);
   for (int u = 0; u < 180; ++u) {
     observations.group[static_cast<std::size_t>(u)] = u % 6;
@@ -78,7 +78,7 @@ TEST(Folds, PointsThatEverySessionTouchesAreHeldOutEachByItself) {
   for (int u = 0; u < 180; ++u) EXPECT_EQ(folds.fold_of[u], folds.fold_of[u % 6]);
 }
 
-TEST(Folds, PosesThatEverySessionRepeatsAreDealtOutEvenly) {
+TEST(Folds, PosesRepeatedInEverySessionGiveEvenFolds) {
   Observations observations = observations_of(180);
   for (int u = 0; u < 180; ++u) {
     observations.replicate[static_cast<std::size_t>(u)] = u % 60;
@@ -90,7 +90,7 @@ TEST(Folds, PosesThatEverySessionRepeatsAreDealtOutEvenly) {
     EXPECT_EQ(std::count(folds.fold_of.begin(), folds.fold_of.end(), b), 18);
 }
 
-TEST(Folds, SessionsOfFewRowsShareThem) {
+TEST(Folds, ShortSessionsShareFolds) {
   Observations observations = observations_of(90);
   for (const int rows : {1, 2, 3}) {
     for (int u = 0; u < 90; ++u) observations.session[static_cast<std::size_t>(u)] = u / rows;
@@ -101,7 +101,7 @@ TEST(Folds, SessionsOfFewRowsShareThem) {
   }
 }
 
-TEST(FoldLeastSquares, AColumnThatOneBlockAloneTellsStaysAtZero) {
+TEST(FoldLeastSquares, AColumnOfOneFoldAloneIsZeroWithoutIt) {
   Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(9, 1);
   columns.topRows(3).setConstant(1.0 / std::sqrt(3.0));
   const Eigen::VectorXd residual = Eigen::VectorXd::Constant(9, 2.0);
@@ -112,7 +112,7 @@ TEST(FoldLeastSquares, AColumnThatOneBlockAloneTellsStaysAtZero) {
   EXPECT_NEAR(held.errors({0}).error[0], 2.0, 1e-9);
 }
 
-TEST(Folds, CutTimeIntoPiecesOfOneSize) {
+TEST(Folds, AreBlocksOfEqualLengthInTime) {
   const Folds folds = make_folds(observations_of(95));
   EXPECT_EQ(folds.count, 10);
   std::vector<int> size(10, 0);
@@ -122,7 +122,7 @@ TEST(Folds, CutTimeIntoPiecesOfOneSize) {
     EXPECT_GE(folds.fold_of[i], folds.fold_of[i - 1]);
 }
 
-TEST(Folds, OfAListWithoutTimesAreShortRunsFromAllOverIt) {
+TEST(Folds, AreShortRunsOfAListWithoutTimes) {
   Observations observations = observations_of(240);
   observations.timed = false;
   const Folds folds = make_folds(observations);
@@ -136,7 +136,7 @@ TEST(Folds, OfAListWithoutTimesAreShortRunsFromAllOverIt) {
   }
 }
 
-TEST(Folds, KeepTwinsTogetherAndGiveEverySessionItsShare) {
+TEST(Folds, KeepReplicatesTogetherAndHavePartOfEverySession) {
   Observations observations = observations_of(200);
   for (int i = 0; i < 200; ++i) {
     observations.session[i] = i / 100;
@@ -153,7 +153,7 @@ TEST(Folds, KeepTwinsTogetherAndGiveEverySessionItsShare) {
   }
 }
 
-TEST(Folds, TakeWholePointsThoughTheirTouchesAlternate) {
+TEST(Folds, AreWholeGroupsThoughTheirObservationsAlternate) {
   Observations observations = observations_of(120);
   for (int i = 0; i < 120; ++i) observations.group[i] = i % 12;
   const Folds folds = make_folds(observations);
@@ -161,19 +161,19 @@ TEST(Folds, TakeWholePointsThoughTheirTouchesAlternate) {
   for (int i = 0; i < 120; ++i) EXPECT_EQ(folds.fold_of[i], folds.fold_of[i % 12]);
 }
 
-TEST(Folds, OneChainOfTwinsCannotBeHeldOut) {
+TEST(Folds, OneChainOfReplicatesCannotBeHeldOut) {
   Observations observations = observations_of(30);
   observations.replicate.assign(30, 0);
   EXPECT_EQ(make_folds(observations).count, 1);
 }
 
-TEST(Twins, AreFoundAlongChains) {
+TEST(Replicates, AreFoundAlongChains) {
   Eigen::MatrixXd q(5, 2);
   q << 0.0, 0.0, 0.0009, 0.0, 0.0018, 0.0, 0.0018, 1.0, 3.0, 0.0;
   EXPECT_EQ(find_replicates(q, 1e-3), (std::vector<int>{0, 0, 0, 1, 2}));
 }
 
-TEST(SignFlips, AllGainsAreLuckOnceInTwoToTheBlocks) {
+TEST(SignFlips, AllGainsHaveOneChanceInTwoToTheFolds) {
   EXPECT_DOUBLE_EQ(sign_flip_p(Eigen::VectorXd::Ones(10)), 1.0 / 1024.0);
   EXPECT_GT(sign_flip_p(Eigen::VectorXd::Zero(5)), 0.99);
   Eigen::VectorXd gains(4);

@@ -13,13 +13,13 @@ namespace {
 
 constexpr Index kObservations = 100, kOutlier = 40;
 
-/// One row a unit, noise of 1; what the unit `kOdd` shows is chosen.
-Linearization seen(double odd) {
+/// One row an observation, noise of 1; the residual of `kOutlier` is given.
+Linearization with_outlier(double size) {
   Linearization at;
   at.residual.resize(kObservations);
   RandomStream random(5);
   for (double& value : at.residual) value = random.normal();
-  at.residual[kOutlier] = odd;
+  at.residual[kOutlier] = size;
   at.jacobian.resize(kObservations, 0);
   at.observation.resize(kObservations);
   std::iota(at.observation.begin(), at.observation.end(), 0);
@@ -27,43 +27,45 @@ Linearization seen(double odd) {
   return at;
 }
 
-/// What the odd unit must show for a given chance that it is one of the others.
-double shown_at(double p) {
+/// The residual of the outlier at a given p-value.
+double residual_at(double p) {
   const Eigen::MatrixXd no_basis(kObservations, 0);
   const Eigen::VectorXd all = Eigen::VectorXd::Ones(kObservations);
   double low = 0.0, high = 100.0;
   while (high - low > 1e-6) {
     const double middle = 0.5 * (low + high);
-    (test_observations(seen(middle), no_basis, all, kObservations)[kOutlier].p > p ? low : high) =
+    (test_observations(with_outlier(middle), no_basis, all, kObservations)[kOutlier].p > p ? low
+                                                                                           : high) =
         middle;
   }
   return high;
 }
 
-TEST(OddUnits, OneInAThousandChancesLeavesOneOut) {
+TEST(Outliers, AreExcludedAtOneInAThousand) {
   const Eigen::MatrixXd no_basis(kObservations, 0);
   const Eigen::VectorXd all = Eigen::VectorXd::Ones(kObservations);
-  const double least = shown_at(1e-3 / kObservations);  // any of them might have been it
+  const double least = residual_at(1e-3 / kObservations);  // corrected for all of them
   Eigen::VectorXd without = all;
   without[kOutlier] = 0.0;
-  EXPECT_EQ(exclude_outliers(seen(1.02 * least), no_basis, all, kObservations), without);
-  EXPECT_EQ(exclude_outliers(seen(0.98 * least), no_basis, all, kObservations), all);
+  EXPECT_EQ(exclude_outliers(with_outlier(1.02 * least), no_basis, all, kObservations), without);
+  EXPECT_EQ(exclude_outliers(with_outlier(0.98 * least), no_basis, all, kObservations), all);
   EXPECT_GT(least, 4.0);
   EXPECT_LT(least, 6.0);
 }
 
-TEST(OddUnits, OneThatBelongsIsTakenBack) {
+TEST(Outliers, AreTakenBackWhenTheyAreNoneAnyMore) {
   const Eigen::MatrixXd no_basis(kObservations, 0);
   const Eigen::VectorXd all = Eigen::VectorXd::Ones(kObservations);
   Eigen::VectorXd without = all;
   without[kOutlier] = 0.0;
-  const double faint = std::sqrt(kExcludedWeight);  // as rows that are left out are weighed
-  EXPECT_EQ(exclude_outliers(seen(1.0 * faint), no_basis, without, kObservations - 1), all);
-  EXPECT_EQ(exclude_outliers(seen(9.0 * faint), no_basis, without, kObservations - 1), without);
+  const double faint = std::sqrt(kExcludedWeight);  // the weight of excluded rows
+  EXPECT_EQ(exclude_outliers(with_outlier(1.0 * faint), no_basis, without, kObservations - 1), all);
+  EXPECT_EQ(exclude_outliers(with_outlier(9.0 * faint), no_basis, without, kObservations - 1),
+            without);
 }
 
-/// Three rows a unit, noise of 1 along all of them and of `size` along one direction of each.
-TEST(FitNoise, FindsSourcesAlongTheirDirections) {
+/// Three rows an observation, noise of 1 in all directions and of `size` along one of each.
+TEST(VarianceComponents, AreEstimatedAlongTheirDirections) {
   constexpr double kSize = 0.5, kNoise = 1e-3;
   Linearization at;
   VarianceComponent along{"", "", "size", "m", 1.0, Eigen::MatrixXd(3 * kObservations, 1)};
@@ -89,7 +91,7 @@ TEST(FitNoise, FindsSourcesAlongTheirDirections) {
   EXPECT_NEAR(std::sqrt(found.ratio) * kNoise, kSize, 0.15);
   EXPECT_GT(found.held_out_gain, 0.0);
 
-  // As much in all directions is a worse account of it.
+  // An isotropic component of the same variance fits worse.
   VarianceComponent around = along;
   around.loads = Eigen::MatrixXd::Zero(3 * kObservations, 3);
   for (Index u = 0; u < kObservations; ++u) {

@@ -14,7 +14,7 @@ namespace {
 
 constexpr Index kRows = 200, kRowsPerFold = 20;
 
-/// A linear model of one base column, with noise of 1: nothing of an arm.
+/// A linear model of one base column, with noise of 1.
 class LinearModel final : public Model {
  public:
   LinearModel() {
@@ -31,7 +31,7 @@ class LinearModel final : public Model {
     at_.noise_rows = kRows;
   }
 
-  /// A form whose parameters do `columns`.
+  /// A term with the derivatives `columns`.
   void add(const std::string& effect, const Eigen::MatrixXd& columns, bool lack_of_fit = false) {
     terms_.push_back({effect, -1, effect, effect, 1.0});
     terms_.back().lack_of_fit = lack_of_fit;
@@ -90,12 +90,12 @@ Names effects_of(const LinearModel& model, const std::vector<SelectedTerm>& chos
   return effects;
 }
 
-TEST(Examine, WhatARefutedNameStoodForIsLeftOver) {
+TEST(SelectTerms, StructureOfARefutedTermIsUnexplained) {
   LinearModel model;
   Eigen::VectorXd base = Eigen::VectorXd::Ones(kRows);
   base.segment(5 * kRowsPerFold, kRowsPerFold).setZero();
   model.set_base(base);
-  // No other block knows of it: what is held out there cannot be foretold.
+  // No other fold determines it: what is held out there cannot be predicted.
   model.add("bump", in_fold(5, 10.0));
   model.add("somewhere", in_fold(5, 10.0), true);
   model.data() += in_fold(5, 8.0);
@@ -105,13 +105,13 @@ TEST(Examine, WhatARefutedNameStoodForIsLeftOver) {
   EXPECT_GT(found.unexplained, 0.9 * 20 * 64.0);
 }
 
-TEST(Examine, ANameThatForetellsBadlyGoesByItself) {
+TEST(SelectTerms, ATermThatPredictsBadlyIsDroppedAlone) {
   LinearModel model;
   const Eigen::VectorXd one = swing(1, 20.0), other = swing(2, 20.0);
   model.add("one", one);
   model.add("other", other);
-  // What block 0 tells of it is little, and wrong for block 5: it is foretold far off there, as is
-  // to be expected, and outweighs in squares what the other two gain.
+  // Fold 0 determines it badly, and wrong for fold 5: the prediction there is far off, as its
+  // variance says, and raises PRESS by more than the other two terms lower it.
   const Eigen::VectorXd faint = in_fold(0, 0.7), strong = in_fold(5, 220.0);
   model.add("spoiler", faint + strong);
   model.data() += 0.2 * one + 0.2 * other + 0.1 * strong - 2.0 * faint;
@@ -119,9 +119,9 @@ TEST(Examine, ANameThatForetellsBadlyGoesByItself) {
   EXPECT_EQ(effects_of(model, found.terms), (Names{"one", "other"}));
 }
 
-/// What is there, by a probe; and a name that is the nearest thing to it, beside `others` that are
-/// there as well.
-SelectionResult nearest_thing_beside(LinearModel& model, int others) {
+/// A truth that only a lack-of-fit term describes, a term that approximates it, and `others` that
+/// are true.
+SelectionResult with_approximation(LinearModel& model, int others) {
   const Eigen::VectorXd truth = swing(1, 20.0);
   model.add("nearest", truth + swing(2, 8.0));
   model.add("truth", truth, true);
@@ -134,16 +134,16 @@ SelectionResult nearest_thing_beside(LinearModel& model, int others) {
   return select_terms(model, {1, 10}, {});
 }
 
-TEST(Examine, ANameGivesWayToStructureThatItWasOnlyNearTo) {
+TEST(SelectTerms, LackOfFitReplacesATermThatOnlyApproximatesIt) {
   LinearModel model;
-  const SelectionResult found = nearest_thing_beside(model, 2);
+  const SelectionResult found = with_approximation(model, 2);
   EXPECT_EQ(effects_of(model, found.terms), (Names{"other 0", "other 1"}));
   EXPECT_EQ(effects_of(model, found.lack_of_fit), Names{"truth"});
 }
 
-TEST(Examine, AmongManyNamesStructureIsToldBeside) {
+TEST(SelectTerms, AmongManyTermsLackOfFitIsReportedInAddition) {
   LinearModel model;
-  const SelectionResult found = nearest_thing_beside(model, 6);
+  const SelectionResult found = with_approximation(model, 6);
   EXPECT_EQ(found.terms.size(), 7u);
   EXPECT_EQ(effects_of(model, found.terms).front(), "nearest");
   ASSERT_EQ(effects_of(model, found.lack_of_fit), Names{"truth"});
@@ -151,11 +151,11 @@ TEST(Examine, AmongManyNamesStructureIsToldBeside) {
   EXPECT_GT(found.unexplained, 0.0);
 }
 
-TEST(Examine, StructureThatForetellsNothingTakesNoNamesPlace) {
+TEST(SelectTerms, LackOfFitThatPredictsNothingReplacesNoTerm) {
   LinearModel model;
   const Eigen::VectorXd name = swing(1, 20.0);
   model.add("name", name);
-  // In each block another strength of the name: what it holds, and what no block tells of another.
+  // The term's value differs between folds: significant, and unpredictable from the other folds.
   Eigen::MatrixXd by_fold = Eigen::MatrixXd::Zero(kRows, kRows / kRowsPerFold);
   for (Index b = 0; b < by_fold.cols(); ++b) {
     const auto rows = Eigen::seqN(b * kRowsPerFold, kRowsPerFold);

@@ -13,10 +13,10 @@ namespace {
 
 constexpr Index kManyObservations = 40, kExcludedObservation = 7;
 
-/// Observations of so many rows each, one base column and noise of 1; a unit is left out, or none.
+/// Observations of `rows` rows each, one base column and noise of 1; one is excluded, or none.
 class ManyRows final : public Model {
  public:
-  ManyRows(Index rows, bool left_out) : rows_(rows) {
+  ManyRows(Index rows, bool excluded) : rows_(rows) {
     at_.residual.resize(kManyObservations * rows);
     RandomStream random(11);
     for (double& value : at_.residual) value = random.normal();
@@ -27,7 +27,7 @@ class ManyRows final : public Model {
                              static_cast<int>(u));
     }
     at_.residual.segment(kExcludedObservation * rows, rows).array() += 20.0;
-    if (!left_out) return;
+    if (!excluded) return;
     at_.residual.segment(kExcludedObservation * rows, rows) *= std::sqrt(kExcludedWeight);
     at_.jacobian.middleRows(kExcludedObservation * rows, rows) *= std::sqrt(kExcludedWeight);
     at_.constrained_dof = static_cast<double>(rows);
@@ -49,8 +49,8 @@ class ManyRows final : public Model {
   void set_variance_ratios(const Eigen::VectorXd&) override {}
   double noise() const override { return 1.0; }
 
-  /// Log evidence where a column of its own explains each row of the unit, by the books.
-  double score_with_columns_of_their_own() const {
+  /// Log evidence where a column of its own explains each row of the excluded observation.
+  double score_by_formula() const {
     Eigen::VectorXd others(at_.residual.size() - rows_);
     others << at_.residual.head(kExcludedObservation * rows_),
         at_.residual.tail(at_.residual.size() - (kExcludedObservation + 1) * rows_);
@@ -75,24 +75,22 @@ class ManyRows final : public Model {
   std::vector<VarianceComponent> variance_components_;
 };
 
-Eigen::VectorXd weights(bool left_out) {
+Eigen::VectorXd weights(bool excluded) {
   Eigen::VectorXd out = Eigen::VectorXd::Ones(kManyObservations);
-  if (left_out) out[kExcludedObservation] = 0.0;
+  if (excluded) out[kExcludedObservation] = 0.0;
   return out;
 }
 
-/// Of positions a unit has three rows, of whole poses six: as many numbers leave it out.
-TEST(WorkingPoint, AUnitLeftOutCostsAsManyNumbersAsItHasRows) {
+/// An observation of a position has three rows, of a whole pose six: as many parameters exclude it.
+TEST(WorkingPoint, AnExcludedObservationCostsOneParameterPerRow) {
   for (const Index rows : {Index{1}, Index{3}, Index{6}}) {
     ManyRows model(rows, true);
     const WorkingPoint working_point(model, 1);
-    EXPECT_NEAR(working_point.score({}, weights(true)), model.score_with_columns_of_their_own(),
-                0.5)
-        << rows;
+    EXPECT_NEAR(working_point.score({}, weights(true)), model.score_by_formula(), 0.5) << rows;
   }
 }
 
-TEST(WorkingPoint, RowsThatMeasureNothingAreNotCounted) {
+TEST(WorkingPoint, RowsWithoutInformationAreNotCounted) {
   ManyRows model(3, false);
   Linearization at = model.linearization();
   at.residual.segment(3 * kExcludedObservation + 1, 2).setZero();  // a touch of a plane

@@ -48,7 +48,7 @@ TOLD: dict[str, tuple[dict[str, Any], list[str]]] = {
     ),
     "never": ({"temperature": np.full(N, NAN)}, ["missing in 90 of 90 rows"]),
     "some_other": ({"pressure": some(np.sin(TIME))}, ["`pressure` is missing in 30 of 90 rows"]),
-    "some_time": ({"time": some(TIME)}, ["rows were taken in the order in which they stand"]),
+    "some_time": ({"time": some(TIME)}, ["rows were taken in the order of the record"]),
     "some_load": ({"payload": some(TIME % 40)}, ["the arm was taken to carry nothing"]),
     "some_gravity": ({"gravity": some(np.tile([0, 0, -9.8], (N, 1)))}, ["9.80665"]),
     "some_sessions": ({"session": some(TIME > 500)}, ["all rows were taken as one session"]),

@@ -158,8 +158,7 @@ def _with(report, **changes):
 def test_a_crowd_of_dependences_is_cut_and_counted(tmp_path):
     report = cases.named()
     report.shown = [
-        cases.structure(f"joint {k}", f"The residual bends along joint {k}", 1e-4, 0.1, 1e-4)
-        for k in range(40)
+        cases.on_joint(k, f"The residual bends along joint {k}", 1e-4, 0.1, 1e-4) for k in range(40)
     ]
     write_page(report, tmp_path / "report.html")
     text = (tmp_path / "report.html").read_text(encoding="utf-8")

@@ -86,9 +86,7 @@ def test_a_named_cause_comes_with_its_evidence():
 
 def test_what_is_unexplained_is_reported():
     report = cases.named()
-    report.leftover = cases.structure(
-        "joint 5", "The residual bends along joint 5", 3e-5, 0.1, 1e-4
-    )
+    report.leftover = cases.on_joint(5, "The residual bends along joint 5", 3e-5, 0.1, 1e-4)
     text = "Unexplained: The residual bends along joint 5 (0.030 mm per axis, p < 0.001)."
     assert text in summary(report)
 
@@ -116,7 +114,7 @@ def test_ambiguous_lists_all_and_asks_for_poses():
     )
     assert "Measure the 5 poses of report.next_poses" in next_steps(report)[0]
     report.next_poses = np.empty((0, 6))
-    assert "No pose would tell them apart" in next_steps(report)[0]
+    assert "No pose distinguishes them" in next_steps(report)[0]
 
 
 def test_what_is_sure_leads_where_it_does_more_than_what_is_open():
@@ -175,7 +173,7 @@ def test_unknown_says_what_it_looks_like_and_pretends_no_name():
     text = summary(report)
     assert "The residual swings with time, period 12.1 s (0.160 mm per axis, 80 %" in text
     assert "A part of it may be: a harmonic" in text
-    assert "It goes with time" in text
+    assert "The residuals depend on time" in text
     report.effects = []
     assert "A part of it" not in summary(report)
 

@@ -11,7 +11,7 @@
 namespace bathyal::diagnosis {
 namespace {
 
-/// Rows that are copies of none, in their order.
+/// Rows that duplicate no earlier one, in their order.
 std::vector<int> distinct_rows(const std::vector<int>& of) {
   std::vector<int> rows;
   for (int i = 0; i < static_cast<int>(of.size()); ++i) {
@@ -27,7 +27,7 @@ void add(Numbers& numbers, const auto& more) {
   for (const double value : more) numbers.push_back(std::isnan(value) ? kUnknown : value);
 }
 
-/// What copies share, of touches and tracked poses alike.
+/// The values that duplicates share, of touches and tracked poses alike.
 template <class Data>
 Numbers row_values(const Data& data, int row) {
   Numbers numbers;

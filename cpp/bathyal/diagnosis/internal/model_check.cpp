@@ -14,7 +14,7 @@ namespace {
 
 using PoseNumbers = Eigen::Matrix<double, 4, 4, Eigen::RowMajor>;
 
-/// [m], and of the largest coordinate: what the two ways of computing round off.
+/// [m], and of the largest coordinate: rounding of the two computations.
 constexpr double kTipRounding = 1e-9;
 
 /// (3, N) tips of the model, each by the tool and the station of its row.
@@ -37,8 +37,8 @@ Eigen::Matrix3Xd tips_of_model(const Diagnosis& found, const ArmModel& arm_model
   return tips;
 }
 
-/// (3, N) how far tips less residuals are from where they should be: at what was measured, at one
-/// place for each touched point, in its plane.
+/// (3, N) distance of tips less residuals from the measured position, from the point's mean, or
+/// from the touched plane.
 Eigen::Matrix3Xd misses_of_model(const Eigen::Matrix3Xd& tips, const Diagnosis& found,
                                  const ArmModel& arm_model, const Measurement& m) {
   Eigen::Matrix3Xd out = tips - found.residuals_after;
@@ -60,7 +60,7 @@ Eigen::Matrix3Xd misses_of_model(const Eigen::Matrix3Xd& tips, const Diagnosis& 
   return out;
 }
 
-/// Of covariates that the library does not know.
+/// Covariates that are not the library's.
 bool lacks_own_covariate(const Covariates& covariates, Index row) {
   return std::any_of(covariates.begin(), covariates.end(), [row](const auto& covariate) {
     return !is_library_covariate(covariate.first) &&
@@ -81,7 +81,7 @@ void check_model(const Diagnosis& found, const ArmModel& arm_model, const Measur
     if (misses.col(i).norm() <= least || lacks_own_covariate(covariates, i)) continue;
     throw Error("diagnose: the model that was found gives another tip in row " + std::to_string(i) +
                 " than it was fitted with, by " + millimetres(misses.col(i).norm()) +
-                ": an effect does something else than the same row and form made it do before");
+                ": an effect acts differently than in the fit, for the same row and variant");
   }
 }
 

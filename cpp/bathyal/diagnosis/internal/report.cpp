@@ -13,7 +13,8 @@
 namespace bathyal::diagnosis {
 namespace {
 
-constexpr double kMinReplicateDof = 12.0;  ///< degrees of freedom of repeats that tell the noise
+constexpr double kMinReplicateDof =
+    12.0;  ///< degrees of freedom from which replicates estimate the noise
 constexpr std::size_t kMaxAlternatives = 5;
 
 /// The t whose two tails hold 5 %.
@@ -42,7 +43,7 @@ class Reporter {
     fill_noise();
     fill_lack_of_fit_before();
     if (!found_.held_out) {
-      fill_why_nothing_is_held_out();
+      fill_too_few_data();
       return std::move(out_);
     }
     out_.detectable = found_.detectable * model_.mean_unit();
@@ -56,12 +57,12 @@ class Reporter {
  private:
   const selection::Term& term_at(int index) const { return model_.terms()[index]; }
 
-  /// By repeats of a pose, which no model explains away; else by what the model leaves.
+  /// Pure error from replicates of a pose; else the residuals of the model.
   void fill_noise() {
     std::map<int, std::vector<Index>> replicates;
-    std::set<int> odd(found_.outliers.begin(), found_.outliers.end());
+    std::set<int> excluded(found_.outliers.begin(), found_.outliers.end());
     for (Index i = 0; i < m_.rows(); ++i) {
-      if (!odd.contains(static_cast<int>(i)))
+      if (!excluded.contains(static_cast<int>(i)))
         replicates[model_.observations().replicate[i]].push_back(i);
     }
     double squares = 0.0, dof = 0.0;
@@ -80,7 +81,7 @@ class Reporter {
       out_.noise = model_.mean_noise();
       out_.noise_source = "what the model leaves";
     }
-    constexpr double kComputed = 1e-7;  // [m] at which steps of the search come to be seen
+    constexpr double kComputed = 1e-7;  // [m] at which the search's convergence becomes visible
     if (found_.held_out && out_.noise < kComputed) {
       out_.warnings.push_back(
           "Noise of " + millimetres(out_.noise) +
@@ -90,17 +91,17 @@ class Reporter {
   }
 
   void fill_lack_of_fit_before() {
-    std::set<std::string> told;
+    std::set<std::string> reported;
     for (const selection::LackOfFit& d : found_.lack_of_fit_before) {
       if (d.p > selection::kBeyondNoise && !out_.lack_of_fit_before.empty())
-        break;  // the least unlikely is told in any case
-      if (!told.insert(term_at(d.term).effect).second) continue;
-      out_.lack_of_fit_before.push_back({term_at(d.term).effect, term_at(d.term).description,
-                                         d.size * found_.base_noise, d.share, d.p});
+        break;  // the most significant is reported in any case
+      if (!reported.insert(term_at(d.term).effect).second) continue;
+      out_.lack_of_fit_before.push_back(
+          structure(d.term, d.size * found_.base_noise, d.share, d.p));
     }
   }
 
-  void fill_why_nothing_is_held_out() {
+  void fill_too_few_data() {
     constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
     HeldOut& out = out_.held_out;
     out.how = counted(m_.rows(), m_.tracked ? "pose" : "touch", m_.tracked ? "poses" : "touches") +
@@ -146,10 +147,10 @@ class Reporter {
       out.parts.push_back(
           part("point " + m_.name_of(m_.labels[p]), [&](Index i) { return m_.point[i] == p; }));
     }
-    const std::vector<bool> beyond = beyond_the_others();
-    if (std::find(beyond.begin(), beyond.end(), true) != beyond.end()) {
-      out.parts.push_back(part("within others' ranges", [&](Index i) { return !beyond[i]; }));
-      out.parts.push_back(part("beyond others' ranges", [&](Index i) { return bool(beyond[i]); }));
+    const std::vector<bool> outside = extrapolated();
+    if (std::find(outside.begin(), outside.end(), true) != outside.end()) {
+      out.parts.push_back(part("within others' ranges", [&](Index i) { return !outside[i]; }));
+      out.parts.push_back(part("beyond others' ranges", [&](Index i) { return bool(outside[i]); }));
     }
     if (out.parts.empty()) out.parts.push_back(all);
     const double above = out.rms_before * out.rms_before - out.noise * out.noise;
@@ -158,7 +159,7 @@ class Reporter {
     }
   }
 
-  /// As the record calls them; counted from 1 where it does not.
+  /// As in the record; counted from 1 where it has none.
   std::vector<std::string> session_names() const {
     const EffectData& data = model_.data();
     std::vector<std::string> names;
@@ -175,9 +176,9 @@ class Reporter {
     return names;
   }
 
-  /// (N,) whether a row's joints lie where no row of the other blocks reaches: what was found is a
-  /// guess there.
-  std::vector<bool> beyond_the_others() const {
+  /// (N,) whether a row's joints are outside the ranges of all other folds: there the prediction
+  /// extrapolates.
+  std::vector<bool> extrapolated() const {
     std::vector<bool> out(static_cast<std::size_t>(m_.rows()), false);
     for (int block = 0; block < found_.folds.count; ++block) {
       std::vector<Index> own, others;
@@ -195,7 +196,7 @@ class Reporter {
     return out;
   }
 
-  /// (N,) 3-D, of position rows [m]; NaN of rows that are left out.
+  /// (N,) 3-D, of position rows [m]; NaN for outliers.
   Eigen::VectorXd errors(const Eigen::VectorXd& rows) const {
     Eigen::VectorXd out = model_.in_metres(rows).colwise().norm();
     for (const int row : found_.outliers) out[row] = std::numeric_limits<double>::quiet_NaN();
@@ -276,6 +277,11 @@ class Reporter {
     out_.effects.push_back(std::move(named));
   }
 
+  Structure structure(int index, double size, double share, double p_value) const {
+    const LackOfFitTerm& term = model_.lack_of_fit_term(index);
+    return {term.dependence, term.joint, term.description, size, share, p_value};
+  }
+
   Cause cause(int index, double odds) const {
     return {term_at(index).effect, term_at(index).joint, term_at(index).description, odds};
   }
@@ -288,16 +294,15 @@ class Reporter {
                            return a.explained < b.explained;
                          });
     const auto rows = static_cast<double>(3 * m_.rows());
-    out_.unexplained = {term_at(most->term).effect, term_at(most->term).description,
-                        std::sqrt(found_.unexplained / rows) * model_.mean_unit(),
-                        found_.base_squares > 0.0 ? found_.unexplained / found_.base_squares : 0.0,
-                        most->p};
+    out_.unexplained = structure(
+        most->term, std::sqrt(found_.unexplained / rows) * model_.mean_unit(),
+        found_.base_squares > 0.0 ? found_.unexplained / found_.base_squares : 0.0, most->p);
   }
 
   void decide() {
-    const bool left =
+    const bool unexplained =
         !found_.lack_of_fit.empty() && found_.unexplained > options_.leftover * found_.explained;
-    if (left) {
+    if (unexplained) {
       out_.verdict = Verdict::kUnknown;
       return;
     }

@@ -17,7 +17,6 @@ from bathyal.diagnosis.report.numbers import (
     parameter_name,
     share_text,
 )
-from bathyal.diagnosis.report.quantities import against_text
 from bathyal.diagnosis.report.text import (
     amplitude_text,
     any_text,
@@ -64,7 +63,7 @@ def _clean(report: Diagnosis) -> dict[str, str]:
     trend = (
         {}
         if least is None
-        else {"strongest trend": f"against {against_text(least)}, {chance_text(least.p_value)}"}
+        else {"strongest trend": f"against {least.against}, {chance_text(least.p_value)}"}
     )
     return {
         **_data(report),
@@ -90,8 +89,7 @@ def _unknown(report: Diagnosis) -> dict[str, str]:
     numbers = {}
     if trend is not None:
         numbers["depends on"] = (
-            f"{against_text(trend)}: {length_text(trend.size)} per axis, "
-            f"{chance_text(trend.p_value)}"
+            f"{trend.against}: {length_text(trend.size)} per axis, {chance_text(trend.p_value)}"
         )
     if report.effects:
         return {

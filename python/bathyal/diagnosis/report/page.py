@@ -34,7 +34,7 @@ from bathyal.diagnosis.report.numbers import (
     share_text,
 )
 from bathyal.diagnosis.report.panels import MOST_MARKS, MOST_PARTS
-from bathyal.diagnosis.report.quantities import against_text, supports
+from bathyal.diagnosis.report.quantities import supports
 from bathyal.diagnosis.report.style import PAGE
 from bathyal.diagnosis.report.text import (
     VERDICTS,
@@ -202,7 +202,7 @@ def _structures(report: Diagnosis) -> str:
         return f"<p>No structure that was looked for has a chance below {BEYOND_NOISE}.</p>"
     rows = [
         (
-            against_text(s), length_text(s.size), share_text(s.share), chance_text(s.p_value),
+            s.against, length_text(s.size), share_text(s.share), chance_text(s.p_value),
             s.words, "strong" if s.is_beyond_noise else "weak",
         )
         for s in shown[:_MOST_SHOWN]

@@ -21,7 +21,6 @@ from bathyal.diagnosis.report.numbers import (
     shown_unit,
     spaced,
 )
-from bathyal.diagnosis.report.quantities import against_text
 from bathyal.view.text import bare, counted, listed, lower, sentence, upper
 
 if TYPE_CHECKING:
@@ -245,7 +244,7 @@ def _clean(report: Diagnosis) -> list[str]:
     suspect = (
         f"no dependence has a p-value below {BEYOND_NOISE}, corrected for all tests"
         if least is None
-        else f"the strongest dependence, on {against_text(least)}, has {chance_text(least.p_value)}"
+        else f"the strongest dependence, on {least.against}, has {chance_text(least.p_value)}"
     )
     held = report.held_out
     return [

@@ -52,7 +52,7 @@ std::string description_of(const EffectVariant& variant, const Arm& arm) {
       {"joint_compliance", [&] { return joint + " giving way under gravity"; }},
       {"link_compliance",
        [&] { return "the link that " + joint + " moves bending under its load"; }},
-      {"payload", [&] { return std::string("a load at the tool that nobody told of"); }},
+      {"payload", [&] { return std::string("an unreported load at the tool"); }},
       {"base_shift",
        [&] { return session_description(variant, "the base, or the tracker, moved"); }},
       {"base_compliance", [&] { return std::string("the base tilting under the arm's weight"); }},

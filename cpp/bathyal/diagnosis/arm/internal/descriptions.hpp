@@ -8,7 +8,7 @@
 
 namespace bathyal::diagnosis {
 
-/// "a wave of order 2 along joint 3 (elbow)": a form for people, who count joints from 1.
+/// "a wave of order 2 along joint 3 (elbow)": joints counted from 1.
 std::string description_of(const EffectVariant& variant, const Arm& arm);
 
 /// Whether it has an order, and that is a whole number.

@@ -18,15 +18,15 @@
 namespace bathyal::diagnosis {
 namespace {
 
-constexpr double kReplicateDistance = 1e-3;  ///< [rad] or [m]: poses nearer than this are one pose
-constexpr std::size_t kScanFrom = 9;     ///< so many forms of one cause of one effect are a scan
-constexpr double kSeenDirection = 1e-5;  ///< of the largest singular value, per mm and mrad
-constexpr double kOrdinaryMove = 1e-3;   ///< [m]
+constexpr double kReplicateDistance = 1e-3;  ///< [rad] or [m]: nearer poses are replicates
+constexpr std::size_t kScanFrom = 9;        ///< so many terms of an effect's alias group are a scan
+constexpr double kMinSingularValue = 1e-5;  ///< of the largest singular value, per mm and mrad
+constexpr double kOrdinaryMove = 1e-3;      ///< [m]
 constexpr double kRounding = 1e-7;
 constexpr int kMomentsNear = 8;       ///< on either side
-constexpr double kPlausible = 100.0;  ///< of a parameter's scale, where nobody told
-/// Of the equations more than unknowns, that one effect may use up: beyond a third, freedom that
-/// explains nothing costs less than it seems to gain.
+constexpr double kPlausible = 100.0;  ///< of a parameter's scale, where the effect gives none
+/// Of the residual degrees of freedom, that one effect may use: beyond a third, the penalty of
+/// parameters that explain nothing is less than their apparent gain.
 constexpr double kMaxShareOfDof = 0.25;
 
 std::vector<int> numbered(const Eigen::VectorXd& values) {
@@ -39,8 +39,8 @@ std::vector<int> numbered(const Eigen::VectorXd& values) {
   return out;
 }
 
-/// Of rows in their order in time, the place of each.
-std::vector<int> places_of(const std::vector<int>& order) {
+/// The rank in time of each row.
+std::vector<int> ranks_of(const std::vector<int>& order) {
   std::vector<int> out(order.size());
   for (std::size_t i = 0; i < order.size(); ++i) out[order[i]] = static_cast<int>(i);
   return out;
@@ -78,9 +78,9 @@ ArmModel::ArmModel(const Arm& arm, const Measurement& measurement, const Covaria
   linearize_at(x_);
 }
 
-/// All that the caller does not hold, along the directions that the data or priors see where the
-/// search ended. What identification leaves to base and tool as superfluous in general need not be
-/// so for an arm of special angles: columns that depend do no harm here.
+/// Frees all that the caller does not fix, along the directions that data or priors determine at
+/// the end of the search. Parameters that are redundant in general need not be so for an arm of
+/// special angles, and collinear columns do no harm here.
 void ArmModel::free_observable_directions() {
   for (int c = 0; c < static_cast<int>(geometry_); ++c) {
     if (std::find(problem_.fixed.begin(), problem_.fixed.end(), c) == problem_.fixed.end()) {
@@ -93,7 +93,7 @@ void ArmModel::free_observable_directions() {
   x_ = start_.x;
   exact_ = consistent_joints(system, x_);
   const RankReport rank =
-      numerical_rank(qr_factor(derivatives(x_), system.num_threads()), kSeenDirection);
+      numerical_rank(qr_factor(derivatives(x_), system.num_threads()), kMinSingularValue);
   observable_ = rank.directions.leftCols(rank.rank);
 }
 
@@ -102,7 +102,7 @@ void ArmModel::gather_data(const Covariates& covariates) {
 }
 
 void ArmModel::gather_observations() {
-  observations_.order = places_of(data_.order);
+  observations_.order = ranks_of(data_.order);
   observations_.timed = data_.has("time");
   observations_.replicate = selection::find_replicates(m_.q, kReplicateDistance);
   observations_.session = m_.station;
@@ -112,7 +112,7 @@ void ArmModel::gather_observations() {
 
 void ArmModel::gather_variance_components() {
   if (m_.tracked) {
-    // Where the model has the tip: what was measured holds the very errors that are looked at.
+    // Tips of the model: measured ones contain the errors themselves.
     const std::vector<Vec3> world = tips();
     Eigen::MatrixXd loads(3 * m_.rows(), 3);
     for (Index i = 0; i < m_.rows(); ++i) {
@@ -129,7 +129,7 @@ void ArmModel::gather_variance_components() {
   ChainFrames frames;
   Vec3 tip;
   for (Index i = 0; i < m_.rows(); ++i) {
-    const double evenly = std::sqrt(m_.weights[i] / 12.0);  // over a step of 1
+    const double evenly = std::sqrt(m_.weights[i] / 12.0);  // uniform over a step of 1
     loads.middleRows<3>(3 * i) =
         evenly * walk.joint_jacobian(m_.q.row(i).data(), i, m_.tool[i], m_.station[i], frames, tip);
   }
@@ -168,8 +168,8 @@ void ArmModel::gather_terms(const Effects& effects) {
   for (int p = 0; p < static_cast<int>(lack_of_fit_terms_.size()); ++p) {
     const LackOfFitTerm& about = lack_of_fit_terms_[p];
     if (about.family >= 0) families[about.family].push_back(static_cast<int>(terms_.size()));
-    terms_.push_back(
-        {about.against, -1, "probe " + about.description, about.description, about.multiplicity});
+    terms_.push_back({to_text(about.dependence), -1, "lack of fit " + about.description,
+                      about.description, about.multiplicity});
     terms_.back().lack_of_fit = true;
     sources_.push_back({nullptr, {}, p});
   }
@@ -220,7 +220,7 @@ std::vector<int> ArmModel::refine(int term) {
   }
   std::erase_if(chain, [&](int f) { return f == lower || f == upper || f == term; });
   if (!chain.empty() || terms_[term].continuous || terms_[term].preferred) return chain;
-  // There is nothing between moments that follow one another: the next ones themselves.
+  // There is nothing between consecutive moments: the neighbours themselves.
   for (const bool below : {true, false}) {
     int at = term;
     for (int step = 0; step < kMomentsNear; ++step) {
@@ -241,17 +241,17 @@ std::vector<std::vector<Perturbation>> ArmModel::perturbations_of(int term) cons
   return out;
 }
 
-/// Largest size of a parameter, as far as it has not been learned; `scale` is that of its column,
-/// which tells where the effect's description does not.
-double ArmModel::plausible(int term, std::size_t parameter, double scale) const {
+/// Prior standard deviation of a parameter, times the scale estimated for its family; `scale` of
+/// its column is the basis where the effect gives no plausible size.
+double ArmModel::prior_std(int term, std::size_t parameter, double scale) const {
   const Source& source = sources_[term];
   const auto learned = prior_scales_.find(family_of(term));
-  const double size = learned != prior_scales_.end() ? learned->second : 1.0;
-  double told = std::numeric_limits<double>::infinity();
+  const double scale_of_family = learned != prior_scales_.end() ? learned->second : 1.0;
+  double size = std::numeric_limits<double>::infinity();
   if (source.effect) {
-    told = plausible_size(source.effect->info(), source.variant.parameters[parameter]);
+    size = plausible_size(source.effect->info(), source.variant.parameters[parameter]);
   }
-  return size * (std::isfinite(told) ? told : kPlausible * scale);
+  return scale_of_family * (std::isfinite(size) ? size : kPlausible * scale);
 }
 
 std::vector<Eigen::MatrixXd> ArmModel::columns(std::span<const int> terms) const {
@@ -271,7 +271,7 @@ std::vector<Eigen::MatrixXd> ArmModel::columns(std::span<const int> terms) const
   for (ParameterColumns& one : columns_of(std::move(acting))) {
     const int term = terms[out.size()];
     for (Index p = 0; p < one.scale.size(); ++p) {
-      one.columns.col(p) *= plausible(term, static_cast<std::size_t>(p), one.scale[p]);
+      one.columns.col(p) *= prior_std(term, static_cast<std::size_t>(p), one.scale[p]);
     }
     out.push_back(std::move(one.columns));
   }
@@ -299,9 +299,8 @@ std::vector<ArmModel::ParameterColumns> ArmModel::columns_of(
   system.set_free(wanted);
   Eigen::MatrixXd all = Eigen::MatrixXd::Zero(linearization_.residual.size(), first.back());
   all.topRows(system.data_rows()) = system.jacobian(x).topRows(system.data_rows());
-  // A column in units of its scale moves tips by about a millimetre. One that moves residuals by
-  // next to nothing of that has been taken from them whole (a shift of a touched point), and what
-  // is left of it is rounding.
+  // A column in units of its scale moves tips by about a millimetre. One with hardly any of that in
+  // the residuals was eliminated from them (a shift of a touched point), and the rest is rounding.
   const double ordinary = kOrdinaryMove / system.noise().position * std::sqrt(double(m_.rows()));
   Eigen::VectorXd scale(all.cols());
   for (Index c = 0; c < all.cols(); ++c) {

@@ -17,16 +17,16 @@
 
 namespace bathyal::diagnosis {
 
-/// An arm beside touches or tracked poses, with the effects that may be in them. For use inside the
-/// room. Arm, measurement and options must outlive it.
+/// An arm with its touches or tracked poses, and the effects that may be present. Arm, measurement
+/// and options must outlive it.
 class ArmModel final : public selection::Model {
  public:
   using Effects = std::vector<std::shared_ptr<const Effect>>;
 
   ArmModel(const Arm& arm, const Measurement& measurement, const Covariates& covariates,
            const IdentifyOptions& options, const Effects& effects);
-  /// The same beside some rows of `whole`, with the same forms, for a quick look; it has no probes
-  /// and no forms of noise. `whole` must outlive it.
+  /// The same with a subset of the rows of `whole` and with its terms, for a shortlist; without
+  /// lack-of-fit terms and variance components. `whole` must outlive it.
   ArmModel(const ArmModel& whole, const std::vector<int>& rows);
   ArmModel(const ArmModel&) = delete;
   ArmModel& operator=(const ArmModel&) = delete;
@@ -38,8 +38,8 @@ class ArmModel final : public selection::Model {
     return variance_components_;
   }
   std::vector<int> refine(int term) override;
-  /// Those that a look at some rows has made and moved.
-  void take_terms(const ArmModel& some);
+  /// Takes over the terms that the search in a subset has added and refined.
+  void take_terms(const ArmModel& subset);
   std::vector<Eigen::MatrixXd> columns(std::span<const int> terms) const override;
   const selection::Linearization& linearization() const override { return linearization_; }
   void fit(const std::vector<int>& terms) override;
@@ -51,41 +51,45 @@ class ArmModel final : public selection::Model {
 
   const ArmFit& geometry() const { return fit_; }
   bool is_tracked() const { return m_.tracked; }
-  /// Poses of touches are those of exact ones.
+  /// Joint values of touches are the estimated, consistent ones.
   const EffectData& data() const { return data_; }
-  /// Probes have none.
+  /// Null for lack-of-fit terms.
   const Effect* effect(int term) const { return sources_[term].effect.get(); }
   const EffectVariant& variant(int term) const { return sources_[term].variant; }
-  /// Sentences on what no effect answers: another machine, another size, poses too alike.
+  /// \pre the term is a lack-of-fit term
+  const LackOfFitTerm& lack_of_fit_term(int term) const {
+    return lack_of_fit_terms_[sources_[term].lack_of_fit];
+  }
+  /// Warnings that no effect explains: another arm, another scale, poses too alike.
   const std::vector<std::string>& geometry_warnings() const { return geometry_warnings_; }
-  /// Sentences on forms that have too many numbers for these data.
+  /// Warnings on terms with too many parameters for these data.
   const std::vector<std::string>& untried() const { return untried_; }
-  /// Effects of the last `settle`, with their values.
+  /// The active effects, with their values.
   std::vector<FoundEffect> found() const;
-  /// Covariance of all values of the last `settle`'s effects, in their units and order, and the
-  /// degrees of freedom of the noise.
+  /// Covariance of all values of the active effects, in their units and order, and the residual
+  /// degrees of freedom.
   Eigen::MatrixXd covariance() const;
   double dof() const;
-  /// The rigid part where the model stands, base and tool set.
+  /// The rigid part of the estimate, base and tool set.
   Arm arm() const;
-  /// All bases, tools and planes too.
+  /// With all bases, tools and planes.
   ArmState state() const { return state_at(problem_.parameters, x_); }
-  /// Of recorded poses: what effects do is evaluated at the joint values that were recorded.
+  /// Of recorded poses: effects are evaluated at the recorded joint values.
   Eigen::Matrix3Xd deviations() const;
   /// (3, N) position rows, in units of their noise, as distances [m].
   Eigen::Matrix3Xd in_metres(const Eigen::VectorXd& rows) const;
-  /// Standard deviation of a row of weight 1 per axis, in mean over rows and axes [m].
+  /// Standard deviation of a row of weight 1 per axis, averaged over rows and axes [m].
   double mean_noise() const;
-  /// One unit of a mean square over rows in units of their noise [m]: the exact ones count most.
+  /// Unit of a mean square over whitened rows [m]: the precise ones count most.
   double mean_unit() const;
-  /// The same where the subject last stood without effects.
+  /// `deviations` of the last fit without effects.
   const Eigen::Matrix3Xd& deviations_before() const { return before_; }
 
  private:
   ArmModel(const Arm& arm, const Measurement& measurement, std::unique_ptr<const Measurement>&& own,
            const IdentifyOptions& options);
   ArmModel(const ArmModel& whole, const std::vector<int>& rows,
-           std::unique_ptr<const Measurement>&& some);
+           std::unique_ptr<const Measurement>&& own);
   struct Source {
     std::shared_ptr<const Effect> effect;
     EffectVariant variant;
@@ -96,12 +100,12 @@ class ArmModel final : public selection::Model {
     EffectVariant variant;
     std::vector<std::vector<Perturbation>> perturbations;
   };
-  /// What parameters do to the rows, (M, k) per unit of each, and an ordinary change of each.
+  /// d rows / d parameters, (M, k), and the scale of an ordinary change of each.
   struct ParameterColumns {
     Eigen::MatrixXd columns;
     Eigen::VectorXd scale;
   };
-  using Family = std::pair<std::string, int>;  ///< an effect in a joint: sizes are learned together
+  using Family = std::pair<std::string, int>;  ///< an effect in a joint: one prior scale
   Family family_of(int term) const { return {terms_[term].effect, terms_[term].joint}; }
   void free_observable_directions();
   void fit_at_settings(const std::vector<int>& terms);
@@ -112,11 +116,10 @@ class ArmModel final : public selection::Model {
   Eigen::MatrixXd data_normal_equations(const Eigen::VectorXd& x,
                                         const Eigen::VectorXd& weight) const;
   bool is_excluded(Index row) const;
-  /// Rows of positions and of orientations that are not left out, less what points take.
+  /// Position and orientation rows that are not excluded, less those that free points use up.
   Eigen::Array2d free_rows() const;
-  /// Effects follow the geometry (torques, links that bend): what they do is evaluated anew at the
-  /// arm of `x`, as whoever uses the model does.
-  /// \return rms of how far that moves the rows [noise]
+  /// Evaluates the effects, which depend on the geometry (torques, bending links), at the arm of
+  /// `x`, as a user of the model does. \return rms change of the rows [noise]
   double evaluate_effects_at(const Eigen::VectorXd& x);
   bool effects_changed() const;
   Arm arm_at(const Eigen::VectorXd& x) const;
@@ -131,7 +134,7 @@ class ArmModel final : public selection::Model {
   std::vector<std::vector<Perturbation>> perturbations_in_record(
       const Effect& effect, const EffectVariant& variant) const;
   void find_record_effects();
-  double plausible(int term, std::size_t parameter, double scale) const;
+  double prior_std(int term, std::size_t parameter, double scale) const;
   std::vector<ParameterColumns> columns_of(std::vector<ActingVariant> acting) const;
   Eigen::MatrixXd setting_derivatives() const;
   Eigen::VectorXd minimize(Eigen::VectorXd x) const;
@@ -141,13 +144,13 @@ class ArmModel final : public selection::Model {
   Eigen::MatrixXd admissible_changes() const;
   void linearize_at(const Eigen::VectorXd& x);
   bool update_noise();
-  /// (N,) by the model, world.
+  /// (N,) of the model, in the world.
   std::vector<Vec3> tips() const;
-  /// (3, N) of them. (A field over what was measured would explain its errors by itself.)
+  /// (3, N) the same in the base frame. (A field over measured positions would fit their errors.)
   Eigen::Matrix3Xd tips_from_base() const;
 
   const Arm& nominal_;
-  std::unique_ptr<const Measurement> own_;  ///< of a subject beside some rows of another's
+  std::unique_ptr<const Measurement> own_;  ///< of a subset
   const Measurement& m_;
   CalibrationProblem problem_;
   Observability observability_;
@@ -155,8 +158,8 @@ class ArmModel final : public selection::Model {
   ArmFit fit_;
   Arm effects_arm_;  ///< at which effects are evaluated: that of `data_` and `record_`
   EffectData data_;
-  // Of a subject beside some rows of another's:
-  std::optional<EffectData> record_;  ///< all of them
+  // Of a subset of another model's rows:
+  std::optional<EffectData> record_;  ///< all rows
   std::vector<int> rows_;
   std::set<const Effect*> needs_record_;
   std::vector<LackOfFitTerm> lack_of_fit_terms_;
@@ -164,19 +167,19 @@ class ArmModel final : public selection::Model {
   std::vector<selection::Term> terms_;
   std::vector<Source> sources_;
   std::vector<std::vector<int>> scans_;
-  std::map<int, std::pair<int, int>> neighbours_;  ///< of forms of a scan: below and above, or -1
+  std::map<int, std::pair<int, int>> neighbours_;  ///< of terms of a scan: below and above, or -1
   std::vector<selection::VarianceComponent> variance_components_;
   std::vector<std::string> geometry_warnings_;
   std::vector<std::string> untried_;
-  std::size_t geometry_ = 0;    ///< columns that are not effects'
+  std::size_t geometry_ = 0;    ///< number of parameters that are not effects'
   std::vector<int> base_free_;  ///< of them, those that are fitted
-  Eigen::MatrixXd observable_;  ///< (free, k) orthonormal: changes of them that anything holds
-  std::vector<int> active_;     ///< forms of the last `settle`
-  std::map<Family, double> prior_scales_;  ///< what is plausible of large ones, learned
-  Eigen::VectorXd x_;                      ///< of all columns, effects' last
-  RowMatrix exact_;  ///< joints at which derivatives are taken: of exact touches
+  Eigen::MatrixXd observable_;  ///< (free, k) orthonormal: directions that data or priors determine
+  std::vector<int> active_;     ///< active set of the last `fit`
+  std::map<Family, double> prior_scales_;  ///< of large families, estimated by the evidence
+  Eigen::VectorXd x_;                      ///< all parameters, effects' last
+  RowMatrix exact_;  ///< consistent joint values, at which derivatives are taken
   selection::Linearization linearization_;
-  Eigen::MatrixXd effect_jacobian_;  ///< (M, k) d modelled / d effects' values, beside it
+  Eigen::MatrixXd effect_jacobian_;  ///< (M, k) d modelled / d effects' values
   Eigen::Matrix3Xd before_;
 };
 

@@ -11,14 +11,14 @@
 #include "bathyal/estimation/orthogonal.hpp"
 #include "bathyal/identify/model/effect_parameters.hpp"
 
-// Geometry and effects, fitted together.
+// Joint fit of geometry and effects.
 
 namespace bathyal::diagnosis {
 namespace {
 
-constexpr int kMaxEvaluations = 6;       ///< of effects, each at the arm that the last fit found
-constexpr double kSameResiduals = 3e-3;  ///< rms, in units of noise: evaluated anew they are these
-constexpr int kMaxRounds = 12;           ///< of finding values, their noise and their sizes
+constexpr int kMaxEvaluations = 6;       ///< of effects, each at the arm of the last fit
+constexpr double kSameResiduals = 3e-3;  ///< rms change after a new evaluation [noise]
+constexpr int kMaxRounds = 12;           ///< of values, noise and prior scales
 constexpr int kMaxSteps = 20;
 constexpr double kFirstDamping = 1e-2;  ///< 1 / (10 mm or mrad)²
 constexpr double kMinDamping = 1e-6;
@@ -39,7 +39,7 @@ void ArmModel::fit(const std::vector<int>& terms) {
   }
 }
 
-/// A step of Gauss and Newton for the orders of waves that stand, beside all else that is fitted.
+/// A Gauss–Newton step for the orders of active waves, given all else that is fitted.
 bool ArmModel::update_orders() {
   const Eigen::MatrixXd by_order = setting_derivatives();
   if (by_order.cols() == 0) return false;
@@ -49,14 +49,14 @@ bool ArmModel::update_orders() {
   normalize_columns(basis);
   Eigen::MatrixXd square = inner_products(basis, threads);
   square.diagonal().array() += kCollinearityTolerance * kCollinearityTolerance;
-  Eigen::MatrixXd beside = by_order;
-  add_product(basis, -square.llt().solve(inner_products(basis, by_order, threads)), beside,
+  Eigen::MatrixXd projected = by_order;
+  add_product(basis, -square.llt().solve(inner_products(basis, by_order, threads)), projected,
               threads);
   Eigen::VectorXd residuals(problem_.system->rows());
   problem_.system->evaluate(problem_.system->scaled(x_).data(), residuals.data(), nullptr);
   const Eigen::VectorXd change =
-      -inner_products(beside, threads).ldlt().solve(beside.transpose() * residuals);
-  const Eigen::VectorXd sure = beside.colwise().norm();  // 1 / standard deviation
+      -inner_products(projected, threads).ldlt().solve(projected.transpose() * residuals);
+  const Eigen::VectorXd precision = projected.colwise().norm();  // 1 / standard deviation
   bool moved = false;
   Index at = 0;
   for (const int term : active_) {
@@ -66,14 +66,15 @@ bool ArmModel::update_orders() {
     const double far =
         kFarOrder / (data_.q.col(variant.joint).maxCoeff() - data_.q.col(variant.joint).minCoeff());
     const double order = variant.settings["order"] + step;
-    // Two that meet are one.
+    // Two waves of one order are one.
     const bool alone = std::none_of(active_.begin(), active_.end(), [&](int other) {
-      const EffectVariant& beside = sources_[other].variant;
-      const auto own = beside.settings.find("order");
-      return other != term && beside.joint == variant.joint && own != beside.settings.end() &&
+      const EffectVariant& neighbour = sources_[other].variant;
+      const auto own = neighbour.settings.find("order");
+      return other != term && neighbour.joint == variant.joint && own != neighbour.settings.end() &&
              std::abs(own->second - order) < 0.5 * far;
     });
-    if (std::abs(step) * sure[at] > kOrderSettled && std::abs(step) < far && order > 0.0 && alone) {
+    if (std::abs(step) * precision[at] > kOrderSettled && std::abs(step) < far && order > 0.0 &&
+        alone) {
       variant.settings["order"] = order;
       terms_[term].description = description_of(variant, nominal_);
       moved = true;
@@ -84,7 +85,7 @@ bool ArmModel::update_orders() {
 }
 
 void ArmModel::fit_at_settings(const std::vector<int>& terms) {
-  // Values of forms that stay are where their search starts.
+  // Terms that stay start from their present values.
   std::map<int, Eigen::VectorXd> known;
   auto at = static_cast<Index>(geometry_);
   for (const int term : active_) {
@@ -118,7 +119,7 @@ void ArmModel::fit_at_settings(const std::vector<int>& terms) {
   if (terms.empty()) before_ = deviations();
 }
 
-/// The columns of `forms` behind those of the geometry, held to what is plausible.
+/// Appends the parameters of `terms`, with their priors, to those of the geometry.
 void ArmModel::activate(const std::vector<int>& terms) {
   active_ = terms;
   truncate_parameters(problem_.parameters, geometry_);
@@ -129,7 +130,7 @@ void ArmModel::activate(const std::vector<int>& terms) {
     const auto end = static_cast<int>(problem_.parameters.parameters.size());
     for (int c = begin; c < end; ++c) {
       Parameter& column = problem_.parameters.parameters[c];
-      column.prior_std = plausible(term, static_cast<std::size_t>(c - begin), column.scale);
+      column.prior_std = prior_std(term, static_cast<std::size_t>(c - begin), column.scale);
       free.push_back(c);
     }
   }
@@ -140,7 +141,7 @@ double ArmModel::evaluate_effects_at(const Eigen::VectorXd& x) {
   const ArmResiduals& system = *problem_.system;
   effects_arm_ = arm_at(x);
   exact_ = consistent_joints(system, x);
-  // What follows recorded joints would follow their scatter, and explain it by itself.
+  // Effects evaluated at recorded joints would follow their scatter, and so explain it.
   if (!m_.tracked) data_.q = exact_;
   if (!effects_changed()) return 0.0;
   const auto residuals = [&] {
@@ -153,7 +154,7 @@ double ArmModel::evaluate_effects_at(const Eigen::VectorXd& x) {
   return (residuals() - before).norm() / std::sqrt(static_cast<double>(before.size()));
 }
 
-/// Whether those that stand do another thing by now than their columns say.
+/// Whether the perturbations of active effects differ from those that were fitted.
 bool ArmModel::effects_changed() const {
   const auto same = [](const Perturbation& a, const Perturbation& b) {
     return a.values == b.values;
@@ -161,8 +162,8 @@ bool ArmModel::effects_changed() const {
   std::size_t column = 0;
   for (const int term : active_) {
     for (const std::vector<Perturbation>& perturbations : perturbations_of(term)) {
-      const std::vector<Perturbation>& stands = *problem_.parameters.perturbations[column++];
-      if (!std::equal(perturbations.begin(), perturbations.end(), stands.begin(), stands.end(),
+      const std::vector<Perturbation>& active = *problem_.parameters.perturbations[column++];
+      if (!std::equal(perturbations.begin(), perturbations.end(), active.begin(), active.end(),
                       same)) {
         return true;
       }
@@ -171,17 +172,17 @@ bool ArmModel::effects_changed() const {
   return false;
 }
 
-/// All that a fit finds.
+/// All that a fit estimates.
 struct ArmModel::ArmCheckpoint final : Checkpoint {
   ArmCheckpoint(Arm arm, RowMatrix q, RowMatrix joints)
       : effects_arm(std::move(arm)), effects_q(std::move(q)), exact(std::move(joints)) {}
 
   std::vector<int> active;
-  std::vector<EffectVariant> variants;  ///< of those: orders move
-  std::map<Family, double> sizes;
+  std::vector<EffectVariant> variants;  ///< of those: their orders are fitted
+  std::map<Family, double> prior_scales;
   Eigen::VectorXd x;
   Arm effects_arm;      ///< at which they are evaluated
-  RowMatrix effects_q;  ///< the same
+  RowMatrix effects_q;  ///< likewise
   RowMatrix exact;
   std::vector<double> weights;
   ArmResiduals::Whitening whitening;
@@ -192,7 +193,7 @@ std::shared_ptr<const selection::Model::Checkpoint> ArmModel::save() const {
   auto out = std::make_shared<ArmCheckpoint>(effects_arm_, data_.q, exact_);
   out->active = active_;
   for (const int term : active_) out->variants.push_back(sources_[term].variant);
-  out->sizes = prior_scales_;
+  out->prior_scales = prior_scales_;
   out->x = x_;
   out->weights = problem_.system->observation_weights();
   out->whitening = problem_.system->row_whitening();
@@ -206,7 +207,7 @@ void ArmModel::restore(const Checkpoint& checkpoint) {
     sources_[to.active[i]].variant = to.variants[i];
     terms_[to.active[i]].description = description_of(to.variants[i], nominal_);
   }
-  prior_scales_ = to.sizes;
+  prior_scales_ = to.prior_scales;
   effects_arm_ = to.effects_arm;
   data_.q = to.effects_q;
   exact_ = to.exact;
@@ -217,16 +218,16 @@ void ArmModel::restore(const Checkpoint& checkpoint) {
   linearize_at(to.x);
 }
 
-/// Derivatives of exact touches: scatter would pass for information about the arm's size (see
-/// arm_search.cpp).
+/// Derivatives at consistent joint values: at the recorded ones, scatter would pass for information
+/// on the arm's scale (see identify/fit/calibration_search.cpp).
 Eigen::MatrixXd ArmModel::derivatives(const Eigen::VectorXd& x) const {
   ArmResiduals exact = *problem_.system;
   exact.set_joints(exact_);
   return exact.jacobian(x);
 }
 
-/// Least squares of touches lie at an arm too small; steps along the derivatives of exact touches
-/// end where what is known of the size is met.
+/// Least squares of touches underestimates the arm's scale; steps along the derivatives at
+/// consistent joint values converge where the known lengths are met.
 Eigen::VectorXd ArmModel::remove_scale_bias(Eigen::VectorXd x) {
   const ArmResiduals& system = *problem_.system;
   const Eigen::VectorXd least = x;
@@ -247,8 +248,8 @@ Eigen::VectorXd ArmModel::remove_scale_bias(Eigen::VectorXd x) {
   return x;
 }
 
-/// The step that Gauss and Newton would take, from [J r]ᵀ[J r]. What hardly moves the residuals by
-/// itself is damped, and nothing runs off.
+/// The Gauss–Newton step from [J r]ᵀ[J r], with `damping` of all parameters, and of nearly
+/// collinear ones at least kCollinearityTolerance.
 Eigen::VectorXd ArmModel::damped_step(const Eigen::MatrixXd& square, double damping) const {
   const Index wide = square.cols() - 1;
   const Eigen::MatrixXd to_free = admissible_changes();
@@ -264,9 +265,8 @@ Eigen::VectorXd ArmModel::damped_step(const Eigen::MatrixXd& square, double damp
   return to_free * (scale.asDiagonal() * own.ldlt().solve(-gradient));
 }
 
-/// Levenberg's way. Damping is the same for all unknowns, in units of their scales: what the rows
-/// hardly tell (a valley that is curved, along which a full step leads out of it) goes no farther
-/// than arms differ, and all else goes as Gauss and Newton have it.
+/// Levenberg's method: damping is the same for all parameters in units of their scales, so that
+/// steps along a curved valley stay within plausible changes, and all others are Gauss–Newton's.
 Eigen::VectorXd ArmModel::minimize(Eigen::VectorXd x) const {
   const ArmResiduals& system = *problem_.system;
   Eigen::VectorXd y = system.scaled(x);
@@ -289,8 +289,8 @@ Eigen::VectorXd ArmModel::minimize(Eigen::VectorXd x) const {
   return system.values(y);
 }
 
-/// (free, k): what may change of the free unknowns. Those of the base model move along the
-/// directions that data or priors hold, effects one by one.
+/// (free, k): admissible changes of the free parameters. Those of the base model change along the
+/// directions that data or priors determine, effects one by one.
 Eigen::MatrixXd ArmModel::admissible_changes() const {
   const Index effects = problem_.system->columns() - observable_.rows();
   Eigen::MatrixXd out =
@@ -318,7 +318,7 @@ void ArmModel::linearize_at(const Eigen::VectorXd& x) {
   linearization_.jacobian.leftCols(seen) =
       product(jacobian.leftCols(wide), observable_, system.num_threads());
   linearization_.observation.assign(static_cast<std::size_t>(rows), -1);
-  // Rows that hold effects to what is plausible measure nothing.
+  // Prior rows of effects measure nothing.
   linearization_.constrained_dof = static_cast<double>(system.columns() - wide);
   linearization_.noise_rows = system.position_rows();
   for (Index i = 0; i < m_.rows(); ++i) {
@@ -327,22 +327,22 @@ void ArmModel::linearize_at(const Eigen::VectorXd& x) {
     if (is_excluded(i)) {
       linearization_.constrained_dof += plane ? 1.0 : 3.0 * kinds;
     }
-    if (plane) linearization_.constrained_dof += 2.0;  // rows that hold nothing
+    if (plane) linearization_.constrained_dof += 2.0;  // rows without information
     for (Index axis = 0; axis < 3; ++axis) {
       linearization_.observation[3 * i + axis] = static_cast<int>(i);
       if (m_.has_rotation()) {
         linearization_.observation[3 * m_.rows() + 3 * i + axis] = static_cast<int>(i);
       }
     }
-    // Where a point is, is free: what the centroid takes of the rows, as columns.
+    // A touched point's position is free: three columns in place of the centroid.
     if (!m_.tracked && m_.point[i] >= 0) {
       linearization_.jacobian.block<3, 3>(3 * i, seen + 3 * m_.point[i]) = system.row_factor(i);
     }
   }
 }
 
-/// What a change of each standing order does to the residuals: the values beside it are no surer
-/// than the order is.
+/// (M, orders) d modelled / d order of active waves: the uncertainty of an order is part of that of
+/// the values.
 Eigen::MatrixXd ArmModel::setting_derivatives() const {
   std::vector<ActingVariant> acting;
   std::vector<Eigen::VectorXd> values;

@@ -42,7 +42,7 @@ bool ArmModel::update_noise() {
   const Eigen::Array2d free = free_rows();
   Noise noise = system.noise();
   const Noise old = noise;
-  // Columns take of each kind of row its share.
+  // Parameters use up degrees of freedom of each kind of row by its share.
   const auto estimate = [&](double squares, double rows, double share, double now) {
     const double dof = rows - taken * share;
     return dof > 0.5 ? std::max(now * std::sqrt(squares / dof), kLeastNoise) : now;
@@ -69,7 +69,7 @@ void ArmModel::set_observation_weights(const Eigen::VectorXd& weights) {
   problem_.system->set_observation_weights(std::move(factors));
 }
 
-/// Errors of a pose's rows have the covariance 1 + Σ ratio · loads loadsᵀ.
+/// Whitens by the covariance 1 + Σ ratio · loads loadsᵀ of a pose's rows.
 void ArmModel::set_variance_ratios(const Eigen::VectorXd& ratios) {
   auto whitening =
       std::make_shared<std::vector<Eigen::Matrix3d>>(static_cast<std::size_t>(m_.rows()));

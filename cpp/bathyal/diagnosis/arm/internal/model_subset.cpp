@@ -4,12 +4,12 @@
 
 #include "bathyal/diagnosis/arm/internal/model.hpp"
 
-// A subject beside some rows of another's.
+// A model of a subset of another's rows.
 
 namespace bathyal::diagnosis {
 namespace {
 
-EffectData some_of(const EffectData& all, const std::vector<int>& rows) {
+EffectData subset_of(const EffectData& all, const std::vector<int>& rows) {
   EffectData out = all;
   out.q = all.q(rows, Eigen::all);
   out.gravity = all.gravity(rows, Eigen::all);
@@ -35,9 +35,9 @@ ArmModel::ArmModel(const ArmModel& whole, const std::vector<int>& rows)
     : ArmModel(whole, rows, own_rows(whole.m_, rows)) {}
 
 ArmModel::ArmModel(const ArmModel& whole, const std::vector<int>& rows,
-                   std::unique_ptr<const Measurement>&& some)
-    : ArmModel(whole.nominal_, *some, std::move(some), whole.problem_.options) {
-  data_ = some_of(whole.data_, rows);
+                   std::unique_ptr<const Measurement>&& own)
+    : ArmModel(whole.nominal_, *own, std::move(own), whole.problem_.options) {
+  data_ = subset_of(whole.data_, rows);
   record_ = whole.data_;
   data_.arm = record_->arm = &effects_arm_;
   rows_ = rows;
@@ -48,11 +48,11 @@ ArmModel::ArmModel(const ArmModel& whole, const std::vector<int>& rows,
   linearize_at(x_);
 }
 
-void ArmModel::take_terms(const ArmModel& some) {
-  terms_ = some.terms_;
-  sources_ = some.sources_;
-  scans_ = some.scans_;
-  neighbours_ = some.neighbours_;
+void ArmModel::take_terms(const ArmModel& subset) {
+  terms_ = subset.terms_;
+  sources_ = subset.sources_;
+  scans_ = subset.scans_;
+  neighbours_ = subset.neighbours_;
 }
 
 std::vector<std::vector<Perturbation>> ArmModel::perturbations_of(
@@ -61,7 +61,7 @@ std::vector<std::vector<Perturbation>> ArmModel::perturbations_of(
   return perturbations_in_record(effect, variant);
 }
 
-/// Of a row that is seen among all rows of the record.
+/// Evaluated with all rows of the record.
 std::vector<std::vector<Perturbation>> ArmModel::perturbations_in_record(
     const Effect& effect, const EffectVariant& variant) const {
   std::vector<std::vector<Perturbation>> out = bathyal::perturbations_of(effect, variant, *record_);
@@ -72,8 +72,8 @@ std::vector<std::vector<Perturbation>> ArmModel::perturbations_in_record(
   return out;
 }
 
-/// Effects whose rows look at others (speeds, places in a list): their first and last forms are
-/// tried.
+/// Effects that depend on neighbouring rows (speeds, positions in a list), by their first and last
+/// variants.
 void ArmModel::find_record_effects() {
   std::map<const Effect*, std::vector<const EffectVariant*>> terms;
   for (const Source& source : sources_) {

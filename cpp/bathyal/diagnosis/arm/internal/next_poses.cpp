@@ -14,7 +14,7 @@ constexpr Index kCandidates = 600;
 constexpr std::size_t kMaxAlternatives = 4;
 constexpr double kApart = 0.15;  ///< of a joint's range, in one joint at least
 
-/// Poses anywhere in the ranges that the data cover: there the explanations are at home.
+/// Poses within the ranges of the data, where the models are supported.
 RowMatrix draw_poses(const Support& support) {
   const Index n = support.joints.low.size();
   RowMatrix q(kCandidates, n);
@@ -27,7 +27,7 @@ RowMatrix draw_poses(const Support& support) {
   return q;
 }
 
-/// What was recorded with the last row in time: poses to come are taken after it.
+/// Covariates of the last row in time: the next poses are recorded after it.
 Covariates last_of(const EffectData& data) {
   Covariates out;
   for (const auto& [name, table] : data.covariates) out[name] = table.row(data.order.back());

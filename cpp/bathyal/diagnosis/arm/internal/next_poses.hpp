@@ -6,8 +6,8 @@
 
 namespace bathyal::diagnosis {
 
-/// Poses (m, n) at which explanations that these data cannot tell apart foretell tips that lie
-/// furthest from each other. The subject stands where it stood when they are found.
+/// Poses (m, n) at which alternatives that these data cannot distinguish predict tips furthest from
+/// each other. The model is left fitted with the selected terms.
 RowMatrix next_poses(ArmModel& arm_model, const selection::SelectionResult& found,
                      double rival_odds, int count);
 

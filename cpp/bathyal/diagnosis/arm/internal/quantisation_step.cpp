@@ -8,13 +8,13 @@
 namespace bathyal::diagnosis {
 namespace {
 
-constexpr double kMinStep = 1e-5;  ///< [rad]; finer ones move no tip by what can be measured
+constexpr double kMinStep = 1e-5;  ///< [rad]; finer ones move tips less than can be measured
 constexpr double kDigitTolerance =
-    2e-8;                        ///< [rad] that Euclid's steps may make of a value's last digits
-constexpr double kWhole = 1e-2;  ///< how far from a whole number a multiple may lie
-constexpr std::size_t kFewest = 20;  ///< different values: fewer lie on a grid by chance
+    2e-8;  ///< [rad] rounding of a value's last digits, grown by Euclid's steps
+constexpr double kWhole = 1e-2;      ///< largest distance of a multiple from a whole number
+constexpr std::size_t kFewest = 20;  ///< different values: fewer may be on a grid by chance
 
-/// Values but 0, by rising size, each once.
+/// Absolute values but 0, ascending, each once.
 std::vector<double> sizes(const RowMatrix& q, const Arm& arm) {
   std::vector<bool> turns(static_cast<std::size_t>(arm.size()), false);
   for (const Joint& joint : arm.joints()) {
@@ -51,7 +51,7 @@ double quantisation_step(const RowMatrix& q, const Arm& arm) {
     step = common_measure(value, step, kDigitTolerance);
     if (step < kMinStep) return 0.0;
   }
-  // The smallest value knows the step with its own rounding only: larger ones sharpen it.
+  // The smallest value gives the step with its own rounding: larger ones are more precise.
   for (const double value : values) {
     const double multiple = std::round(value / step);
     if (std::abs(value / step - multiple) > 0.1) return 0.0;

@@ -6,8 +6,8 @@
 
 namespace bathyal::diagnosis {
 
-/// The step [rad] of which every logged value of every turning joint is a whole multiple; 0 when
-/// there is none. The longest one: what divides it divides them too.
+/// The longest step [rad] of which every logged value of every revolute joint is a whole multiple;
+/// 0 when there is none.
 double quantisation_step(const RowMatrix& q, const Arm& arm);
 
 }  // namespace bathyal::diagnosis

@@ -6,7 +6,7 @@
 #include "bathyal/estimation/orthogonal.hpp"
 #include "bathyal/identify/model/effect_parameters.hpp"
 
-// What is told of the fit where the subject stands.
+// Results at the current estimate.
 
 namespace bathyal::diagnosis {
 
@@ -51,7 +51,7 @@ Eigen::MatrixXd ArmModel::covariance() const {
   }
   const Eigen::VectorXd y = system.scaled(x_);
   double squares = system.cost(y.data());
-  for (Index i = 0; i < effects; ++i) {  // what holds them measures nothing
+  for (Index i = 0; i < effects; ++i) {  // less the prior penalty
     const Parameter& column =
         problem_.parameters.parameters[geometry_ + static_cast<std::size_t>(i)];
     squares -= std::pow(y[observable_.rows() + i] * column.scale / column.prior_std, 2);
