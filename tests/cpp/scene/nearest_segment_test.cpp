@@ -120,7 +120,9 @@ TEST(ClosestToSegment, IsExactlyZeroWhereTheSegmentTouches) {
     const auto expect = [&](const Triangle& t, const Vec3& p, const Vec3& q, bool meets) {
       const scene::SegmentApproach found = closest_to_segment(t, offset + p, offset + q);
       EXPECT_EQ(found.squared_distance == 0.0, meets) << offset.x() << ": " << p << " " << q;
-      if (meets) EXPECT_EQ(found.point, found.on_segment);
+      if (meets) {
+        EXPECT_EQ(found.point, found.on_segment);
+      }
     };
     const Triangle slope = triangle({0, 0, 0}, {3, 0, 1}, {0, 3, 1});  // z = (x + y) / 3
     expect(slope, {1, 1, 5}, {1, 1, -5}, true);                        // through it
@@ -244,7 +246,7 @@ TEST(NearestSegment, SameAsEveryTriangleFromFarAwayAndAtEveryScale) {
   }
 }
 
-TEST(NearestSegment, SlowlyTurningNeedlesAndDegenerateTriangles) {
+TEST(NearestSegment, NeedlesAndTrianglesWithoutArea) {
   std::mt19937 random(7);
   std::vector<Vec3> vertices;
   std::vector<Eigen::Vector3i> triangles;
