@@ -9,7 +9,7 @@ import numpy.typing
 import os
 import plotly.graph_objects
 import typing
-__all__: list[str] = ['Arm', 'ArmFit', 'BEYOND_NOISE', 'Cause', 'CleanReport', 'CleanResult', 'CorrectedArm', 'DhTable', 'Diagnosis', 'Effect', 'EffectRange', 'EffectRows', 'Error', 'Estimate', 'FitParameter', 'FoundEffect', 'HeldOut', 'HeldOutPart', 'Hits', 'InverseResult', 'Link', 'MeshReport', 'NamedEffect', 'Nearest', 'Outlier', 'Plane', 'PlaneFit', 'PointCloud', 'Polyline', 'RigidBody', 'Scene', 'Shape', 'SheetPatch', 'SheetReport', 'Structure', 'Support', 'Targets', 'TextTable', 'ToolPath', 'TouchForecast', 'TouchPlan', 'Touches', 'Tracked', 'Trade', 'TriangleMesh', 'Verification', 'arm_from_chain', 'arm_from_parts', 'arm_parts', 'chain_from_arm', 'check_bytes', 'clean_cloud', 'cover_polygon', 'diagnose', 'find_effect_with', 'find_sheets', 'find_targets', 'fit_plane', 'forecast_touches', 'generate_survey', 'identify_arm', 'intersect_moller_trumbore', 'library_effects', 'mesh_report', 'plan_toolpath', 'plan_touches', 'read_pcd', 'read_text_table', 'set_simd_level', 'simd_level', 'survey_height', 'triangulate', 'triangulate_delaunay', 'verify_positions', 'warn_of_support_with', 'write_xyz']
+__all__: list[str] = ['Arm', 'ArmFit', 'BEYOND_NOISE', 'Cause', 'CleanReport', 'CleanResult', 'CorrectedArm', 'DhTable', 'Diagnosis', 'Effect', 'EffectRange', 'EffectRows', 'Error', 'Estimate', 'FitParameter', 'FoundEffect', 'HeldOut', 'HeldOutPart', 'Hits', 'InverseResult', 'Link', 'MeshReport', 'NamedEffect', 'Nearest', 'NearestSegments', 'Outlier', 'Plane', 'PlaneFit', 'PointCloud', 'Polyline', 'RigidBody', 'Scene', 'Shape', 'SheetPatch', 'SheetReport', 'Structure', 'Support', 'Targets', 'TextTable', 'ToolPath', 'TouchForecast', 'TouchPlan', 'Touches', 'Tracked', 'Trade', 'TriangleMesh', 'Verification', 'arm_from_chain', 'arm_from_parts', 'arm_parts', 'chain_from_arm', 'check_bytes', 'clean_cloud', 'cover_polygon', 'diagnose', 'find_effect_with', 'find_sheets', 'find_targets', 'fit_plane', 'forecast_touches', 'generate_survey', 'identify_arm', 'intersect_moller_trumbore', 'library_effects', 'mesh_report', 'plan_toolpath', 'plan_touches', 'read_pcd', 'read_text_table', 'set_simd_level', 'simd_level', 'survey_height', 'triangulate', 'triangulate_delaunay', 'verify_positions', 'warn_of_support_with', 'write_xyz']
 class Error(RuntimeError):
     """
     A broken file, a solver that failed or a part that is not installed.
@@ -820,7 +820,50 @@ class Nearest:
     @property
     def point(self) -> numpy.ndarray:
         """
-        (N, 3) [m], NaN where there is none.
+        (N, 3) of the scene [m], NaN where there is none.
+        """
+    @property
+    def triangle(self) -> numpy.ndarray:
+        """
+        (N,) triangle of that mesh, −1 where there is none.
+        """
+class NearestSegments:
+    """
+    Where a scene comes closest to each of N segments.
+    """
+    def __len__(self) -> int:
+        ...
+    def __repr__(self) -> str:
+        ...
+    @property
+    def barycentric(self) -> numpy.ndarray:
+        """
+        (N, 3) weights (u, v, w) of corners 1, 2 and 0, as eq 4; NaN where there is none.
+        """
+    @property
+    def distance(self) -> numpy.ndarray:
+        """
+        (N,) [m], 0 where the segment meets a triangle, inf where there is none within reach.
+        """
+    @property
+    def fraction(self) -> numpy.ndarray:
+        """
+        (N,) where along the segment, 0 at its start, 1 at its end; NaN where there is none.
+        """
+    @property
+    def mesh(self) -> numpy.ndarray:
+        """
+        (N,) number of the mesh in the scene, −1 where there is none.
+        """
+    @property
+    def point(self) -> numpy.ndarray:
+        """
+        (N, 3) of the scene [m], NaN where there is none.
+        """
+    @property
+    def segment_point(self) -> numpy.ndarray:
+        """
+        (N, 3) of the segment [m], the same as `point` where they meet; NaN where there is none.
         """
     @property
     def triangle(self) -> numpy.ndarray:
@@ -976,6 +1019,47 @@ class Scene:
         >>> near = bathyal.Scene(floor).nearest([[1, 1, 3], [-3, 0, -4]])
         >>> near.distance.tolist(), near.point.tolist()
         ([3.0, 5.0], [[1.0, 1.0, 0.0], [0.0, 0.0, 0.0]])
+        """
+    def nearest_segments(self, start: numpy.typing.ArrayLike, end: numpy.typing.ArrayLike, *, within: typing.SupportsFloat | typing.SupportsIndex = ..., num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> NearestSegments:
+        """
+        Where all triangles come closest to each straight segment.
+        
+        Decided in double; equal distances give the lowest (mesh, triangle). Where a segment meets a
+        triangle, borders and ends included, its distance is exactly 0 and both points are one: decided with
+        exact signs, in the plane of a triangle too. A triangle without area counts as the segment or point
+        that it is; a segment without length is as by nearest. The distance of a capsule is that of its axis
+        less its radius.
+        
+        Parameters
+        ----------
+        start : (N, 3), (1, 3) or (3,) array
+            [m], finite and no further out than 10²⁵ m. One start serves all ends.
+        end : (N, 3) or (3,) array
+            [m], likewise.
+        within : float
+            What is further away is not found [m]; a small distance saves time.
+        num_threads : int
+            0 means all. The result is the same bytes for any number.
+        
+        Returns
+        -------
+        NearestSegments
+            ``.distance`` (N,) [m], ``.point`` (N, 3) of the scene, ``.mesh`` (N,), ``.triangle`` (N,),
+            ``.barycentric`` (N, 3), ``.fraction`` (N,) along the segment and ``.segment_point`` (N, 3).
+            Where nothing lies within reach: inf, NaN and −1.
+        
+        Raises
+        ------
+        ValueError
+            For an end that is not finite or out of range: names the first row at fault.
+        
+        Examples
+        --------
+        >>> import bathyal
+        >>> floor = bathyal.TriangleMesh([[0, 0, 0], [4, 0, 0], [0, 4, 0]], [[0, 1, 2]])
+        >>> near = bathyal.Scene(floor).nearest_segments((1, 1, 3), [[1, 2, 2], [1, 1, -1]])
+        >>> near.distance.tolist(), near.fraction.tolist()
+        ([2.0, 0.0], [1.0, 0.75])
         """
     def occluded(self, from_: numpy.typing.ArrayLike, to: numpy.typing.ArrayLike, *, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> numpy.ndarray:
         """
@@ -3125,7 +3209,7 @@ class Verification:
         """
 class Estimate:
     """
-    A number and the interval that holds it in 95 of 100 cases; float() gives the number.
+    A number with its 95 % confidence interval; float() gives the number.
     """
     def __float__(self) -> float:
         ...
@@ -3136,7 +3220,7 @@ class Estimate:
     @property
     def interval(self) -> tuple[float, float]:
         """
-        (low, high) that holds the truth in 95 of 100 cases.
+        (low, high): 95 % confidence interval.
         """
     @property
     def name(self) -> str:
@@ -3151,7 +3235,7 @@ class Estimate:
     @property
     def unit(self) -> str:
         """
-        "rad", "m", …; empty of a setting, which has none.
+        SI; "" of a setting, "1" of a number.
         """
     @property
     def value(self) -> float:
@@ -3193,7 +3277,7 @@ class NamedEffect:
     @property
     def gain(self) -> float:
         """
-        Share of the held-out variance above noise that it removes; of effects on the noise itself: held-out log likelihood.
+        Share of the held-out variance above noise that it explains; of effects on the noise itself: held-out log likelihood.
         """
     @property
     def held_out_after(self) -> float:
@@ -3218,7 +3302,7 @@ class NamedEffect:
     @property
     def p_value(self) -> float:
         """
-        Of its F test among the others, corrected for all that was tried.
+        Of its F test given the others, corrected for multiplicity.
         """
     @property
     def parameters(self) -> dict:
@@ -3228,7 +3312,7 @@ class NamedEffect:
     @property
     def rivals(self) -> list[Cause]:
         """
-        Cause: the best other explanations of it.
+        Cause: the best alternatives to it.
         """
     @property
     def rows(self) -> list[int]:
@@ -3238,7 +3322,7 @@ class NamedEffect:
     @property
     def size(self) -> float:
         """
-        rms of what it moves, projected off all else that was fitted, per axis [m].
+        rms contribution given all else that was fitted, per axis [m].
         """
     @property
     def words(self) -> str:
@@ -3247,14 +3331,29 @@ class NamedEffect:
         """
 class Structure:
     """
-    A dependence of residuals, made by chance or not.
+    A lack-of-fit test: a dependence of the residuals, significant or not.
     """
     def __repr__(self) -> str:
         ...
     @property
     def against(self) -> str:
         """
-        What the residuals depend on, as "joint 3" or "position".
+        The dependence as text, joints counted from 1: "joints 2 and 3"; "" of kind "none".
+        """
+    @property
+    def component(self) -> int | None:
+        """
+        Column of a covariate that has several, from 0; else None.
+        """
+    @property
+    def coordinates(self) -> list[int]:
+        """
+        Of kind "joints" (one or two) and "approach" (one): the joints' coordinates, from 0.
+        """
+    @property
+    def covariate(self) -> str | None:
+        """
+        Of kind "covariate": its name; else None.
         """
     @property
     def is_beyond_noise(self) -> bool:
@@ -3262,24 +3361,41 @@ class Structure:
         Whether `p_value` is at most 0.002.
         """
     @property
+    def joint(self) -> int | None:
+        """
+        Coordinate that is in error, from 0; None where the tip is.
+        """
+    @property
+    def kind(self) -> str:
+        """
+        What the residuals depend on: "position" of the tip, "joints" (one, or two together), "time",
+        "order" of the rows (where no times are recorded), "approach" (the direction of a joint's last
+        move), "session" or "covariate"; "none" where nothing was found.
+        """
+    @property
     def p_value(self) -> float:
         """
-        Corrected for all that was asked.
+        Corrected for all tests that were made.
+        """
+    @property
+    def period(self) -> float | None:
+        """
+        Of kind "time": period of a vibration [s]; None of a drift.
         """
     @property
     def share(self) -> float:
         """
-        Of the residuals' variance, noise taken out.
+        Of the residuals' variance, less noise.
         """
     @property
     def size(self) -> float:
         """
-        rms per axis, noise taken out [m].
+        rms per axis, less noise [m].
         """
     @property
     def words(self) -> str:
         """
-        Description, a sentence.
+        Description of the dependence.
         """
 class HeldOutPart:
     """
@@ -3288,7 +3404,7 @@ class HeldOutPart:
     @property
     def name(self) -> str:
         """
-        As "session 2", "point 0" or "all".
+        "session 2", "point 0", "all".
         """
     @property
     def rms_after(self) -> float:
@@ -3303,11 +3419,11 @@ class HeldOutPart:
     @property
     def rows(self) -> int:
         """
-        Number of its rows.
+        How many rows it has.
         """
 class HeldOut:
     """
-    Errors of rows that were predicted from all others.
+    Prediction errors of held-out rows.
     """
     @property
     def after(self) -> numpy.ndarray:
@@ -3327,7 +3443,7 @@ class HeldOut:
     @property
     def how(self) -> str:
         """
-        What was held out at once.
+        What one fold is.
         """
     @property
     def noise(self) -> float:
@@ -3337,12 +3453,12 @@ class HeldOut:
     @property
     def p_value(self) -> float:
         """
-        p-value of the gain, over the folds.
+        Of the gain, by sign flips of the folds.
         """
     @property
     def parts(self) -> list[HeldOutPart]:
         """
-        Errors by session, station or point: HeldOutPart of each.
+        HeldOutPart: errors by session or touched point.
         """
     @property
     def rms_after(self) -> float:
@@ -3356,7 +3472,7 @@ class HeldOut:
         """
 class Diagnosis:
     """
-    What the model of an arm gets wrong, by its measurements; see `diagnose`.
+    Errors of an arm's model, by its measurements; see `diagnose`.
     """
     def __repr__(self) -> str:
         ...
@@ -3386,17 +3502,17 @@ class Diagnosis:
     @property
     def ambiguous(self) -> list[Cause]:
         """
-        Cause: all among which these data cannot choose.
+        Cause: all that these data cannot distinguish.
         """
     @property
     def data(self) -> Touches | Tracked:
         """
-        Touches or Tracked: what it was found from.
+        Touches or Tracked: the data.
         """
     @property
     def detectable(self) -> float:
         """
-        Size of an effect that would have been found, per axis [m].
+        Smallest size of an effect that is found, per axis [m].
         """
     @property
     def effects(self) -> list[NamedEffect]:
@@ -3416,17 +3532,17 @@ class Diagnosis:
     @property
     def held_out(self) -> HeldOut:
         """
-        HeldOut: errors of cross-validation, before and after.
+        HeldOut: the cross-validation.
         """
     @property
     def leftover(self) -> Structure:
         """
-        Structure that remains with all named effects in the model; its size is 0 when there is none.
+        Structure that the effects do not explain; its size is 0 when there is none.
         """
     @property
     def model(self) -> CorrectedArm:
         """
-        CorrectedArm: geometry and effects, with the support of their training data.
+        CorrectedArm: geometry and effects, with the support of the data.
         """
     @property
     def next_poses(self) -> numpy.ndarray:
@@ -3441,7 +3557,7 @@ class Diagnosis:
     @property
     def noise_source(self) -> str:
         """
-        What `noise` was estimated from.
+        What the noise was estimated from.
         """
     @property
     def residuals_after(self) -> numpy.ndarray:
@@ -3456,7 +3572,7 @@ class Diagnosis:
     @property
     def shown(self) -> list[Structure]:
         """
-        Structure in the residuals of geometry alone, likeliest first: what is beyond noise; where nothing is, the least unlikely.
+        Structure in the residuals of geometry alone, most significant first: all that is beyond noise; where nothing is, the most significant.
         """
     @property
     def verdict(self) -> str:
@@ -3577,12 +3693,12 @@ def cover_polygon(surface: Scene | Plane, polygon: numpy.typing.ArrayLike, spaci
     """
 def diagnose(arm: Arm, data: Touches | Tracked, *, effects: collections.abc.Iterable[Effect] | None = None, parametrization: str = 'hayati', fixed: collections.abc.Sequence[str] = [], blocks: typing.SupportsInt | typing.SupportsIndex = 10, rival_odds: typing.SupportsFloat | typing.SupportsIndex = 0.05, leftover: typing.SupportsFloat | typing.SupportsIndex = 0.25, num_next_poses: typing.SupportsInt | typing.SupportsIndex = 8, progress: collections.abc.Callable[[float, str], None] | None = None, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> Diagnosis:
     """
-    Show what the best rigid model of an arm gets wrong, name the cause, measure the gain.
+    Find what the best rigid model of an arm gets wrong, name the cause, measure the gain.
     
-    The arm's geometry is identified first. What it leaves is compared with each effect of the library,
-    alone and in growing sets, fitted jointly with the geometry; sets are compared by their likelihood
-    less a penalty on their degrees of freedom, and each effect must predict held-out data. Structure
-    that nothing in the library explains is reported as such, without a name.
+    The arm's geometry is identified first. Effects of the library are selected to explain its
+    residuals, alone and in growing sets, fitted jointly with the geometry; sets are compared by their
+    likelihood less a complexity penalty, and each effect must improve the prediction of held-out data.
+    Structure that nothing in the library explains is reported as such, without a name.
     
     Parameters
     ----------
@@ -3591,24 +3707,23 @@ def diagnose(arm: Arm, data: Touches | Tracked, *, effects: collections.abc.Iter
     data : Touches or Tracked
         With any of the covariates `temperature` (N,) [°C], `time` (N,) [s], `payload` (N,) [kg at the
         tool centre point], `direction` (N, n) -1, 0 or 1, `gravity` (N, 3) [m/s², base frame] and
-        `session` (N,); others are looked at for structure. One that is missing (nan) in some rows is
-        not used, and a warning says so. Rows that repeat another to the last digit count once.
+        `session` (N,); others are tested for structure. One that is missing (nan) in some rows is
+        not used, and a warning says so. Rows that duplicate another to the last digit count once.
     effects : list of Effect, optional
-        What may be named; `bathyal.effects.list()` unless given.
+        What may be selected; `bathyal.effects.list()` unless given.
     parametrization : {"hayati", "dh"}
         Of the geometry, as in `identify_arm`.
     fixed : list of str
         Names of geometric parameters to hold at nominal.
     blocks : int
-        How many blocks are held out in turn, 3 to 50.
+        Number of folds of the cross-validation, 3 to 50.
     rival_odds : float
-        Odds of an alternative against the best explanation from which the data do not distinguish
-        the two.
+        Odds of an alternative against the best explanation from which the verdict is "ambiguous".
     leftover : float
-        Unexplained structure, as a share of the variance that the effects removed, from which the
+        Unexplained structure, as a share of the variance that the effects explain, from which the
         verdict is "unknown" and the effects are partial.
     num_next_poses : int
-        How many poses to propose where the data do not distinguish causes.
+        How many poses to propose where the verdict is "ambiguous".
     progress : callable, optional
         Called with (share done, what comes next), often within a stage; what it raises ends the run.
     num_threads : int

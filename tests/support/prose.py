@@ -32,7 +32,7 @@ def of_python(source: str, *, names: bool = False) -> Lines:
     read as sentences."""
     for token in tokenize.generate_tokens(io.StringIO(source).readline):
         is_text = token.type == tokenize.STRING or "FSTRING_MIDDLE" in tokenize.tok_name[token.type]
-        if token.type == tokenize.COMMENT or (is_text and " " in token.string):
+        if token.type == tokenize.COMMENT or (is_text and len(token.string.split()) > 1):
             yield from numbered(token.string, token.start[0])
     if names:
         for node in ast.walk(ast.parse(source)):
@@ -44,7 +44,7 @@ def of_cpp(source: str) -> Lines:
     """Comments, and texts of more than one word: messages, docstrings of the bindings."""
     for found in _CPP.finditer(source):
         prose = found["comment"] or found["raw"] or found["text"] or ""
-        if found["comment"] or " " in prose:
+        if found["comment"] or len(prose.split()) > 1:
             yield from numbered(prose, 1 + source.count("\n", 0, found.start()))
 
 
