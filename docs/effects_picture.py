@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Draws what each effect of the library leaves beside a refitted geometry: docs/images/effects.png.
+"""Draws what each effect of the library leaves beyond a refitted geometry: docs/images/effects.png.
 
 Run as ``python docs/effects_picture.py docs/images/effects.png``.
 """
@@ -111,7 +111,7 @@ PANELS = (
 
 
 class Recording:
-    """Poses along a wandering way, and what was recorded beside them."""
+    """Poses along a wandering way, and the covariates recorded with them."""
 
     def __init__(self) -> None:
         random = np.random.default_rng(7)

@@ -25,7 +25,7 @@ from tests.support.real_arms import hilti, hilti_tilts, sockets, trailblazer, ur
 MM = 1e3
 AT_START = {"time": 0.0}  # before anything drifted or slipped
 TEMPERATURES = {"flat": 21.0, "outdoor": 9.0}  # of Hilti's sites, by their file [°C]
-FEWEST_ROWS = 10  # that an error is told of
+FEWEST_ROWS = 10  # that an error is reported of
 TOLD_CAUSES = 6  # of each run, the largest first
 
 
@@ -79,10 +79,10 @@ def line(name: str) -> str:
 def causes(name: str) -> Iterable[str]:
     report, _ = diagnosed(name)
     for effect in report.effects[:TOLD_CAUSES]:
-        rivals = ", ".join(r.words for r in effect.rivals if r.odds > 0.05)
+        others = ", ".join(r.words for r in effect.rivals if r.odds > 0.05)
         yield (
             f"  - {effect.words}: {effect.size * MM:.3f} mm per axis, p {effect.p_value:.0e}"
-            + (f"; as well: {rivals}" if rivals else "")
+            + (f"; as well: {others}" if others else "")
         )
 
 
@@ -105,7 +105,7 @@ def quarter(start: int) -> str:
 def carried(report: bathyal.Diagnosis, asked: str) -> list[str]:
     """Geometry and effects of one session at the poses of another, within the support and beyond.
 
-    A motion of the whole base is fitted to each alike: the tracker stood elsewhere.
+    A motion of the whole base is fitted to each alike: the tracker was elsewhere.
     """
     data = tracked(asked)
     within = report.model.in_support(data.q).all(axis=1)
@@ -135,14 +135,14 @@ def stationed_error(
     there = bathyal.verify_arm(
         arm, data.q[stationing], data.position[stationing], covariates=covariates
     ).measured_from_predicted
-    told = {} if covariates is None else {"covariates": covariates}
-    tips = arm.forward(data.q[~stationing], **told)[:, :3, 3] @ there[:3, :3].T + there[:3, 3]
+    keywords = {} if covariates is None else {"covariates": covariates}
+    tips = arm.forward(data.q[~stationing], **keywords)[:, :3, 3] @ there[:3, :3].T + there[:3, 3]
     return rms(tips - data.position[~stationing])
 
 
 def at_site(site: str) -> str:
     """Hilti's geometry and effects of `flat` at another site, stationed by the rows that the site
-    itself was stationed by. How its base moved since is not known: it stands as at the start."""
+    itself was stationed by. How its base moved since is not known: it is taken as at the start."""
     report, _ = diagnosed("Hilti flat")
     data, stationing = hilti(site)
     within = report.model.in_support(data.q, covariates=AT_START).all(axis=1)
@@ -150,31 +150,31 @@ def at_site(site: str) -> str:
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", bathyal.SupportWarning)
         before, after = (
-            stationed_error(arm, data, stationing, told)
-            for arm, told in ((report.fit.arm, None), (report.model, AT_START))
+            stationed_error(arm, data, stationing, covariates)
+            for arm, covariates in ((report.fit.arm, None), (report.model, AT_START))
         )
     cells += [f"{before * MM:.2f}", f"{after * MM:.2f}", f"{1 - after / before:.0%}"]
     return f"| {' | '.join(cells)} |"
 
 
 def lean(site: str) -> str:
-    """How fast base and column lean by their own sensors, which diagnosis is not told of; what the
-    reach and height of the arm do to them is fitted beside."""
+    """How fast base and column lean by their own sensors, which diagnosis is not given; what the
+    reach and height of the arm do to them is fitted with it."""
     data, _ = hilti(site)
     hours = data.covariates["time"].ravel() / 3600
     height, turn = data.q[:, 0], data.q[:, 1]
-    beside = [np.ones_like(hours), height, np.cos(turn), np.sin(turn)]
-    beside += [height * np.cos(turn), height * np.sin(turn)]
-    columns = np.column_stack([hours, *beside])
+    columns_of_site = [np.ones_like(hours), height, np.cos(turn), np.sin(turn)]
+    columns_of_site += [height * np.cos(turn), height * np.sin(turn)]
+    columns = np.column_stack([hours, *columns_of_site])
     inverse = np.linalg.inv(columns.T @ columns)
-    told = []
+    leans = []
     for part, tilt in hilti_tilts(site).items():
         rates = inverse @ columns.T @ np.degrees(tilt)
         left = np.degrees(tilt) - columns @ rates
         std = np.sqrt(inverse[0, 0] * (left**2).sum(axis=0) / (len(hours) - columns.shape[1]))
         axis = int(np.argmax(np.abs(rates[0])))
-        told.append(f"the {part} {rates[0, axis]:.3f} ± {2 * std[axis]:.3f} °/h")
-    return f"\nBy its own sensors {site} leans: {', '.join(told)}."
+        leans.append(f"the {part} {rates[0, axis]:.3f} ± {2 * std[axis]:.3f} °/h")
+    return f"\nBy its own sensors {site} leans: {', '.join(leans)}."
 
 
 def two_temperatures(one: str, other: str) -> str:
@@ -214,7 +214,7 @@ def main() -> None:
     print("## Diagnosis of real arms\n")
     print(
         "| data | rows | verdict | geometry alone, held out | with what is named | within the "
-        "others' joint ranges | floor | causes | left over (share of the variance) | s |\n|"
+        "others' joint ranges | floor | causes | unexplained (share of the variance) | s |\n|"
         + "---|"
         * 10
     )

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Diagnosis of an arm beside the same search written plainly with SciPy.
+"""Diagnosis of an arm against the same search written plainly with SciPy.
 
 The peer (tests/support/diagnose_peer.py) refits geometry, base and tool with each form of each
 effect in turn, by least_squares with its own derivatives on kinematics that NumPy computes for all
 poses at once, one round: the best single form. Bathyal looks through more orders and moments, grows
-sets, holds data out and weighs rivals besides. Both must name what is hidden, and agree on its
-size, before any time is printed.
+sets, holds data out and weighs alternatives as well. Both must name what is hidden, and agree on
+its size, before any time is printed.
 """
 
 import argparse
@@ -76,9 +76,9 @@ def measured(rows: int) -> dict[str, Any]:
 
 
 def tracked(data: dict[str, Any]) -> bathyal.Tracked:
-    beside = dict(data["covariates"])
-    session = beside.pop("session").astype(int)
-    return bathyal.Tracked(data["q"], data["position"], covariates=beside, session=session)
+    covariates = dict(data["covariates"])
+    session = covariates.pop("session").astype(int)
+    return bathyal.Tracked(data["q"], data["position"], covariates=covariates, session=session)
 
 
 def check(report: Any) -> None:
@@ -164,11 +164,11 @@ def main() -> None:
     parser.add_argument("--rounds", type=int, default=3)
     parser.add_argument("--data", type=Path, default=HERE.parents[2] / "shared" / "data")
     options = parser.parse_args()
-    print("## Diagnosis beside a plain search with SciPy\n")
+    print("## Diagnosis against a plain search with SciPy\n")
     print(
         "The whole of `diagnose`. SciPy's `least_squares` (MINPACK) refits geometry, base and tool "
         "with each form of each effect in turn, with its own derivatives, on kinematics that NumPy "
-        "computes for all poses at once; one round, without held-out data, sets or rivals.\n"
+        "computes for all poses at once; one round, without held-out data, sets or alternatives.\n"
     )
     print(beside_scipy(options.rounds))
     print(growth())

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Identification of an arm beside SciPy's least_squares.
+"""Identification of an arm against SciPy's least_squares.
 
 The peer's residual is NumPy, vectorised over touches. It gets all parameters but the length that is
 held, as bathyal does, and then only those that bathyal has found worth asking for. Costs are
@@ -79,7 +79,7 @@ def touches_row(rounds: int) -> str:
     times = np.array([[timed(run) for run in runs] for _ in range(rounds)])
     centroid, all_pairs, default, *scipy_ms = 1e3 * np.median(times, axis=0)
     ratios = np.median(times[:, 3:] / times[:, :1], axis=0)
-    peers = ["left to itself", f"told which {len(free)}", "and their derivatives"]
+    peers = ["left to itself", f"given which {len(free)}", "and their derivatives"]
     lines = [
         f"| {len(data)} touches × {len(fit.parameters)} parameters | time / ours | ms |",
         "|---|---|---|",
@@ -133,13 +133,13 @@ def main() -> None:
     parser.add_argument("--rounds", type=int, default=15)
     parser.add_argument("--data", type=Path, default=HERE.parents[2] / "shared" / "data")
     options = parser.parse_args()
-    print("## Identification beside SciPy\n")
+    print("## Identification against SciPy\n")
     print(
-        "The whole of `identify_arm`, one thread: start, what can be told, search, covariance, "
-        "doubts, report. SciPy's `least_squares` as it comes, on a residual that NumPy computes "
-        "for all touches at once: left to itself with all parameters, told which of them base and "
-        "tool leave, and given exact derivatives of those. One length is held: all minimise "
-        "the same.\n"
+        "The whole of `identify_arm`, one thread: start, what can be determined, search, "
+        "covariance, checks, report. SciPy's `least_squares` as it comes, on a residual that NumPy "
+        "computes for all touches at once: left to itself with all parameters, given which of "
+        "them base and tool leave, and given exact derivatives of those. One length is held: all "
+        "minimise the same.\n"
     )
     print(touches_row(options.rounds))
     print(tracked_row(options.data / SERIES_A, max(3, options.rounds // 3)))

@@ -15,9 +15,9 @@ from tests.support.interval_cases import CASES, show
 
 TITLES = {
     "tracked": "63 tracked positions",
-    "told": "63 touches, three distances told",
-    "sockets": "400 touches of a Panda, ten pairs 50 mm apart, told",
-    "untold": "63 touches, nothing told",
+    "with_distances": "63 touches, three distances given",
+    "sockets": "400 touches of a Panda, ten pairs 50 mm apart, given",
+    "without_distances": "63 touches, no distance given",
 }
 
 
@@ -25,7 +25,7 @@ def run(sets: int) -> None:
     print("## Intervals of identified arms\n")
     print(
         "| case | numbers | least, greatest coverage of 95 % | greatest bias [σ] "
-        "| found / told std | sets |"
+        "| found / reported std | sets |"
     )
     print("|---|---|---|---|---|---|")
     start = time.perf_counter()
@@ -37,7 +37,7 @@ def run(sets: int) -> None:
             shown = show(fits, truth, (status,))
             least, greatest = shown.covered.min(), shown.covered.max()
             bias = np.abs(shown.bias).max()
-            name = TITLES[case] + (": told by the prior" if status == "prior" else "")
+            name = TITLES[case] + (": determined by the prior" if status == "prior" else "")
             print(
                 f"| {name} | {len(shown.names)} | {100 * least:.1f}, {100 * greatest:.1f} % "
                 f"| {bias:.3f} ({shown.names[np.abs(shown.bias).argmax()]}) "
@@ -50,7 +50,7 @@ def run(sets: int) -> None:
         f"\nArms of the prior's own spread in the last two rows, another in each set. Bias of the "
         f"mean over {sets} sets, itself known to {1 / np.sqrt(sets):.3f} σ. Touches draw a size "
         "that only a prior tells by (degrees of freedom) · (relative std)², for a smaller arm "
-        f"scatters less; a told size is freed of that. {time.perf_counter() - start:.0f} s."
+        f"scatters less; a given scale is freed of that. {time.perf_counter() - start:.0f} s."
     )
     if failed:
         raise SystemExit("outside the bounds: " + "; ".join(failed))

@@ -5,9 +5,9 @@
 
 The peers are installed when they are missing. Every reader must give the same numbers to the last
 bit, by the very call that is timed, before any time is taken. All get the same file from the page
-cache, all its columns, as float64; pandas.read_csv is told the separator, that there is no header,
+cache, all its columns, as float64; pandas.read_csv is given the separator, that there is no header,
 and its C engine, and rounds as it does by default, which pandas 3 does correctly. Rounds are
-interleaved, a ratio is taken within each round, and the medians stand in the table, wall time
+interleaved, a ratio is taken within each round, and the medians are in the table, wall time
 first; the ratios of processor time on one thread behind them stay the same while others use the
 machine. The peers are timed to their own kind of table, bathyal to the (N, 3) array in C order that
 the rest of it works on; `read_cloud` is the public call, with its look at names and notes and the

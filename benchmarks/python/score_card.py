@@ -4,8 +4,8 @@
     python -m benchmarks.python.score_card [--seeds 7000:9000] [--out FOLDER]
 
 Each case is sealed by tests/simulated_cases/cases.py, in NumPy and from its seed alone; bathyal
-sees the data, the judge compares with the answer. See tests/simulated_cases/score_card.py. Seeds
-below 7000 have been looked at while the engine was made; those of the card have not.
+sees the data, the evaluation compares with the answer. See tests/simulated_cases/score_card.py.
+Seeds below 7000 have been looked at while the engine was made; those of the card have not.
 """
 
 import argparse
@@ -45,7 +45,7 @@ def main() -> None:
     print("## Diagnosis: hidden effects found\n")
     print(
         "Sealed cases, a seed each, one thread a case; the size of an effect is the rms per axis "
-        "that it leaves beside the refitted geometry and the other true effects, over the noise "
+        "that it leaves beyond the refitted geometry and the other true effects, over the noise "
         "per axis; a case counts by its smallest effect. Exact: the very set of causes, joints and "
         "rows included.\n"
     )

@@ -154,7 +154,7 @@ def compare(scene, data, a, b, rounds):
 
 def run(rounds, backend):
     vtk.vtkSMPTools.SetBackend(backend)
-    print("## Sections beside VTK\n")
+    print("## Sections against VTK\n")
     print("| section | triangles | vtkCutter / ours | vtkPlaneCutter / ours | ours [ms] |")
     print("|---|---|---|---|---|")
     builds, peers = [], []

@@ -11,7 +11,7 @@
 #include "arm_parts.hpp"
 #include "arrays.hpp"
 #include "bindings.hpp"
-#include "words.hpp"
+#include "enum_names.hpp"
 
 namespace bathyal::python {
 namespace {
@@ -36,7 +36,7 @@ void add_copies(py::class_<Arm>& cls) {
 }
 
 void add_properties(py::class_<Arm>& cls) {
-  cls.def_property_readonly("name", &Arm::name)
+  cls.def_property_readonly("name", &Arm::name, "For people; may be empty.")
       .def_property_readonly("source", &Arm::source, "Where the numbers come from.")
       .def_property_readonly("size", &Arm::size, "Number of coordinates n, the width of every q.")
       .def_property_readonly(
@@ -50,7 +50,7 @@ void add_properties(py::class_<Arm>& cls) {
           "joint_types",
           [](const Arm& arm) {
             return of_coordinates<std::string>(
-                arm, [](const Joint& j) { return word_of(j.type, type_words()); });
+                arm, [](const Joint& j) { return enum_name(j.type, type_names()); });
           },
           "One word a coordinate, \"revolute\" or \"prismatic\".")
       .def_property_readonly(
@@ -71,15 +71,13 @@ void add_properties(py::class_<Arm>& cls) {
       .def_property_readonly(
           "velocity",
           [](const Arm& arm) {
-            return to_numpy(
-                of_coordinates<double>(arm, [](const Joint& j) { return j.velocity; }));
+            return to_numpy(of_coordinates<double>(arm, [](const Joint& j) { return j.velocity; }));
           },
           "(n,) greatest speed of the joint that leads each coordinate [rad/s] or [m/s].")
       .def_property_readonly(
           "effort",
           [](const Arm& arm) {
-            return to_numpy(
-                of_coordinates<double>(arm, [](const Joint& j) { return j.effort; }));
+            return to_numpy(of_coordinates<double>(arm, [](const Joint& j) { return j.effort; }));
           },
           "(n,) greatest torque [N m] or force [N] of that joint.")
       .def_property(

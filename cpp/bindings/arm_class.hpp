@@ -6,14 +6,14 @@
 #include "arrays.hpp"
 #include "bathyal/arm/arm.hpp"
 #include "bathyal/arm/kinematics.hpp"
-#include "words.hpp"
+#include "enum_names.hpp"
 
 // What each file of the room adds to the module and to the class Arm, and what several of them use.
 
 namespace bathyal::python {
 
 /// "world" or "tool"
-const Words<TipFrame>& tip_frame_words();
+const EnumNames<TipFrame>& tip_frame_names();
 
 inline JointView view_of(const Rows& rows) {
   return {rows.table.data(), rows.table.rows(), rows.table.cols()};

@@ -15,11 +15,11 @@
 namespace bathyal::python {
 namespace {
 
-const Words<InverseMethod>& method_words() {
-  static const Words<InverseMethod> words{{"damped", InverseMethod::kDampedLeastSquares},
-                                          {"pseudo_inverse", InverseMethod::kPseudoInverse},
-                                          {"jacobian_inverse", InverseMethod::kPseudoInverse}};
-  return words;
+const EnumNames<InverseMethod>& method_names() {
+  static const EnumNames<InverseMethod> names{{"damped", InverseMethod::kDampedLeastSquares},
+                                              {"pseudo_inverse", InverseMethod::kPseudoInverse},
+                                              {"jacobian_inverse", InverseMethod::kPseudoInverse}};
+  return names;
 }
 
 InverseAnswer inverse_python(const Arm& arm, const ArrayLike& poses, const OptionalArray& start,
@@ -38,11 +38,11 @@ InverseAnswer inverse_python(const Arm& arm, const ArrayLike& poses, const Optio
 
 }  // namespace
 
-const Words<InverseTask>& task_words() {
-  static const Words<InverseTask> words{{"pose", InverseTask::kPose},
-                                        {"position", InverseTask::kPosition},
-                                        {"position_axis", InverseTask::kPositionAxis}};
-  return words;
+const EnumNames<InverseTask>& task_names() {
+  static const EnumNames<InverseTask> names{{"pose", InverseTask::kPose},
+                                            {"position", InverseTask::kPosition},
+                                            {"position_axis", InverseTask::kPositionAxis}};
+  return names;
 }
 
 Targets targets_argument(const py::object& object, InverseTask task) {
@@ -119,8 +119,8 @@ void add_inverse(py::class_<Arm>& cls) {
          int max_iterations, int max_starts, int candidates, std::optional<int> centering_steps,
          int steps, std::uint64_t seed, int num_threads) {
         InverseOptions options;
-        options.task = word_argument("task", task, task_words());
-        options.method = word_argument("method", method, method_words());
+        options.task = enum_argument("task", task, task_names());
+        options.method = enum_argument("method", method, method_names());
         options.axis = vector_argument("axis", axis);
         options.position_tolerance = position_tolerance;
         options.angle_tolerance = angle_tolerance;
@@ -134,8 +134,8 @@ void add_inverse(py::class_<Arm>& cls) {
         return inverse_python(arm, poses, start, options);
       },
       py::arg("poses"), py::arg("start") = py::none(), py::kw_only(),
-      py::arg("task") = word_of(defaults.task, task_words()),
-      py::arg("method") = word_of(defaults.method, method_words()),
+      py::arg("task") = enum_name(defaults.task, task_names()),
+      py::arg("method") = enum_name(defaults.method, method_names()),
       py::arg("axis") = py::make_tuple(defaults.axis.x(), defaults.axis.y(), defaults.axis.z()),
       py::arg("position_tolerance") = defaults.position_tolerance,
       py::arg("angle_tolerance") = defaults.angle_tolerance,

@@ -7,13 +7,13 @@
 
 #include "arrays.hpp"
 #include "bathyal/arm/inverse.hpp"
-#include "words.hpp"
+#include "enum_names.hpp"
 
 // What every kind of arm's `inverse` takes and gives.
 
 namespace bathyal::python {
 
-const Words<InverseTask>& task_words();
+const EnumNames<InverseTask>& task_names();
 
 /// (N, 4, 4) or (4, 4); of a task that looks at positions alone also (N, 3) or (3,).
 struct Targets {
@@ -42,10 +42,10 @@ struct InverseAnswer {
   }
   OneOrArray<py::str> status() const {
     if (single) return py::str(std::string(to_text(result.status.front())));
-    py::list words;
-    for (const InverseStatus status : result.status) words.append(std::string(to_text(status)));
+    py::list names;
+    for (const InverseStatus status : result.status) names.append(std::string(to_text(status)));
     const py::object array =
-        py::module_::import("numpy").attr("array")(words, py::arg("dtype") = "<U12");
+        py::module_::import("numpy").attr("array")(names, py::arg("dtype") = "<U12");
     array.attr("setflags")(py::arg("write") = false);
     return array;
   }

@@ -12,29 +12,29 @@
 #include "arm_docs.hpp"
 #include "arrays.hpp"
 #include "bathyal/arm/statics.hpp"
-#include "words.hpp"
+#include "enum_names.hpp"
 
 namespace bathyal::python {
 
-const Words<TipFrame>& tip_frame_words() {
-  static const Words<TipFrame> words{{"world", TipFrame::kWorld}, {"tool", TipFrame::kTool}};
-  return words;
+const EnumNames<TipFrame>& tip_frame_names() {
+  static const EnumNames<TipFrame> names{{"world", TipFrame::kWorld}, {"tool", TipFrame::kTool}};
+  return names;
 }
 
 namespace {
 
-const Words<Manipulability>& manipulability_words() {
-  static const Words<Manipulability> words{
+const EnumNames<Manipulability>& manipulability_names() {
+  static const EnumNames<Manipulability> names{
       {"yoshikawa", Manipulability::kYoshikawa},
       {"smallest", Manipulability::kSmallest},
       {"inverse_condition", Manipulability::kInverseCondition}};
-  return words;
+  return names;
 }
-const Words<JacobianPart>& part_words() {
-  static const Words<JacobianPart> words{{"all", JacobianPart::kAll},
-                                         {"linear", JacobianPart::kLinear},
-                                         {"angular", JacobianPart::kAngular}};
-  return words;
+const EnumNames<JacobianPart>& part_names() {
+  static const EnumNames<JacobianPart> names{{"all", JacobianPart::kAll},
+                                             {"linear", JacobianPart::kLinear},
+                                             {"angular", JacobianPart::kAngular}};
+  return names;
 }
 
 /// Memory for a result that is written whole: nobody touches its pages before those who write.
@@ -77,7 +77,7 @@ py::array forward_python(const Arm& arm, const ArrayLike& q, bool links, int num
 py::array jacobian_python(const Arm& arm, const ArrayLike& q, const std::string& frame,
                           int num_threads) {
   const Rows rows = rows_argument("q", q, arm.size());
-  const TipFrame tip = word_argument("frame", frame, tip_frame_words());
+  const TipFrame tip = enum_argument("frame", frame, tip_frame_names());
   const Fresh jacobians(rows.table.rows(), {6, arm.size()});
   {
     const py::gil_scoped_release release;
@@ -91,8 +91,8 @@ OneOrArray<py::float_> manipulability_python(const Arm& arm, const ArrayLike& q,
                                              const std::string& kind, const std::string& part,
                                              int num_threads) {
   const Rows rows = rows_argument("q", q, arm.size());
-  const Manipulability what = word_argument("kind", kind, manipulability_words());
-  const JacobianPart counted = word_argument("part", part, part_words());
+  const Manipulability what = enum_argument("kind", kind, manipulability_names());
+  const JacobianPart counted = enum_argument("part", part, part_names());
   std::vector<double> values;
   {
     const py::gil_scoped_release release;
@@ -132,12 +132,12 @@ void add_kinematics(py::class_<Arm>& cls) {
   cls.def("forward", &forward_python, py::arg("q"), py::kw_only(), py::arg("links") = false,
           py::arg("num_threads") = 0, kForwardDoc)
       .def("jacobian", &jacobian_python, py::arg("q"), py::kw_only(),
-           py::arg("frame") = word_of(TipFrame::kWorld, tip_frame_words()), py::arg("num_threads") = 0,
-           kJacobianDoc)
+           py::arg("frame") = enum_name(TipFrame::kWorld, tip_frame_names()),
+           py::arg("num_threads") = 0, kJacobianDoc)
       .def("manipulability", &manipulability_python, py::arg("q"), py::kw_only(),
-           py::arg("kind") = word_of(Manipulability::kYoshikawa, manipulability_words()),
-           py::arg("part") = word_of(JacobianPart::kAll, part_words()), py::arg("num_threads") = 0,
-           kManipulabilityDoc)
+           py::arg("kind") = enum_name(Manipulability::kYoshikawa, manipulability_names()),
+           py::arg("part") = enum_name(JacobianPart::kAll, part_names()),
+           py::arg("num_threads") = 0, kManipulabilityDoc)
       .def(
           "statics",
           [](const Arm& arm, const ArrayLike& q, const OptionalArray& wrench,
@@ -154,12 +154,12 @@ void add_kinematics(py::class_<Arm>& cls) {
                 payload_center_of_buoyancy.is_none()
                     ? options.payload.center_of_mass
                     : vector_argument("payload_center_of_buoyancy", payload_center_of_buoyancy);
-            options.frame = word_argument("frame", frame, tip_frame_words());
+            options.frame = enum_argument("frame", frame, tip_frame_names());
             options.num_threads = num_threads;
             return statics_python(arm, q, wrench, options);
           },
           py::arg("q"), py::arg("wrench") = py::none(), py::kw_only(),
-          py::arg("frame") = word_of(still.frame, tip_frame_words()),
+          py::arg("frame") = enum_name(still.frame, tip_frame_names()),
           py::arg("gravity") =
               py::make_tuple(still.gravity.x(), still.gravity.y(), still.gravity.z()),
           py::arg("water_density") = still.water_density, py::arg("payload") = still.payload.mass,

@@ -100,9 +100,9 @@ Joint take_joint(Fields& fields) {
   Joint joint;
   fields.take("name", joint.name);
   fields.where(joint.name);
-  std::string type = word_of(joint.type, type_words());
+  std::string type = enum_name(joint.type, type_names());
   fields.take("type", type);
-  joint.type = word_argument(fields.name("type"), type, type_words());
+  joint.type = enum_argument(fields.name("type"), type, type_names());
   fields.take("a", joint.row.a);
   fields.take("alpha", joint.row.alpha);
   fields.take("d", joint.row.d);
@@ -189,7 +189,7 @@ Arm arm_from_chain_python(const py::dict& object, double nearly_parallel) {
 py::dict joint_parts(const Joint& joint) {
   py::dict parts;
   parts["name"] = joint.name;
-  parts["type"] = word_of(joint.type, type_words());
+  parts["type"] = enum_name(joint.type, type_names());
   parts["coordinate"] = joint.coordinate;
   parts["follows"] = joint.follows;
   parts["multiplier"] = joint.multiplier;
@@ -243,11 +243,11 @@ py::dict chain_parts(const JointChain& chain) {
 
 }  // namespace
 
-const Words<JointType>& type_words() {
-  static const Words<JointType> words{{"revolute", JointType::kRevolute},
-                                      {"prismatic", JointType::kPrismatic},
-                                      {"fixed", JointType::kFixed}};
-  return words;
+const EnumNames<JointType>& type_names() {
+  static const EnumNames<JointType> names{{"revolute", JointType::kRevolute},
+                                          {"prismatic", JointType::kPrismatic},
+                                          {"fixed", JointType::kFixed}};
+  return names;
 }
 
 py::dict arm_parts(const Arm& arm) {

@@ -5,14 +5,14 @@
 #include <pybind11/pybind11.h>
 
 #include "bathyal/arm/arm.hpp"
-#include "words.hpp"
+#include "enum_names.hpp"
 
 // Everything an arm is made of as plain Python (dict, list, str, float, arrays, Shape), for files
-// and for pickle; and a chain of joint origins in the same words.
+// and for pickle; and a chain of joint origins in the same form.
 
 namespace bathyal::python {
 
-const Words<JointType>& type_words();
+const EnumNames<JointType>& type_names();
 
 /// {"name", "source", "joints", "links", "root", "flange", "base", "tool"}
 pybind11::dict arm_parts(const Arm& arm);

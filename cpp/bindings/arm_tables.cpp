@@ -12,16 +12,16 @@
 #include "arrays.hpp"
 #include "bathyal/arm/dh.hpp"
 #include "bathyal/base/error.hpp"
+#include "enum_names.hpp"
 #include "rigid_body.hpp"
-#include "words.hpp"
 
 namespace bathyal::python {
 namespace {
 
-const Words<DhConvention>& convention_words() {
-  static const Words<DhConvention> words{{"standard", DhConvention::kStandard},
-                                         {"modified", DhConvention::kModified}};
-  return words;
+const EnumNames<DhConvention>& convention_names() {
+  static const EnumNames<DhConvention> names{{"standard", DhConvention::kStandard},
+                                             {"modified", DhConvention::kModified}};
+  return names;
 }
 
 std::vector<double> list_argument(std::string_view name, const py::object& object) {
@@ -38,12 +38,12 @@ py::array column(const DhTable& table, const Get& get) {
 }
 
 DhTable dh_table_argument(const ArrayLike& a, const ArrayLike& alpha, const ArrayLike& d,
-                       const ArrayLike& theta, const OptionalArray& beta,
-                       const std::optional<std::vector<std::string>>& joint_types,
-                       const std::string& convention, const OptionalArray& root,
-                       const OptionalArray& flange) {
+                          const ArrayLike& theta, const OptionalArray& beta,
+                          const std::optional<std::vector<std::string>>& joint_types,
+                          const std::string& convention, const OptionalArray& root,
+                          const OptionalArray& flange) {
   DhTable table;
-  table.convention = word_argument("convention", convention, convention_words());
+  table.convention = enum_argument("convention", convention, convention_names());
   const std::vector<double> columns[] = {list_argument("a", a), list_argument("alpha", alpha),
                                          list_argument("d", d), list_argument("theta", theta),
                                          list_argument("beta", beta)};
@@ -63,7 +63,7 @@ DhTable dh_table_argument(const ArrayLike& a, const ArrayLike& alpha, const Arra
   if (joint_types) {
     table.types.clear();
     for (const std::string& word : *joint_types) {
-      table.types.push_back(word_argument("joint_types", word, type_words()));
+      table.types.push_back(enum_argument("joint_types", word, type_names()));
     }
   }
   table.root = pose_argument("root", root);
@@ -96,7 +96,7 @@ void bind_link(py::module_& module) {
            py::arg("inertia") = py::none(), py::arg("volume") = Link().body.volume,
            py::arg("center_of_buoyancy") = py::make_tuple(0, 0, 0), py::arg("frame") = py::none(),
            py::arg("collision") = std::vector<Shape>(), py::arg("visual") = std::vector<Shape>())
-      .def_readonly("name", &Link::name)
+      .def_readonly("name", &Link::name, "As the file of the arm calls it; may be empty.")
       .def_readonly("body", &Link::body, "The RigidBody in the link's frame.")
       .def_property_readonly(
           "mass", [](const Link& l) { return l.body.mass; }, "[kg]; 0 is unknown.")
@@ -145,13 +145,14 @@ void bind_table(py::module_& module) {
   cls.def_property_readonly(
          "joint_types",
          [](const DhTable& t) {
-           std::vector<std::string> words;
-           for (const JointType type : t.types) words.push_back(word_of(type, type_words()));
-           return words;
+           std::vector<std::string> names;
+           for (const JointType type : t.types) names.push_back(enum_name(type, type_names()));
+           return names;
          },
          "One word a row: \"revolute\", \"prismatic\" or \"fixed\".")
       .def_property_readonly(
-          "convention", [](const DhTable& t) { return word_of(t.convention, convention_words()); },
+          "convention",
+          [](const DhTable& t) { return enum_name(t.convention, convention_names()); },
           "\"standard\" or \"modified\".")
       .def_property_readonly(
           "root", [](const DhTable& t) { return python::to_numpy(t.root); },
@@ -162,7 +163,7 @@ void bind_table(py::module_& module) {
       .def("__len__", [](const DhTable& t) { return t.rows.size(); })
       .def("__repr__", [](const DhTable& t) {
         return "DhTable(" + std::to_string(t.rows.size()) + " rows, " +
-               word_of(t.convention, convention_words()) + ")";
+               enum_name(t.convention, convention_names()) + ")";
       });
 }
 
@@ -203,7 +204,7 @@ void add_tables(py::class_<Arm>& cls) {
          },
          py::arg("a"), py::arg("alpha"), py::arg("d"), py::arg("theta"), py::kw_only(),
          py::arg("beta") = py::none(), py::arg("joint_types") = py::none(),
-         py::arg("convention") = word_of(table.convention, convention_words()),
+         py::arg("convention") = enum_name(table.convention, convention_names()),
          py::arg("lower") = py::none(), py::arg("upper") = py::none(),
          py::arg("velocity") = py::none(), py::arg("effort") = py::none(),
          py::arg("names") = defaults.names, py::arg("links") = std::vector<Link>(),
@@ -213,9 +214,9 @@ void add_tables(py::class_<Arm>& cls) {
       .def(
           "to_dh",
           [](const Arm& arm, const std::string& convention) {
-            return dh_table(arm, word_argument("convention", convention, convention_words()));
+            return dh_table(arm, enum_argument("convention", convention, convention_names()));
           },
-          py::kw_only(), py::arg("convention") = word_of(table.convention, convention_words()),
+          py::kw_only(), py::arg("convention") = enum_name(table.convention, convention_names()),
           kToDhDoc);
 }
 

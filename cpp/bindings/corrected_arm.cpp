@@ -142,14 +142,14 @@ void warn_of_support(const CorrectedArm& model, const RowMatrix& q, const Covari
   if (mask.all()) return;
   py::dict out;
   for (const auto& [name, values] : covariates) out[py::str(name)] = to_numpy(values);
-  hook(Hook::kWarnOfSupport)(py::cast(&model, py::return_value_policy::reference),
-                             to_numpy(q), out, mask_to_numpy(mask, false));
+  hook(Hook::kWarnOfSupport)(py::cast(&model, py::return_value_policy::reference), to_numpy(q), out,
+                             mask_to_numpy(mask, false));
 }
 
 // Methods ---------------------------------------------------------------------------------------
 
 py::array forward_corrected(const CorrectedArm& model, const ArrayLike& q,
-                         const OptionalCovariates& covariates, bool links, int num_threads) {
+                            const OptionalCovariates& covariates, bool links, int num_threads) {
   const Rows rows = rows_argument("q", q, model.size());
   const Covariates given = query_covariates(model, covariates);
   CorrectedPoses found;
@@ -165,11 +165,11 @@ py::array forward_corrected(const CorrectedArm& model, const ArrayLike& q,
 }
 
 py::array jacobian_corrected(const CorrectedArm& model, const ArrayLike& q,
-                          const OptionalCovariates& covariates, const std::string& frame,
-                          int num_threads) {
+                             const OptionalCovariates& covariates, const std::string& frame,
+                             int num_threads) {
   const Rows rows = rows_argument("q", q, model.size());
   const Covariates given = query_covariates(model, covariates);
-  const TipFrame axes = word_argument("frame", frame, tip_frame_words());
+  const TipFrame axes = enum_argument("frame", frame, tip_frame_names());
   CorrectedJacobians found;
   {
     const py::gil_scoped_release release;
@@ -180,8 +180,8 @@ py::array jacobian_corrected(const CorrectedArm& model, const ArrayLike& q,
 }
 
 InverseAnswer inverse_corrected(const CorrectedArm& model, const ArrayLike& poses,
-                             const OptionalArray& start, const OptionalCovariates& covariates,
-                             const InverseOptions& options) {
+                                const OptionalArray& start, const OptionalCovariates& covariates,
+                                const InverseOptions& options) {
   const Targets targets = targets_argument(poses, options.task);
   const Rows starts = start.is_none() ? Rows{} : rows_argument("start", start, model.size());
   const Covariates given = query_covariates(model, covariates);
@@ -236,7 +236,8 @@ void bind_support(py::module_& module) {
           "covariates",
           [](const Support& s) {
             py::dict dict;
-            for (const auto& [name, range] : s.covariates) dict[py::str(name)] = range_to_numpy(range);
+            for (const auto& [name, range] : s.covariates)
+              dict[py::str(name)] = range_to_numpy(range);
             return dict;
           },
           "Name to (2, k): all but `session` and `gravity`.")
@@ -255,7 +256,8 @@ void add_rigid_part(py::class_<CorrectedArm>& cls) {
   cls.def_property_readonly(
          "arm", [](const CorrectedArm& m) { return m.arm(); },
          "Arm: a copy of the rigid part, for uses without effects (its .to_urdf()).")
-      .def_property_readonly("name", [](const CorrectedArm& m) { return m.arm().name(); })
+      .def_property_readonly(
+          "name", [](const CorrectedArm& m) { return m.arm().name(); }, "Of the rigid arm.")
       .def_property_readonly(
           "source", [](const CorrectedArm& m) { return m.arm().source(); },
           "Where the numbers come from.")
@@ -285,7 +287,7 @@ void add_inverse(py::class_<CorrectedArm>& cls) {
          int max_iterations, int max_starts, int candidates, std::optional<int> centering_steps,
          std::uint64_t seed, int num_threads) {
         InverseOptions options;
-        options.task = word_argument("task", task, task_words());
+        options.task = enum_argument("task", task, task_names());
         options.axis = vector_argument("axis", axis);
         options.position_tolerance = position_tolerance;
         options.angle_tolerance = angle_tolerance;
@@ -298,7 +300,7 @@ void add_inverse(py::class_<CorrectedArm>& cls) {
         return inverse_corrected(model, poses, start, covariates, options);
       },
       py::arg("poses"), py::arg("start") = py::none(), py::kw_only(),
-      py::arg("covariates") = py::none(), py::arg("task") = word_of(defaults.task, task_words()),
+      py::arg("covariates") = py::none(), py::arg("task") = enum_name(defaults.task, task_names()),
       py::arg("axis") = py::make_tuple(defaults.axis.x(), defaults.axis.y(), defaults.axis.z()),
       py::arg("position_tolerance") = defaults.position_tolerance,
       py::arg("angle_tolerance") = defaults.angle_tolerance,
@@ -329,8 +331,8 @@ void bind_corrected_arm(py::module_& module) {
            kCorrectedForwardDoc)
       .def("jacobian", &jacobian_corrected, py::arg("q"), py::kw_only(),
            py::arg("covariates") = py::none(),
-           py::arg("frame") = word_of(TipFrame::kWorld, tip_frame_words()), py::arg("num_threads") = 0,
-           kCorrectedJacobianDoc)
+           py::arg("frame") = enum_name(TipFrame::kWorld, tip_frame_names()),
+           py::arg("num_threads") = 0, kCorrectedJacobianDoc)
       .def("in_support", &in_support_python, py::arg("q"), py::kw_only(),
            py::arg("covariates") = py::none(), kInSupportDoc)
       .def(

@@ -12,21 +12,21 @@
 #include "bathyal/compensation/corrected_arm.hpp"
 #include "bindings.hpp"
 #include "diagnosis_docs.hpp"
+#include "enum_names.hpp"
 #include "identify_parts.hpp"
-#include "words.hpp"
 
 namespace bathyal::python {
 namespace {
 
 namespace py = pybind11;
 
-const Words<Verdict>& verdict_words() {
-  static const Words<Verdict> words{{"none", Verdict::kNone},
-                                    {"clean", Verdict::kClean},
-                                    {"named", Verdict::kNamed},
-                                    {"ambiguous", Verdict::kAmbiguous},
-                                    {"unknown", Verdict::kUnknown}};
-  return words;
+const EnumNames<Verdict>& verdict_names() {
+  static const EnumNames<Verdict> names{{"none", Verdict::kNone},
+                                        {"clean", Verdict::kClean},
+                                        {"named", Verdict::kNamed},
+                                        {"ambiguous", Verdict::kAmbiguous},
+                                        {"unknown", Verdict::kUnknown}};
+  return names;
 }
 
 std::optional<int> joint_or_none(int joint) {
@@ -35,33 +35,89 @@ std::optional<int> joint_or_none(int joint) {
 
 std::string on_joint(int joint) { return joint < 0 ? "" : ", joint=" + std::to_string(joint); }
 
+const EnumNames<Dependence::Kind>& kind_names() {
+  using Kind = Dependence::Kind;
+  static const EnumNames<Kind> names{{"none", Kind::kNone},       {"position", Kind::kPosition},
+                                     {"joints", Kind::kJoints},   {"time", Kind::kTime},
+                                     {"order", Kind::kOrder},     {"approach", Kind::kApproach},
+                                     {"session", Kind::kSession}, {"covariate", Kind::kCovariate}};
+  return names;
+}
+
+void bind_structure(py::module_& module) {
+  using OptionalText = py::typing::Optional<py::str>;
+  py::class_<Structure>(module, "Structure", kStructureDoc)
+      .def_property_readonly(
+          "kind", [](const Structure& s) { return enum_name(s.dependence.kind, kind_names()); },
+          kKindDoc)
+      .def_property_readonly(
+          "coordinates", [](const Structure& s) { return s.dependence.coordinates; },
+          "Of kind \"joints\" (one or two) and \"approach\" (one): the joints' coordinates, from "
+          "0.")
+      .def_property_readonly(
+          "period", [](const Structure& s) { return s.dependence.period; },
+          "Of kind \"time\": period of a vibration [s]; None of a drift.")
+      .def_property_readonly(
+          "covariate",
+          [](const Structure& s) -> OptionalText {
+            if (s.dependence.covariate.empty()) return py::none();
+            return py::str(s.dependence.covariate);
+          },
+          "Of kind \"covariate\": its name; else None.")
+      .def_property_readonly(
+          "component", [](const Structure& s) { return s.dependence.component; },
+          "Column of a covariate that has several, from 0; else None.")
+      .def_property_readonly(
+          "joint", [](const Structure& s) { return joint_or_none(s.joint); },
+          "Coordinate that is in error, from 0; None where the tip is.")
+      .def_property_readonly(
+          "against", [](const Structure& s) { return to_text(s.dependence); },
+          "The dependence as text, joints counted from 1: \"joints 2 and 3\"; \"\" of kind "
+          "\"none\".")
+      .def_readonly("words", &Structure::description, "Description of the dependence.")
+      .def_readonly("size", &Structure::size, "rms per axis, less noise [m].")
+      .def_readonly("share", &Structure::share, "Of the residuals' variance, less noise.")
+      .def_readonly("p_value", &Structure::p_value, "Corrected for all tests that were made.")
+      .def_property_readonly("is_beyond_noise", &Structure::is_beyond_noise,
+                             "Whether `p_value` is at most 0.002.")
+      .def("__repr__", [](const Structure& s) {
+        const std::string against = to_text(s.dependence);
+        return "Structure(" + (against.empty() ? "nothing" : against) + ", " + to_text(s.size) +
+               " m)";
+      });
+}
+
 void bind_diagnosis_parts(py::module_& module) {
   py::class_<Estimate>(module, "Estimate", kEstimateDoc)
-      .def_readonly("name", &Estimate::name)
-      .def_readonly("value", &Estimate::value)
-      .def_readonly("unit", &Estimate::unit)
+      .def_readonly("name", &Estimate::name, "Of the parameter.")
+      .def_readonly("value", &Estimate::value, "In `unit`.")
+      .def_readonly("unit", &Estimate::unit, "SI; \"\" of a setting, \"1\" of a number.")
       .def_readonly("std", &Estimate::std, "0 of what was counted or chosen, not measured.")
       .def_property_readonly(
           "interval", [](const Estimate& e) { return py::make_tuple(e.low, e.high); },
-          "(low, high) that holds the truth in 95 of 100 cases.")
+          "(low, high): 95 % confidence interval.")
       .def("__float__", [](const Estimate& e) { return e.value; })
       .def("__int__", [](const Estimate& e) { return static_cast<long>(e.value); })
       .def("__repr__", [](const Estimate& e) {
         return "Estimate(" + e.name + "=" + to_text(e.value) + " " + e.unit + ", " +
                to_text(e.low) + " to " + to_text(e.high) + ")";
       });
-  py::class_<Cause>(module, "Cause", "A cause by name, as lists of rivals hold it.")
-      .def_readonly("name", &Cause::name)
-      .def_property_readonly("joint", [](const Cause& c) { return joint_or_none(c.joint); })
-      .def_readonly("words", &Cause::words)
+  py::class_<Cause>(module, "Cause", "A cause by name, as lists of alternatives hold it.")
+      .def_readonly("name", &Cause::name, "Of the effect.")
+      .def_property_readonly(
+          "joint", [](const Cause& c) { return joint_or_none(c.joint); },
+          "Counted from 0; None of an effect of the whole arm.")
+      .def_readonly("words", &Cause::description,
+                    "Description, as \"a harmonic of order 2 along joint 3\".")
       .def_readonly("odds", &Cause::odds, "Against the best explanation, 0 to 1.")
       .def("__repr__", [](const Cause& c) { return "Cause(" + c.name + on_joint(c.joint) + ")"; });
   py::class_<NamedEffect>(module, "NamedEffect", kNamedEffectDoc)
-      .def_readonly("name", &NamedEffect::name)
+      .def_readonly("name", &NamedEffect::name, "Of the effect.")
       .def_property_readonly(
           "joint", [](const NamedEffect& e) { return joint_or_none(e.joint); },
           "Coordinate in error, from 0, or None.")
-      .def_readonly("words", &NamedEffect::words)
+      .def_readonly("words", &NamedEffect::description,
+                    "Description, as \"a harmonic of order 2 along joint 3\".")
       .def_property_readonly(
           "parameters",
           [](const NamedEffect& e) {
@@ -72,46 +128,36 @@ void bind_diagnosis_parts(py::module_& module) {
           "Estimate of each parameter, by name.")
       .def_readonly("rows", &NamedEffect::rows, "Of outliers: the rows.")
       .def_readonly("size", &NamedEffect::size,
-                    "rms of what it moves beside all else that was fitted, per axis [m].")
-      .def_readonly("gain", &NamedEffect::gain,
-                    "Share of the held-out variance above noise that it removes; of effects on the "
-                    "noise itself: held-out log likelihood.")
+                    "rms contribution given all else that was fitted, per axis [m].")
+      .def_readonly(
+          "gain", &NamedEffect::gain,
+          "Share of the held-out variance above noise that it explains; of effects on the "
+          "noise itself: held-out log likelihood.")
       .def_readonly("held_out_before", &NamedEffect::held_out_before, "Without it, 3-D rms [m].")
       .def_readonly("held_out_after", &NamedEffect::held_out_after, "With it, 3-D rms [m].")
       .def_readonly("p_value", &NamedEffect::p_value,
-                    "Of its F test among the others, corrected for all that was tried.")
-      .def_readonly("rivals", &NamedEffect::rivals, "Cause: the best other explanations of it.")
+                    "Of its F test given the others, corrected for multiplicity.")
+      .def_readonly("rivals", &NamedEffect::alternatives, "Cause: the best alternatives to it.")
       .def("__repr__",
            [](const NamedEffect& e) { return "NamedEffect(" + e.name + on_joint(e.joint) + ")"; });
-  module.attr("BEYOND_NOISE") = kBeyondNoise;
-  py::class_<Structure>(module, "Structure", "A dependence of residuals, made by chance or not.")
-      .def_readonly("against", &Structure::against)
-      .def_readonly("words", &Structure::words)
-      .def_readonly("size", &Structure::size, "rms per axis, noise taken out [m].")
-      .def_readonly("share", &Structure::share, "Of the residuals' variance, noise taken out.")
-      .def_readonly("p_value", &Structure::p_value, "Corrected for all that was asked.")
-      .def_property_readonly("is_beyond_noise", &Structure::is_beyond_noise,
-                             "Whether `p_value` is at most 0.002.")
-      .def("__repr__", [](const Structure& s) {
-        return "Structure(" + (s.against.empty() ? "nothing" : s.against) + ", " + to_text(s.size) +
-               " m)";
-      });
+  module.attr("BEYOND_NOISE") = selection::kBeyondNoise;
+  bind_structure(module);
 }
 
 void bind_held_out(py::module_& module) {
   py::class_<HeldOut::Part>(module, "HeldOutPart", "One session, or one touched point.")
-      .def_readonly("name", &HeldOut::Part::name)
-      .def_readonly("rows", &HeldOut::Part::rows)
+      .def_readonly("name", &HeldOut::Part::name, "\"session 2\", \"point 0\", \"all\".")
+      .def_readonly("rows", &HeldOut::Part::rows, "How many rows it has.")
       .def_readonly("rms_before", &HeldOut::Part::rms_before, "3-D [m].")
       .def_readonly("rms_after", &HeldOut::Part::rms_after, "3-D [m].");
-  py::class_<HeldOut>(module, "HeldOut", "Errors of rows that were foretold by all others.")
-      .def_readonly("how", &HeldOut::how, "What was held out at once.")
-      .def_readonly("blocks", &HeldOut::blocks)
+  py::class_<HeldOut>(module, "HeldOut", "Prediction errors of held-out rows.")
+      .def_readonly("how", &HeldOut::how, "What one fold is.")
+      .def_readonly("blocks", &HeldOut::blocks, "Number of folds.")
       .def_readonly("rms_before", &HeldOut::rms_before, "Geometry alone, 3-D [m].")
       .def_readonly("rms_after", &HeldOut::rms_after, "With the effects, 3-D [m].")
       .def_readonly("noise", &HeldOut::noise, "Floor, 3-D [m].")
-      .def_readonly("p_value", &HeldOut::p_value, "That the gain is luck, over the blocks.")
-      .def_readonly("parts", &HeldOut::parts)
+      .def_readonly("p_value", &HeldOut::p_value, "Of the gain, by sign flips of the folds.")
+      .def_readonly("parts", &HeldOut::parts, "HeldOutPart: errors by session or touched point.")
       .def_property_readonly(
           "before", [](const HeldOut& h) { return to_numpy(h.before); },
           "(N,) geometry alone [m]; NaN of outliers.")
@@ -126,37 +172,38 @@ void bind_result(py::module_& module) {
           [](const py::object& self) -> py::typing::Union<Touches, Tracked> {
             return self.attr("_data");
           },
-          "Touches or Tracked: what it was found from.")
+          "Touches or Tracked: the data.")
       .def_property_readonly(
-          "verdict", [](const Diagnosis& d) { return word_of(d.verdict, verdict_words()); },
+          "verdict", [](const Diagnosis& d) { return enum_name(d.verdict, verdict_names()); },
           "\"clean\", \"named\", \"ambiguous\", \"unknown\", or \"none\" where nothing can be held "
           "out.")
       .def_readonly("effects", &Diagnosis::effects,
                     "NamedEffect, largest first; partial when the verdict is unknown.")
       .def_readonly("ambiguous", &Diagnosis::ambiguous,
-                    "Cause: all among which these data cannot choose.")
+                    "Cause: all that these data cannot distinguish.")
       .def_property_readonly(
           "next_poses",
           [](const Diagnosis& d) {
             const bool none = d.next_poses.rows() == 0;  // of whatever width
             return to_numpy(none ? RowMatrix(0, d.arm.size()) : RowMatrix(d.next_poses));
           },
-          "(m, n) poses that would tell them apart [rad or m].")
-      .def_readonly("shown", &Diagnosis::shown,
-                    "Structure in the residuals of geometry alone, likeliest first: what is beyond "
-                    "noise; where nothing is, the least unlikely.")
-      .def_readonly("leftover", &Diagnosis::leftover,
-                    "Structure beside all that was named; its size is 0 when there is none.")
-      .def_readonly("held_out", &Diagnosis::held_out)
+          "(m, n) poses that would distinguish them [rad or m].")
+      .def_readonly(
+          "shown", &Diagnosis::lack_of_fit_before,
+          "Structure in the residuals of geometry alone, most significant first: all that is "
+          "beyond noise; where nothing is, the most significant.")
+      .def_readonly("leftover", &Diagnosis::unexplained,
+                    "Structure that the effects do not explain; its size is 0 when there is none.")
+      .def_readonly("held_out", &Diagnosis::held_out, "HeldOut: the cross-validation.")
       .def_readonly("gain", &Diagnosis::gain, "(r0² - r1²) / (r0² - noise²) of held-out rms.")
       .def_readonly("fit", &Diagnosis::fit, "ArmFit: geometry alone.")
       .def_property_readonly(
           "model", [](const Diagnosis& d) { return CorrectedArm(d.arm, d.found, d.support); },
-          "CorrectedArm: geometry and effects, with the support that taught them.")
+          "CorrectedArm: geometry and effects, with the support of the data.")
       .def_readonly("noise", &Diagnosis::noise, "Standard deviation per axis [m].")
-      .def_readonly("noise_source", &Diagnosis::noise_source)
+      .def_readonly("noise_source", &Diagnosis::noise_source, "What the noise was estimated from.")
       .def_readonly("detectable", &Diagnosis::detectable,
-                    "Size of an effect that would have been found, per axis [m].")
+                    "Smallest size of an effect that is found, per axis [m].")
       .def_property_readonly(
           "residuals_before",
           [](const Diagnosis& d) { return to_numpy(RowMatrix(d.residuals_before.transpose())); },
@@ -167,7 +214,7 @@ void bind_result(py::module_& module) {
           "(N, 3) the same with the effects [m].")
       .def_readonly("warnings", &Diagnosis::warnings, "Sentences.")
       .def("__repr__", [](const Diagnosis& d) {
-        std::string text = "Diagnosis(" + word_of(d.verdict, verdict_words());
+        std::string text = "Diagnosis(" + enum_name(d.verdict, verdict_names());
         for (const NamedEffect& e : d.effects) {
           text += ", " + e.name + (e.joint < 0 ? "" : "[" + std::to_string(e.joint) + "]");
         }
@@ -206,15 +253,15 @@ void bind_diagnose(py::module_& module) {
   const DiagnoseOptions defaults;
   module.def(
       "diagnose",
-      [](const py::typing::Union<Arm>& told, const py::typing::Union<Touches, Tracked>& data,
+      [](const py::typing::Union<Arm>& given, const py::typing::Union<Touches, Tracked>& data,
          const py::typing::Optional<py::typing::Iterable<Effect>>& effects,
          const std::string& parametrization, std::vector<std::string> fixed, int blocks,
          double rival_odds, double leftover, int num_next_poses, const MaybeProgress& progress,
          int num_threads) {
-        const Arm& arm = arm_argument(told);
+        const Arm& arm = arm_argument(given);
         const DiagnoseOptions options{
             .parametrization =
-                word_argument("parametrization", parametrization, parametrization_words()),
+                enum_argument("parametrization", parametrization, parametrization_names()),
             .fixed = std::move(fixed),
             .blocks = blocks,
             .rival_odds = rival_odds,
@@ -226,7 +273,7 @@ void bind_diagnose(py::module_& module) {
           throw_argument("progress", "a function of (share done, what comes next)",
                          type_of(progress));
         }
-        const DiagnosisProgress tell = [&](double done, const std::string& stage) {
+        const DiagnosisProgress report_progress = [&](double done, const std::string& stage) {
           const py::gil_scoped_acquire acquire;
           if (PyErr_CheckSignals() != 0) throw py::error_already_set();
           if (!progress.is_none()) progress(done, stage);
@@ -234,7 +281,7 @@ void bind_diagnose(py::module_& module) {
         const auto run = [&](const auto& known) -> py::typing::Union<Diagnosis> {
           const auto find = [&] {
             const py::gil_scoped_release release;
-            return diagnose(arm, known, options, asked, tell);
+            return diagnose(arm, known, options, asked, report_progress);
           };
           py::object found = py::cast(find());
           found.attr("_data") = data;
@@ -245,7 +292,7 @@ void bind_diagnose(py::module_& module) {
         throw_argument("data", "Touches or Tracked", type_of(data));
       },
       py::arg("arm"), py::arg("data"), py::kw_only(), py::arg("effects") = py::none(),
-      py::arg("parametrization") = word_of(defaults.parametrization, parametrization_words()),
+      py::arg("parametrization") = enum_name(defaults.parametrization, parametrization_names()),
       py::arg("fixed") = defaults.fixed, py::arg("blocks") = defaults.blocks,
       py::arg("rival_odds") = defaults.rival_odds, py::arg("leftover") = defaults.leftover,
       py::arg("num_next_poses") = defaults.num_next_poses, py::arg("progress") = py::none(),

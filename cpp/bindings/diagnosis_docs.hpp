@@ -6,45 +6,53 @@
 namespace bathyal::python {
 
 inline constexpr const char* kEstimateDoc =
-    R"(A number and the interval that holds it in 95 of 100 cases; float() gives the number.)";
+    R"(A number with its 95 % confidence interval; float() gives the number.)";
 
 inline constexpr const char* kNamedEffectDoc = R"(A cause that was found, with its evidence.)";
 
+inline constexpr const char* kStructureDoc =
+    R"(A lack-of-fit test: a dependence of the residuals, significant or not.)";
+
+inline constexpr const char* kKindDoc =
+    R"(What the residuals depend on: "position" of the tip, "joints" (one, or two together), "time",
+"order" of the rows (where no times are recorded), "approach" (the direction of a joint's last
+move), "session" or "covariate"; "none" where nothing was found.)";
+
 inline constexpr const char* kDiagnosisDoc =
-    R"(What the model of an arm gets wrong, by its measurements; see `diagnose`.)";
+    R"(Errors of an arm's model, by its measurements; see `diagnose`.)";
 
 inline constexpr const char* kDiagnoseDoc =
-    R"(Show what the best rigid model of an arm gets wrong, name the cause, measure the gain.
+    R"(Find what the best rigid model of an arm gets wrong, name the cause, measure the gain.
 
-The arm's geometry is identified first. What it leaves is compared with each effect of the library,
-alone and in growing sets, fitted jointly with the geometry; sets are judged by their likelihood
-less what their freedom costs, and each name must foretell data that it has not seen. Structure that
-nothing in the library explains is told as such, without a name.
+The arm's geometry is identified first. Effects of the library are selected to explain its
+residuals, alone and in growing sets, fitted jointly with the geometry; sets are compared by their
+likelihood less a complexity penalty, and each effect must improve the prediction of held-out data.
+Structure that nothing in the library explains is reported as such, without a name.
 
 Parameters
 ----------
 arm : Arm
-    Nominal; its masses, where they are told, make loads of gravity known.
+    Nominal; its masses, where they are given, make loads of gravity known.
 data : Touches or Tracked
     With any of the covariates `temperature` (N,) [°C], `time` (N,) [s], `payload` (N,) [kg at the
     tool centre point], `direction` (N, n) -1, 0 or 1, `gravity` (N, 3) [m/s², base frame] and
-    `session` (N,); others are looked at for structure. One that is missing (nan) in some rows is
-    not used, and a warning says so. Rows that repeat another to the last digit count once.
+    `session` (N,); others are tested for structure. One that is missing (nan) in some rows is
+    not used, and a warning says so. Rows that duplicate another to the last digit count once.
 effects : list of Effect, optional
-    What may be named; `bathyal.effects.list()` unless given.
+    What may be selected; `bathyal.effects.list()` unless given.
 parametrization : {"hayati", "dh"}
     Of the geometry, as in `identify_arm`.
 fixed : list of str
     Names of geometric parameters to hold at nominal.
 blocks : int
-    How many blocks are held out in turn, 3 to 50.
+    Number of folds of the cross-validation, 3 to 50.
 rival_odds : float
-    Odds of a rival against the best explanation from which the two count as not to be told apart.
+    Odds of an alternative against the best explanation from which the verdict is "ambiguous".
 leftover : float
-    Structure left over, as a share of the variance that the names removed, from which the verdict
-    is "unknown" and the names stand as partial.
+    Unexplained structure, as a share of the variance that the effects explain, from which the
+    verdict is "unknown" and the effects are partial.
 num_next_poses : int
-    How many poses to propose where causes cannot be told apart.
+    How many poses to propose where the verdict is "ambiguous".
 progress : callable, optional
     Called with (share done, what comes next), often within a stage; what it raises ends the run.
 num_threads : int

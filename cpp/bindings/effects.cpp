@@ -11,9 +11,9 @@
 #include "bathyal/base/error.hpp"
 #include "effects_docs.hpp"
 #include "effects_parts.hpp"
+#include "enum_names.hpp"
 #include "hooks.hpp"
 #include "identify_parts.hpp"
-#include "words.hpp"
 
 namespace bathyal::python {
 namespace {
@@ -22,12 +22,12 @@ namespace py = pybind11;
 
 constexpr double kTypicalSize = 1e-3;  ///< of a parameter without a given scale
 
-const Words<UserSite>& site_words() {
-  static const Words<UserSite> words{{"joint", UserSite::kJoint},
-                                     {"base", UserSite::kBase},
-                                     {"tool", UserSite::kTool},
-                                     {"lengths", UserSite::kLengths}};
-  return words;
+const EnumNames<UserSite>& site_names() {
+  static const EnumNames<UserSite> names{{"joint", UserSite::kJoint},
+                                         {"base", UserSite::kBase},
+                                         {"tool", UserSite::kTool},
+                                         {"lengths", UserSite::kLengths}};
+  return names;
 }
 
 /// Value by name; `otherwise` where the dict does not have it.
@@ -72,7 +72,7 @@ std::shared_ptr<Effect> make_effect(std::string name, py::function function,
   user.info.by_difference = by_difference;
   if (!(period > 0.0)) throw_argument("period", "a length above 0", to_text(period));
   user.period = period;
-  user.site = word_argument("site", site, site_words());
+  user.site = enum_argument("site", site, site_names());
   for (auto& [parameter, unit] :
        items_argument<std::string>("parameters", parameters, "a dict of name to unit")) {
     const double scale = value_or_default(scales, parameter, kTypicalSize);
@@ -178,10 +178,10 @@ std::string effect_repr(const FoundEffect& found) {
 
 void bind_effect(py::module_& module) {
   py::class_<EffectInfo::Range>(module, "EffectRange", "Plausible sizes of a parameter.")
-      .def_readonly("parameter", &EffectInfo::Range::parameter)
-      .def_readonly("unit", &EffectInfo::Range::unit)
-      .def_readonly("low", &EffectInfo::Range::low)
-      .def_readonly("high", &EffectInfo::Range::high)
+      .def_readonly("parameter", &EffectInfo::Range::parameter, "Name of the parameter.")
+      .def_readonly("unit", &EffectInfo::Range::unit, "Of `low` and `high`.")
+      .def_readonly("low", &EffectInfo::Range::low, "Smallest plausible size, in `unit`.")
+      .def_readonly("high", &EffectInfo::Range::high, "Largest plausible size, in `unit`.")
       .def("__repr__", [](const EffectInfo::Range& range) {
         return "EffectRange(" + range.parameter + ", " + to_text(range.low) + " to " +
                to_text(range.high) + " " + range.unit + ")";
@@ -193,10 +193,13 @@ void bind_effect(py::module_& module) {
            py::arg("formula") = "", py::arg("source") = "",
            py::arg("scales") = std::map<std::string, double>{}, py::arg("by_difference") = false,
            py::arg("period") = std::numeric_limits<double>::infinity())
-      .def_property_readonly("name", [](const Effect& e) { return e.info().name; })
+      .def_property_readonly(
+          "name", [](const Effect& e) { return e.info().name; }, "As diagnosis names it.")
       .def_property_readonly(
           "words", [](const Effect& e) { return e.info().description; }, "Description.")
-      .def_property_readonly("formula", [](const Effect& e) { return e.info().formula; })
+      .def_property_readonly(
+          "formula", [](const Effect& e) { return e.info().formula; },
+          "What it adds, as text for people.")
       .def_property_readonly(
           "source", [](const Effect& e) { return e.info().source; }, "Paper or textbook.")
       .def_property_readonly(
@@ -218,7 +221,8 @@ void bind_found_effect(py::module_& module) {
            py::arg("joint") = py::none(), py::arg("settings") = std::map<std::string, double>{},
            py::arg("units") = std::map<std::string, std::string>{},
            py::arg("scales") = std::map<std::string, double>{}, py::arg("cause") = "")
-      .def_property_readonly("name", [](const FoundEffect& f) { return f.variant.effect; })
+      .def_property_readonly(
+          "name", [](const FoundEffect& f) { return f.variant.effect; }, "Of its effect.")
       .def_property_readonly(
           "effect", [](const FoundEffect& f) { return std::const_pointer_cast<Effect>(f.effect); },
           "The Effect itself.")
@@ -254,7 +258,9 @@ void bind_found_effect(py::module_& module) {
                 f, [&](std::size_t i) { return py::float_(f.variant.parameters[i].scale); });
           },
           "Name to a typical size.")
-      .def_property_readonly("cause", [](const FoundEffect& f) { return f.variant.alias_group; })
+      .def_property_readonly(
+          "cause", [](const FoundEffect& f) { return f.variant.alias_group; },
+          "Effects of one cause are descriptions of the same thing.")
       .def("__repr__", &effect_repr);
 }
 

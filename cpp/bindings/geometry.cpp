@@ -118,9 +118,12 @@ Examples
       .def_property_readonly(
           "attributes", [](const PointCloud& c) { return to_python(c.attributes()); },
           "What rides along: name → (N,) array.")
-      .def_property_readonly("crs", [](const PointCloud& c) { return c.datum().crs; })
-      .def_property_readonly("vertical_datum",
-                             [](const PointCloud& c) { return c.datum().vertical; })
+      .def_property_readonly(
+          "crs", [](const PointCloud& c) { return c.datum().crs; },
+          "Reference system of x and y, as its file gives it; empty if unknown.")
+      .def_property_readonly(
+          "vertical_datum", [](const PointCloud& c) { return c.datum().vertical; },
+          "What z is measured from; empty if unknown.")
       .def("__len__", &PointCloud::size)
       .def("__repr__",
            [](const PointCloud& c) { return "PointCloud(" + count_text(c.size(), "point") + ")"; });
@@ -168,9 +171,12 @@ TriangleMesh(3 vertices, 1 triangle)
       .def_property_readonly(
           "attributes", [](const TriangleMesh& m) { return to_python(m.attributes()); },
           "What rides along: name → (N,) array.")
-      .def_property_readonly("crs", [](const TriangleMesh& m) { return m.datum().crs; })
-      .def_property_readonly("vertical_datum",
-                             [](const TriangleMesh& m) { return m.datum().vertical; })
+      .def_property_readonly(
+          "crs", [](const TriangleMesh& m) { return m.datum().crs; },
+          "Reference system of x and y, as its file gives it; empty if unknown.")
+      .def_property_readonly(
+          "vertical_datum", [](const TriangleMesh& m) { return m.datum().vertical; },
+          "What z is measured from; empty if unknown.")
       .def("__repr__", [](const TriangleMesh& m) {
         return "TriangleMesh(" + std::to_string(m.vertex_count()) +
                (m.vertex_count() == 1 ? " vertex, " : " vertices, ") +

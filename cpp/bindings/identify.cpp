@@ -12,37 +12,37 @@
 #include "bathyal/base/error.hpp"
 #include "bathyal/compensation/corrected_arm.hpp"
 #include "bindings.hpp"
+#include "enum_names.hpp"
 #include "identify_docs.hpp"
 #include "identify_parts.hpp"
-#include "words.hpp"
 
 namespace bathyal::python {
 namespace {
 
-const Words<Criterion>& criterion_words() {
-  static const Words<Criterion> words{{"centroid", Criterion::kCentroid},
-                                      {"pairs", Criterion::kPairs}};
-  return words;
+const EnumNames<Criterion>& criterion_names() {
+  static const EnumNames<Criterion> names{{"centroid", Criterion::kCentroid},
+                                          {"pairs", Criterion::kPairs}};
+  return names;
 }
-const Words<Solver>& solver_words() {
-  static const Words<Solver> words{{"levenberg_marquardt", Solver::kLevenbergMarquardt},
-                                   {"paper", Solver::kPaper}};
-  return words;
+const EnumNames<Solver>& solver_names() {
+  static const EnumNames<Solver> names{{"levenberg_marquardt", Solver::kLevenbergMarquardt},
+                                       {"paper", Solver::kPaper}};
+  return names;
 }
-const Words<Loss>& loss_words() {
-  static const Words<Loss> words{
+const EnumNames<Loss>& loss_names() {
+  static const EnumNames<Loss> names{
       {"square", Loss::kSquare}, {"huber", Loss::kHuber}, {"cauchy", Loss::kCauchy}};
-  return words;
+  return names;
 }
-const Words<ToolStart>& tool_words() {
-  static const Words<ToolStart> words{
+const EnumNames<ToolStart>& tool_names() {
+  static const EnumNames<ToolStart> names{
       {"auto", ToolStart::kAuto}, {"arm", ToolStart::kArm}, {"estimate", ToolStart::kEstimate}};
-  return words;
+  return names;
 }
-const Words<BaseChoice>& base_words() {
-  static const Words<BaseChoice> words{
+const EnumNames<BaseChoice>& base_names() {
+  static const EnumNames<BaseChoice> names{
       {"auto", BaseChoice::kAuto}, {"free", BaseChoice::kFree}, {"fixed", BaseChoice::kFixed}};
-  return words;
+  return names;
 }
 
 using AnyArm = std::variant<const Arm*, const CorrectedArm*>;
@@ -60,15 +60,15 @@ void bind_identify_arm(py::module_& module) {
          std::map<std::string, double> priors, double size_prior, std::optional<double> noise,
          std::optional<double> rotation_noise, const std::string& loss,
          std::optional<double> loss_width, std::optional<double> prune_sigma, int num_threads) {
-        const Options options{.parametrization = word_argument("parametrization", parametrization,
-                                                               parametrization_words()),
+        const Options options{.parametrization = enum_argument("parametrization", parametrization,
+                                                               parametrization_names()),
                               .nearly_parallel = nearly_parallel,
-                              .criterion = word_argument("criterion", criterion, criterion_words()),
+                              .criterion = enum_argument("criterion", criterion, criterion_names()),
                               .pair_weights = pair_weights,
-                              .solver = word_argument("solver", solver, solver_words()),
+                              .solver = enum_argument("solver", solver, solver_names()),
                               .max_iterations = max_iterations,
-                              .tool_start = word_argument("tool_start", tool_start, tool_words()),
-                              .base = word_argument("base", base, base_words()),
+                              .tool_start = enum_argument("tool_start", tool_start, tool_names()),
+                              .base = enum_argument("base", base, base_names()),
                               .fixed = std::move(fixed),
                               .length_prior = length_prior,
                               .angle_prior = angle_prior,
@@ -76,7 +76,7 @@ void bind_identify_arm(py::module_& module) {
                               .size_prior = size_prior,
                               .noise = noise,
                               .rotation_noise = rotation_noise,
-                              .loss = word_argument("loss", loss, loss_words()),
+                              .loss = enum_argument("loss", loss, loss_names()),
                               .loss_width = loss_width,
                               .prune_sigma = prune_sigma,
                               .num_threads = num_threads};
@@ -94,29 +94,29 @@ void bind_identify_arm(py::module_& module) {
                        std::string(py::str(py::type::of(data).attr("__name__"))));
       },
       py::arg("arm"), py::arg("data"), py::kw_only(),
-      py::arg("parametrization") = word_of(defaults.parametrization, parametrization_words()),
+      py::arg("parametrization") = enum_name(defaults.parametrization, parametrization_names()),
       py::arg("nearly_parallel") = defaults.nearly_parallel,
-      py::arg("criterion") = word_of(defaults.criterion, criterion_words()),
+      py::arg("criterion") = enum_name(defaults.criterion, criterion_names()),
       py::arg("pair_weights") = defaults.pair_weights,
-      py::arg("solver") = word_of(defaults.solver, solver_words()),
+      py::arg("solver") = enum_name(defaults.solver, solver_names()),
       py::arg("max_iterations") = defaults.max_iterations,
-      py::arg("tool_start") = word_of(defaults.tool_start, tool_words()),
-      py::arg("base") = word_of(defaults.base, base_words()), py::arg("fixed") = defaults.fixed,
+      py::arg("tool_start") = enum_name(defaults.tool_start, tool_names()),
+      py::arg("base") = enum_name(defaults.base, base_names()), py::arg("fixed") = defaults.fixed,
       py::arg("length_prior") = defaults.length_prior,
       py::arg("angle_prior") = defaults.angle_prior, py::arg("priors") = defaults.priors,
       py::arg("size_prior") = defaults.size_prior, py::arg("noise") = defaults.noise,
       py::arg("rotation_noise") = defaults.rotation_noise,
-      py::arg("loss") = word_of(defaults.loss, loss_words()),
+      py::arg("loss") = enum_name(defaults.loss, loss_names()),
       py::arg("loss_width") = defaults.loss_width, py::arg("prune_sigma") = defaults.prune_sigma,
       py::arg("num_threads") = defaults.num_threads, kIdentifyArmDoc);
 }
 
 }  // namespace
 
-const Words<Parametrization>& parametrization_words() {
-  static const Words<Parametrization> words{{"hayati", Parametrization::kHayati},
-                                            {"dh", Parametrization::kDh}};
-  return words;
+const EnumNames<Parametrization>& parametrization_names() {
+  static const EnumNames<Parametrization> names{{"hayati", Parametrization::kHayati},
+                                                {"dh", Parametrization::kDh}};
+  return names;
 }
 
 void bind_identify(py::module_& module) {

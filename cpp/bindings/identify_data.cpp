@@ -258,30 +258,36 @@ void bind_identify_data(py::module_& module) {
       .def_property_readonly(
           "point", [](const Touches& t) { return to_numpy(t.point); },
           "(N,) label of the point that each row touched.")
-      .def_property_readonly("known_distances",
-                             [](const Touches& t) {
-                               py::dict dict;
-                               for (const KnownDistance& known : t.known_distances) {
-                                 dict[py::make_tuple(known.first, known.second)] = known.distance;
-                               }
-                               return dict;
-                             })
-      .def_property_readonly("known_points",
-                             [](const Touches& t) {
-                               py::dict dict;
-                               for (const KnownPoint& known : t.known_points) {
-                                 dict[py::int_(known.label)] = to_numpy(known.position);
-                               }
-                               return dict;
-                             })
-      .def_property_readonly("planes",
-                             [](const Touches& t) {
-                               py::dict dict;
-                               for (const TouchedPlane& plane : t.planes) {
-                                 dict[py::str(plane.name)] = to_numpy(plane.rows);
-                               }
-                               return dict;
-                             })
+      .def_property_readonly(
+          "known_distances",
+          [](const Touches& t) {
+            py::dict dict;
+            for (const KnownDistance& known : t.known_distances) {
+              dict[py::make_tuple(known.first, known.second)] = known.distance;
+            }
+            return dict;
+          },
+          "{(label, label): distance [m]} between touched points.")
+      .def_property_readonly(
+          "known_points",
+          [](const Touches& t) {
+            py::dict dict;
+            for (const KnownPoint& known : t.known_points) {
+              dict[py::int_(known.label)] = to_numpy(known.position);
+            }
+            return dict;
+          },
+          "{label: (3,) position [m]} in the world.")
+      .def_property_readonly(
+          "planes",
+          [](const Touches& t) {
+            py::dict dict;
+            for (const TouchedPlane& plane : t.planes) {
+              dict[py::str(plane.name)] = to_numpy(plane.rows);
+            }
+            return dict;
+          },
+          "{name: (K,) rows} of planes touched in many places.")
       .def_readonly("names", &Touches::names, "{label: name}, of the labels that have one.")
       .def_readonly("distance_std", &Touches::distance_std, "[m]")
       .def_readonly("point_std", &Touches::point_std, "[m]")

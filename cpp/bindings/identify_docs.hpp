@@ -98,7 +98,7 @@ request). ``trades`` lists the parameters that take part in an unobservable chan
 inline constexpr const char* kArmFitDoc =
     R"(Result of `identify_arm`: the arm with its uncertainty.
 
-``str(fit)`` and ``fit.summary()`` describe it in one paragraph.
+``str(fit)`` describes it in a few lines, ``fit.summary()`` in one paragraph.
 )";
 
 inline constexpr const char* kTipCovarianceDoc =

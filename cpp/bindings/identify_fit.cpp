@@ -21,30 +21,35 @@ py::list poses_to_list(const std::vector<Pose>& poses) {
 void bind_fit_parts(py::module_& module) {
   py::class_<NullSpacePartner>(
       module, "Trade", "A parameter that takes part in an unobservable change of another one.")
-      .def_readonly("name", &NullSpacePartner::name)
-      .def_readonly("words", &NullSpacePartner::description)
+      .def_readonly("name", &NullSpacePartner::name, "Of the parameter, as \"theta_3\".")
+      .def_readonly("words", &NullSpacePartner::description, "Description, as \"theta of row 3\".")
       .def_readonly("factor", &NullSpacePartner::factor,
                     "Its change per unit of the other one, each in its own unit.")
       .def("__repr__", [](const NullSpacePartner& t) {
         return "Trade(" + t.name + ", " + to_text(t.factor) + ")";
       });
   py::class_<FitParameter>(module, "FitParameter", kFitParameterDoc)
-      .def_readonly("name", &FitParameter::name)
-      .def_readonly("words", &FitParameter::description)
-      .def_readonly("unit", &FitParameter::unit)
-      .def_readonly("group", &FitParameter::group)
-      .def_readonly("nominal", &FitParameter::nominal)
-      .def_readonly("value", &FitParameter::value)
-      .def_readonly("std", &FitParameter::std)
-      .def_property_readonly("status",
-                             [](const FitParameter& p) { return std::string(to_text(p.status)); })
-      .def_readonly("trades", &FitParameter::partners)
+      .def_readonly("name", &FitParameter::name, "As \"theta_3\".")
+      .def_readonly("words", &FitParameter::description, "Description, as \"theta of row 3\".")
+      .def_readonly("unit", &FitParameter::unit, "\"m\" or \"rad\".")
+      .def_readonly("group", &FitParameter::group,
+                    "Part of the arm, as \"row 3\", \"tool\" or \"base\".")
+      .def_readonly("nominal", &FitParameter::nominal,
+                    "In `unit`; of a tool or a base, where the search started.")
+      .def_readonly("value", &FitParameter::value, "Estimate, in `unit`.")
+      .def_readonly("std", &FitParameter::std,
+                    "Standard deviation, in `unit`: 0 when fixed, inf when undetermined.")
+      .def_property_readonly(
+          "status", [](const FitParameter& p) { return std::string(to_text(p.status)); },
+          "How it is determined; see the class.")
+      .def_readonly("trades", &FitParameter::partners,
+                    "Parameters that take part in an unobservable change of it.")
       .def("__repr__", [](const FitParameter& p) {
         return "FitParameter(" + p.name + "=" + to_text(p.value) + ", std=" + to_text(p.std) +
                ", " + std::string(to_text(p.status)) + ")";
       });
   py::class_<Outlier>(module, "Outlier", "A row that contradicts the others.")
-      .def_readonly("row", &Outlier::row)
+      .def_readonly("row", &Outlier::row, "Row of the data, counted from 0.")
       .def_readonly("point", &Outlier::label, "Label of its point; -1 where there is none.")
       .def_readonly("distance", &Outlier::distance, "From its expected position [m].")
       .def_readonly(
@@ -98,7 +103,8 @@ void bind_fit(py::module_& module) {
           "history", [](const ArmFit& f) { return to_numpy(f.history); },
           "Sum of squares of the criterion at the start and after each step [m²].")
       .def_readonly("iterations", &ArmFit::iterations, "Accepted steps.")
-      .def_readonly("converged", &ArmFit::converged)
+      .def_readonly("converged", &ArmFit::converged,
+                    "Whether the search ended before its limit of iterations.")
       .def_readonly("rank", &ArmFit::rank, "Of the data by all parameters, without priors.")
       .def_property_readonly(
           "singular_values", [](const ArmFit& f) { return to_numpy(f.singular_values); },
@@ -106,11 +112,13 @@ void bind_fit(py::module_& module) {
       .def_readonly("unseen", &ArmFit::null_space, "Descriptions of the unobservable directions.")
       .def_readonly("noise", &ArmFit::noise, "Standard deviation per axis, estimated or given [m].")
       .def_readonly("rotation_noise", &ArmFit::rotation_noise, "[rad]")
-      .def_readonly("degrees_of_freedom", &ArmFit::degrees_of_freedom)
+      .def_readonly("degrees_of_freedom", &ArmFit::degrees_of_freedom,
+                    "Position rows less those of points and parameters.")
       .def_readonly("scale_source", &ArmFit::scale_source, "What determines the scale of the arm.")
       .def_readonly("scale", &ArmFit::scale, "Estimated by nominal lengths.")
-      .def_readonly("scale_std", &ArmFit::scale_std)
-      .def_readonly("point_labels", &ArmFit::point_labels)
+      .def_readonly("scale_std", &ArmFit::scale_std, "Relative standard deviation of `scale`.")
+      .def_readonly("point_labels", &ArmFit::point_labels,
+                    "(K,) label of each touched point, in the order of `points`.")
       .def_property_readonly(
           "points", [](const ArmFit& f) { return to_numpy(RowMatrix(f.points.transpose())); },
           "(n, 3) estimated positions of the touched points, world [m].")
@@ -131,7 +139,8 @@ void bind_fit(py::module_& module) {
           "residuals_before",
           [](const ArmFit& f) { return to_numpy(RowMatrix(f.residuals_before.transpose())); },
           "(N, 3) the same for `rms_before` [m].")
-      .def_readonly("outliers", &ArmFit::outliers)
+      .def_readonly("outliers", &ArmFit::outliers,
+                    "Outlier of each row that contradicts the others.")
       .def_readonly("structure_p", &ArmFit::structure_p,
                     "Probability of residuals that depend on the joints this much by chance.")
       .def_readonly("warnings", &ArmFit::warnings, "Sentences; empty when all is well.")
@@ -161,7 +170,6 @@ void bind_fit(py::module_& module) {
       .def("summary", py::overload_cast<const ArmFit&, bool>(&summarize), py::kw_only(),
            py::arg("warnings") = true,
            "One paragraph; ``warnings=False`` leaves the warnings to the caller.")
-      .def("__str__", [](const ArmFit& f) { return summarize(f); })
       .def("__repr__", [](const ArmFit& f) {
         return "ArmFit(rms_before=" + to_text(f.rms_before) +
                ", rms_after=" + to_text(f.rms_after) + ", rank=" + std::to_string(f.rank) + " of " +

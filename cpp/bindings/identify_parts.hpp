@@ -6,14 +6,14 @@
 #include "arrays.hpp"
 #include "bathyal/effects/measurements.hpp"
 #include "bathyal/identify/model/arm_parameters.hpp"
-#include "words.hpp"
+#include "enum_names.hpp"
 
 // Bindings of the room identify: its data and its results.
 
 namespace bathyal::python {
 
 /// "hayati" or "dh"
-const Words<Parametrization>& parametrization_words();
+const EnumNames<Parametrization>& parametrization_names();
 
 /// Touches and Tracked.
 void bind_identify_data(py::module_& module);

@@ -25,9 +25,9 @@ void bind_mesh_report(py::module_& module) {
 
 Made by `mesh_report`. Lengths in metres, angles in radians; ``print`` it to read it.
 )")
-      .def_readonly("vertex_count", &Report::vertex_count)
+      .def_readonly("vertex_count", &Report::vertex_count, "Vertices, used or not.")
       .def_readonly("unused_vertices", &Report::unused_vertices, "Vertices of no triangle.")
-      .def_readonly("triangle_count", &Report::triangle_count)
+      .def_readonly("triangle_count", &Report::triangle_count, "Triangles of the mesh.")
       .def_property_readonly(
           "low", [](const Report& r) { return to_numpy(r.low); },
           "(3,) least corner of the bounding box of the vertices in use [m].")
@@ -49,7 +49,8 @@ Made by `mesh_report`. Lengths in metres, angles in radians; ``print`` it to rea
                     "Vertices where fans of triangles touch by the vertex alone.")
       .def_readonly("inconsistent_edges", &Report::inconsistent_edges,
                     "Edges along which their two triangles run the same way.")
-      .def_readonly("zero_area_triangles", &Report::zero_area_triangles)
+      .def_readonly("zero_area_triangles", &Report::zero_area_triangles,
+                    "Triangles whose area is 0.")
       .def_readonly("duplicate_triangles", &Report::duplicate_triangles,
                     "Triangles on the same three vertices as an earlier one.")
       .def_readonly("closed", &Report::closed,

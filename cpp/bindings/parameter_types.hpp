@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-// The types of parameters as pybind11 writes them in a signature, judged and put in plain English.
+// The types of parameters as pybind11 writes them in a signature, checked and put in plain English.
 
 namespace bathyal::python {
 

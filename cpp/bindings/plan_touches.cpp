@@ -6,18 +6,18 @@
 #include "arrays.hpp"
 #include "bathyal/base/error.hpp"
 #include "bindings.hpp"
+#include "enum_names.hpp"
 #include "identify_parts.hpp"
 #include "plan_touches_docs.hpp"
-#include "words.hpp"
 
 namespace bathyal::python {
 namespace {
 
-const Words<TouchCriterion>& touch_criterion_words() {
-  static const Words<TouchCriterion> words{{"worst_tip", TouchCriterion::kWorstTip},
-                                           {"d_optimal", TouchCriterion::kDOptimal},
-                                           {"o1", TouchCriterion::kO1}};
-  return words;
+const EnumNames<TouchCriterion>& touch_criterion_names() {
+  static const EnumNames<TouchCriterion> names{{"worst_tip", TouchCriterion::kWorstTip},
+                                               {"d_optimal", TouchCriterion::kDOptimal},
+                                               {"o1", TouchCriterion::kO1}};
+  return names;
 }
 
 using PairsOfPoints =
@@ -39,7 +39,7 @@ ForecastOptions forecast_argument(const Arm& arm, const std::string& parametriza
                                   const OptionalArray& workspace, int workspace_poses,
                                   std::uint64_t seed, int num_threads) {
   return {
-      .parametrization = word_argument("parametrization", parametrization, parametrization_words()),
+      .parametrization = enum_argument("parametrization", parametrization, parametrization_names()),
       .nearly_parallel = nearly_parallel,
       .noise = noise,
       .length_prior = length_prior,
@@ -143,8 +143,9 @@ void bind_plan(py::module_& module) {
           "(k, 3) positions of the points, world [m].")
       .def_readonly("known_distances", &TouchPlan::known_distances,
                     "Pairs of points whose distance is to be measured.")
-      .def_property_readonly("criterion",
-                             [](const TouchPlan& p) { return std::string(to_text(p.criterion)); })
+      .def_property_readonly(
+          "criterion", [](const TouchPlan& p) { return std::string(to_text(p.criterion)); },
+          "\"worst_tip\", \"d_optimal\" or \"o1\": what was optimised.")
       .def_readonly("value", &TouchPlan::value, "Of the criterion: worst_tip [m], ln det, or O1.")
       .def_readonly("forecast", &TouchPlan::forecast, "TouchForecast of these touches.")
       .def_property_readonly(
@@ -181,7 +182,7 @@ void bind_functions(py::module_& module) {
         return forecast_touches(arm, touches, options);
       },
       py::arg("arm"), py::arg("touches"), py::kw_only(),
-      py::arg("parametrization") = word_of(forecast.parametrization, parametrization_words()),
+      py::arg("parametrization") = enum_name(forecast.parametrization, parametrization_names()),
       py::arg("nearly_parallel") = forecast.nearly_parallel, py::arg("noise") = forecast.noise,
       py::arg("length_prior") = forecast.length_prior,
       py::arg("angle_prior") = forecast.angle_prior, py::arg("tool_prior") = forecast.tool_prior,
@@ -198,7 +199,7 @@ void bind_functions(py::module_& module) {
          double length_prior, double angle_prior, double tool_prior, const OptionalArray& workspace,
          int workspace_poses, std::uint64_t seed, int num_threads) {
         const PlanTouchesOptions options{
-            .criterion = word_argument("criterion", criterion, touch_criterion_words()),
+            .criterion = enum_argument("criterion", criterion, touch_criterion_names()),
             .points = points_to_touch(points),
             .num_points = num_points,
             .known_distances = pairs_argument(known_distances),
@@ -220,9 +221,9 @@ void bind_functions(py::module_& module) {
       py::arg("distance_std") = defaults.distance_std,
       py::arg("known_points") = defaults.known_points, py::arg("point_std") = defaults.point_std,
       py::arg("feasible") = py::none(), py::arg("floor") = defaults.floor,
-      py::arg("criterion") = word_of(defaults.criterion, touch_criterion_words()),
+      py::arg("criterion") = enum_name(defaults.criterion, touch_criterion_names()),
       py::arg("candidates") = defaults.candidates, py::arg("passes") = defaults.passes,
-      py::arg("parametrization") = word_of(forecast.parametrization, parametrization_words()),
+      py::arg("parametrization") = enum_name(forecast.parametrization, parametrization_names()),
       py::arg("nearly_parallel") = forecast.nearly_parallel, py::arg("noise") = forecast.noise,
       py::arg("length_prior") = forecast.length_prior,
       py::arg("angle_prior") = forecast.angle_prior, py::arg("tool_prior") = forecast.tool_prior,

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <limits>
 #include <string>
+#include <string_view>
 
 #include "arrays.hpp"
 #include "bathyal/base/error.hpp"
@@ -15,11 +16,12 @@
 namespace bathyal::python {
 namespace {
 
-/// Answers of Scene.nearest, a column each.
-struct Nearest {
+/// What the scene's nearest points have in common, a column each.
+struct NearestColumns {
   py::array distance, point, mesh, triangle, barycentric;
 
-  explicit Nearest(const std::vector<NearestPoint>& found) {
+  template <class Found>
+  explicit NearestColumns(const std::vector<Found>& found) {
     std::vector<double> distances, points, weights;
     std::vector<std::int32_t> meshes, triangles;
     distances.reserve(found.size());
@@ -28,7 +30,7 @@ struct Nearest {
     meshes.reserve(found.size());
     triangles.reserve(found.size());
     constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
-    for (const NearestPoint& one : found) {
+    for (const Found& one : found) {
       distances.push_back(one.distance);
       points.insert(points.end(), one.point.begin(), one.point.end());
       meshes.push_back(one.mesh);
@@ -47,6 +49,28 @@ struct Nearest {
   }
 };
 
+/// Answers of Scene.nearest.
+struct Nearest : NearestColumns {
+  using NearestColumns::NearestColumns;
+};
+
+/// Answers of Scene.nearest_segments.
+struct NearestSegments : NearestColumns {
+  py::array fraction, segment_point;
+
+  explicit NearestSegments(const std::vector<NearestToSegment>& found) : NearestColumns(found) {
+    std::vector<double> fractions, points;
+    fractions.reserve(found.size());
+    points.reserve(3 * found.size());
+    for (const NearestToSegment& one : found) {
+      fractions.push_back(one.fraction);
+      points.insert(points.end(), one.segment_point.begin(), one.segment_point.end());
+    }
+    fraction = to_numpy(std::move(fractions));
+    segment_point = to_numpy(std::move(points), {3});
+  }
+};
+
 py::array points_to_numpy(const std::vector<Vec3>& points) {
   std::vector<double> values;
   values.reserve(3 * points.size());
@@ -54,23 +78,41 @@ py::array points_to_numpy(const std::vector<Vec3>& points) {
   return to_numpy(std::move(values), {3});
 }
 
-void bind_nearest(py::module_& module) {
-  py::class_<Nearest>(module, "Nearest", "The closest point of a scene to each of N points.")
-      .def_readonly("distance", &Nearest::distance,
-                    "(N,) [m], inf where the scene holds no triangle.")
-      .def_readonly("point", &Nearest::point, "(N, 3) [m], NaN where there is none.")
-      .def_readonly("mesh", &Nearest::mesh,
+/// The columns in common; `distance` says when there is none, `thing` what each row is about.
+template <class Columns>
+py::class_<Columns> bind_nearest_columns(py::module_& module, const char* name, const char* doc,
+                                         const char* distance, const std::string& thing) {
+  return py::class_<Columns>(module, name, doc)
+      .def_readonly("distance", &Columns::distance, distance)
+      .def_readonly("point", &Columns::point, "(N, 3) of the scene [m], NaN where there is none.")
+      .def_readonly("mesh", &Columns::mesh,
                     "(N,) number of the mesh in the scene, −1 where there is none.")
-      .def_readonly("triangle", &Nearest::triangle,
+      .def_readonly("triangle", &Columns::triangle,
                     "(N,) triangle of that mesh, −1 where there is none.")
-      .def_readonly("barycentric", &Nearest::barycentric,
-                    "(N, 3) weights (u, v, w) of corners 1, 2 and 0, as eq 4; NaN where there is "
-                    "none.")
-      .def("__len__", [](const Nearest& n) { return n.distance.size(); })
-      .def("__repr__", [](const Nearest& n) {
-        return "Nearest(" + std::to_string(n.distance.size()) +
-               (n.distance.size() == 1 ? " point)" : " points)");
+      .def_readonly(
+          "barycentric", &Columns::barycentric,
+          "(N, 3) weights (u, v, w) of corners 1, 2 and 0, as eq 4; NaN where there is none.")
+      .def("__len__", [](const Columns& c) { return c.distance.size(); })
+      .def("__repr__", [name = std::string(name), thing](const Columns& c) {
+        return name + "(" + std::to_string(c.distance.size()) + " " + thing +
+               (c.distance.size() == 1 ? ")" : "s)");
       });
+}
+
+void bind_nearest(py::module_& module) {
+  bind_nearest_columns<Nearest>(module, "Nearest",
+                                "The closest point of a scene to each of N points.",
+                                "(N,) [m], inf where the scene holds no triangle.", "point");
+  bind_nearest_columns<NearestSegments>(
+      module, "NearestSegments", "Where a scene comes closest to each of N segments.",
+      "(N,) [m], 0 where the segment meets a triangle, inf where there is none within reach.",
+      "segment")
+      .def_readonly("fraction", &NearestSegments::fraction,
+                    "(N,) where along the segment, 0 at its start, 1 at its end; NaN where there "
+                    "is none.")
+      .def_readonly("segment_point", &NearestSegments::segment_point,
+                    "(N, 3) of the segment [m], the same as `point` where they meet; NaN where "
+                    "there is none.");
 }
 
 void bind_polyline(py::module_& module) {
@@ -100,6 +142,24 @@ std::vector<Polyline> section_between(const Scene& scene, const ArrayLike& a,
   const Vec3 direction = up.is_none() ? Vec3(Vec3::UnitZ()) : vector_argument("up", up);
   const py::gil_scoped_release release;
   return scene.section(from, to, direction);
+}
+
+/// (N, 3), or (3,) as one row.
+Points segment_ends(std::string_view name, const py::object& object) {
+  const py::array array = array_argument(name, object, "real numbers of shape (N, 3)");
+  return points_argument(name, array.ndim() == 1 ? py::array(array.attr("reshape")(1, -1)) : array);
+}
+
+NearestSegments find_nearest_segments(const Scene& scene, const ArrayLike& start,
+                                      const ArrayLike& end, double within, int num_threads) {
+  const Points from = segment_ends("start", start);
+  const Points to = segment_ends("end", end);
+  std::vector<NearestToSegment> found;
+  {
+    const py::gil_scoped_release release;
+    found = scene.nearest_segments(from.view(), to.view(), {within}, num_threads);
+  }
+  return NearestSegments(found);
 }
 
 void bind_queries(py::class_<Scene>& scene) {
@@ -142,6 +202,48 @@ Examples
 >>> near = bathyal.Scene(floor).nearest([[1, 1, 3], [-3, 0, -4]])
 >>> near.distance.tolist(), near.point.tolist()
 ([3.0, 5.0], [[1.0, 1.0, 0.0], [0.0, 0.0, 0.0]])
+)")
+      .def("nearest_segments", &find_nearest_segments, py::arg("start"), py::arg("end"),
+           py::kw_only(), py::arg("within") = NearestSegmentOptions().within,
+           py::arg("num_threads") = 0,
+           R"(Where all triangles come closest to each straight segment.
+
+Decided in double; equal distances give the lowest (mesh, triangle). Where a segment meets a
+triangle, borders and ends included, its distance is exactly 0 and both points are one: decided with
+exact signs, in the plane of a triangle too. A triangle without area counts as the segment or point
+that it is; a segment without length is as by nearest. The distance of a capsule is that of its axis
+less its radius.
+
+Parameters
+----------
+start : (N, 3), (1, 3) or (3,) array
+    [m], finite and no further out than 10²⁵ m. One start serves all ends.
+end : (N, 3) or (3,) array
+    [m], likewise.
+within : float
+    What is further away is not found [m]; a small distance saves time.
+num_threads : int
+    0 means all. The result is the same bytes for any number.
+
+Returns
+-------
+NearestSegments
+    ``.distance`` (N,) [m], ``.point`` (N, 3) of the scene, ``.mesh`` (N,), ``.triangle`` (N,),
+    ``.barycentric`` (N, 3), ``.fraction`` (N,) along the segment and ``.segment_point`` (N, 3).
+    Where nothing lies within reach: inf, NaN and −1.
+
+Raises
+------
+ValueError
+    For an end that is not finite or out of range: names the first row at fault.
+
+Examples
+--------
+>>> import bathyal
+>>> floor = bathyal.TriangleMesh([[0, 0, 0], [4, 0, 0], [0, 4, 0]], [[0, 1, 2]])
+>>> near = bathyal.Scene(floor).nearest_segments((1, 1, 3), [[1, 2, 2], [1, 1, -1]])
+>>> near.distance.tolist(), near.fraction.tolist()
+([2.0, 0.0], [1.0, 0.75])
 )")
       .def(
           "winding_number",

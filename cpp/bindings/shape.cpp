@@ -10,7 +10,7 @@
 #include "arrays.hpp"
 #include "bathyal/base/error.hpp"
 #include "bindings.hpp"
-#include "words.hpp"
+#include "enum_names.hpp"
 
 namespace bathyal::python {
 namespace {
@@ -51,12 +51,12 @@ Examples
 Shape("cylinder", radius=0.05, length=0.4)
 )";
 
-const Words<ShapeKind>& kind_words() {
-  static const Words<ShapeKind> words{{"box", ShapeKind::kBox},
-                                      {"cylinder", ShapeKind::kCylinder},
-                                      {"sphere", ShapeKind::kSphere},
-                                      {"mesh", ShapeKind::kMesh}};
-  return words;
+const EnumNames<ShapeKind>& kind_names() {
+  static const EnumNames<ShapeKind> names{{"box", ShapeKind::kBox},
+                                          {"cylinder", ShapeKind::kCylinder},
+                                          {"sphere", ShapeKind::kSphere},
+                                          {"mesh", ShapeKind::kMesh}};
+  return names;
 }
 
 bool has_radius(ShapeKind kind) {
@@ -85,7 +85,7 @@ Shape make_shape(const std::string& word, const OptionalArray& size, const Optio
                  const std::string& folder, const OptionalArray& scale, const OptionalArray& pose,
                  const std::string& part) {
   Shape shape;
-  shape.kind = word_argument("kind", word, kind_words());
+  shape.kind = enum_argument("kind", word, kind_names());
   const bool mesh = shape.kind == ShapeKind::kMesh;
   if (is_given("size", size, shape.kind == ShapeKind::kBox, word)) {
     shape.size = vector_argument("size", size);
@@ -116,7 +116,7 @@ std::optional<Value> if_kind(bool holds, Value value) {
 py::dict state_of(const Shape& s) {
   const bool mesh = s.kind == ShapeKind::kMesh;
   py::dict state;
-  state["kind"] = word_of(s.kind, kind_words());
+  state["kind"] = enum_name(s.kind, kind_names());
   if (s.kind == ShapeKind::kBox) state["size"] = to_numpy(s.size);
   if (has_radius(s.kind)) state["radius"] = s.radius;
   if (s.kind == ShapeKind::kCylinder) state["length"] = s.length;
@@ -129,7 +129,7 @@ py::dict state_of(const Shape& s) {
 }
 
 std::string shape_text(const Shape& s) {
-  std::string text = "Shape(\"" + word_of(s.kind, kind_words()) + "\"";
+  std::string text = "Shape(\"" + enum_name(s.kind, kind_names()) + "\"";
   if (s.kind == ShapeKind::kBox) {
     text += ", size=(" + to_text(s.size.x()) + ", " + to_text(s.size.y()) + ", " +
             to_text(s.size.z()) + ")";
@@ -149,7 +149,7 @@ void bind_shape(py::module_& module) {
           py::arg("file") = py::none(), py::arg("folder") = "", py::arg("scale") = py::none(),
           py::arg("pose") = py::none(), py::arg("part") = "")
       .def_property_readonly(
-          "kind", [](const Shape& s) { return word_of(s.kind, kind_words()); },
+          "kind", [](const Shape& s) { return enum_name(s.kind, kind_names()); },
           "\"box\", \"cylinder\", \"sphere\" or \"mesh\".")
       .def_property_readonly(
           "size",

@@ -50,10 +50,12 @@ void bind_text_table(py::module_& module) {
           "(N,) float64 each: the chosen columns beyond `leading`.")
       .def_readonly("names", &TextTable::names,
                     "One a chosen column; empty when the file has none.")
-      .def_property_readonly("separator",
-                             [](const TextTable& t) { return std::string(1, t.separator); })
-      .def_property_readonly("decimal",
-                             [](const TextTable& t) { return std::string(1, t.decimal); })
+      .def_property_readonly(
+          "separator", [](const TextTable& t) { return std::string(1, t.separator); },
+          "Character between two columns.")
+      .def_property_readonly(
+          "decimal", [](const TextTable& t) { return std::string(1, t.decimal); },
+          "Decimal point or comma.")
       .def_readonly("grid", &TextTable::grid, "Whether it was an ESRI ASCII grid (x, y, z).")
       .def("__len__", [](const TextTable& t) { return t.rows; });
 
@@ -186,16 +188,17 @@ void bind_clean_results(py::module_& module) {
   py::class_<CleanReport>(
       module, "CleanReport",
       "How many soundings each step of clean_cloud dropped; str() is for people.")
-      .def_readonly("before", &CleanReport::before)
+      .def_readonly("before", &CleanReport::before, "Soundings given.")
       .def_readonly("not_finite", &CleanReport::not_finite, "x, y or z is NaN or infinite.")
       .def_readonly("duplicates", &CleanReport::duplicates, "Equal x, y and z, all but one.")
       .def_readonly("same_place", &CleanReport::same_place,
                     "Share x, y with a sounding of another z; counted, dropped or not.")
-      .def_readonly("same_place_dropped", &CleanReport::same_place_dropped)
-      .def_readonly("spikes", &CleanReport::spikes)
-      .def_readonly("outliers", &CleanReport::outliers)
+      .def_readonly("same_place_dropped", &CleanReport::same_place_dropped,
+                    "Dropped as another depth at the same x, y.")
+      .def_readonly("spikes", &CleanReport::spikes, "Dropped as spikes.")
+      .def_readonly("outliers", &CleanReport::outliers, "Dropped as outliers.")
       .def_readonly("thinned", &CleanReport::thinned, "By voxels.")
-      .def_readonly("after", &CleanReport::after)
+      .def_readonly("after", &CleanReport::after, "Soundings that remain.")
       .def(
           "as_dict",
           [](const CleanReport& r) {

@@ -31,7 +31,7 @@ Made by `fit_plane`. Unpacks as ``plane, rms = fit``.
             return to_numpy(f.inliers).attr("view")("bool").cast<py::array>();
           },
           "(N,) bool: the points that the plane rests on.")
-      .def_readonly("inlier_count", &PlaneFit::inlier_count)
+      .def_readonly("inlier_count", &PlaneFit::inlier_count, "Number of `inliers`.")
       .def_readonly("tilt_std", &PlaneFit::tilt_std,
                     "Standard deviation of the normal's direction, its worst way [rad].")
       .def_readonly("flat", &PlaneFit::flat, "Whether the plane may represent the bottom.")

@@ -9,8 +9,8 @@
 #include "bathyal/toolpath/coverage.hpp"
 #include "bathyal/toolpath/toolpath.hpp"
 #include "bindings.hpp"
+#include "enum_names.hpp"
 #include "toolpath_docs.hpp"
-#include "words.hpp"
 
 namespace bathyal::python {
 namespace {
@@ -28,25 +28,25 @@ Surface surface_argument(const py::object& object) {
 
 Aims aims_argument(const py::object& object) { return table_argument("aims", object, 6); }
 
-const Words<AimsFrame>& aims_frame_words() {
-  static const Words<AimsFrame> words{{"vehicle", AimsFrame::kVehicle},
-                                      {"world", AimsFrame::kWorld}};
-  return words;
+const EnumNames<AimsFrame>& aims_frame_names() {
+  static const EnumNames<AimsFrame> names{{"vehicle", AimsFrame::kVehicle},
+                                          {"world", AimsFrame::kWorld}};
+  return names;
 }
-const Words<Vertical>& vertical_words() {
-  static const Words<Vertical> words{{"gravity", Vertical::kGravity},
-                                     {"vehicle", Vertical::kVehicle}};
-  return words;
+const EnumNames<Vertical>& vertical_names() {
+  static const EnumNames<Vertical> names{{"gravity", Vertical::kGravity},
+                                         {"vehicle", Vertical::kVehicle}};
+  return names;
 }
-const Words<Orientation>& orientation_words() {
-  static const Words<Orientation> words{{"blended", Orientation::kBlended},
-                                        {"piecewise_constant", Orientation::kPiecewiseConstant}};
-  return words;
+const EnumNames<Orientation>& orientation_names() {
+  static const EnumNames<Orientation> names{
+      {"blended", Orientation::kBlended}, {"piecewise_constant", Orientation::kPiecewiseConstant}};
+  return names;
 }
-const Words<MissedAims>& missed_words() {
-  static const Words<MissedAims> words{{"leave_out", MissedAims::kLeaveOut},
-                                       {"refuse", MissedAims::kRefuse}};
-  return words;
+const EnumNames<MissedAims>& missed_names() {
+  static const EnumNames<MissedAims> names{{"leave_out", MissedAims::kLeaveOut},
+                                           {"refuse", MissedAims::kRefuse}};
+  return names;
 }
 
 TargetOptions target_options(const OptionalArray& world_from_vehicle, const std::string& frame,
@@ -54,8 +54,8 @@ TargetOptions target_options(const OptionalArray& world_from_vehicle, const std:
                              int num_threads) {
   TargetOptions options;
   options.reference.world_from_vehicle = pose_argument("world_from_vehicle", world_from_vehicle);
-  options.reference.frame = word_argument("frame", frame, aims_frame_words());
-  options.reference.vertical = word_argument("vertical", vertical, vertical_words());
+  options.reference.frame = enum_argument("frame", frame, aims_frame_names());
+  options.reference.vertical = enum_argument("vertical", vertical, vertical_names());
   options.grazing_angle = grazing_angle;
   options.max_range = max_range;
   options.num_threads = num_threads;
@@ -232,8 +232,8 @@ void bind_toolpath(py::module_& module) {
       },
       py::arg("surface"), py::arg("aims"), py::kw_only(),
       py::arg("world_from_vehicle") = py::none(),
-      py::arg("frame") = word_of(target.reference.frame, aims_frame_words()),
-      py::arg("vertical") = word_of(target.reference.vertical, vertical_words()),
+      py::arg("frame") = enum_name(target.reference.frame, aims_frame_names()),
+      py::arg("vertical") = enum_name(target.reference.vertical, vertical_names()),
       py::arg("grazing_angle") = target.grazing_angle, py::arg("max_range") = target.max_range,
       py::arg("num_threads") = target.num_threads, kFindTargetsDoc);
   module.def(
@@ -247,8 +247,8 @@ void bind_toolpath(py::module_& module) {
         ToolPathOptions options;
         options.targets = target_options(world_from_vehicle, frame, vertical, grazing_angle,
                                          max_range, num_threads);
-        options.missed = word_argument("missed", missed, missed_words());
-        options.orientation = word_argument("orientation", orientation, orientation_words());
+        options.missed = enum_argument("missed", missed, missed_names());
+        options.orientation = enum_argument("orientation", orientation, orientation_names());
         options.blend_length = blend_length;
         options.angular_rate = angular_rate;
         options.speed = speed;
@@ -263,11 +263,11 @@ void bind_toolpath(py::module_& module) {
       },
       py::arg("surface"), py::arg("aims"), py::kw_only(),
       py::arg("world_from_vehicle") = py::none(),
-      py::arg("frame") = word_of(target.reference.frame, aims_frame_words()),
-      py::arg("vertical") = word_of(target.reference.vertical, vertical_words()),
+      py::arg("frame") = enum_name(target.reference.frame, aims_frame_names()),
+      py::arg("vertical") = enum_name(target.reference.vertical, vertical_names()),
       py::arg("grazing_angle") = target.grazing_angle, py::arg("max_range") = target.max_range,
-      py::arg("missed") = word_of(path.missed, missed_words()),
-      py::arg("orientation") = word_of(path.orientation, orientation_words()),
+      py::arg("missed") = enum_name(path.missed, missed_names()),
+      py::arg("orientation") = enum_name(path.orientation, orientation_names()),
       py::arg("blend_length") = path.blend_length, py::arg("angular_rate") = path.angular_rate,
       py::arg("speed") = path.speed, py::arg("acceleration") = path.acceleration,
       py::arg("standoff") = path.standoff, py::arg("step") = path.step,

@@ -9,7 +9,7 @@ import numpy.typing
 import os
 import plotly.graph_objects
 import typing
-__all__: list[str] = ['Arm', 'ArmFit', 'BEYOND_NOISE', 'Cause', 'CleanReport', 'CleanResult', 'CorrectedArm', 'DhTable', 'Diagnosis', 'Effect', 'EffectRange', 'EffectRows', 'Error', 'Estimate', 'FitParameter', 'FoundEffect', 'HeldOut', 'HeldOutPart', 'Hits', 'InverseResult', 'Link', 'MeshReport', 'NamedEffect', 'Nearest', 'Outlier', 'Plane', 'PlaneFit', 'PointCloud', 'Polyline', 'RigidBody', 'Scene', 'Shape', 'SheetPatch', 'SheetReport', 'Structure', 'Support', 'Targets', 'TextTable', 'ToolPath', 'TouchForecast', 'TouchPlan', 'Touches', 'Tracked', 'Trade', 'TriangleMesh', 'Verification', 'arm_from_chain', 'arm_from_parts', 'arm_parts', 'chain_from_arm', 'check_bytes', 'clean_cloud', 'cover_polygon', 'diagnose', 'find_effect_with', 'find_sheets', 'find_targets', 'fit_plane', 'forecast_touches', 'generate_survey', 'identify_arm', 'intersect_moller_trumbore', 'library_effects', 'mesh_report', 'plan_toolpath', 'plan_touches', 'read_pcd', 'read_text_table', 'set_simd_level', 'simd_level', 'survey_height', 'triangulate', 'triangulate_delaunay', 'verify_positions', 'warn_of_support_with', 'write_xyz']
+__all__: list[str] = ['Arm', 'ArmFit', 'BEYOND_NOISE', 'Cause', 'CleanReport', 'CleanResult', 'CorrectedArm', 'DhTable', 'Diagnosis', 'Effect', 'EffectRange', 'EffectRows', 'Error', 'Estimate', 'FitParameter', 'FoundEffect', 'HeldOut', 'HeldOutPart', 'Hits', 'InverseResult', 'Link', 'MeshReport', 'NamedEffect', 'Nearest', 'NearestSegments', 'Outlier', 'Plane', 'PlaneFit', 'PointCloud', 'Polyline', 'RigidBody', 'Scene', 'Shape', 'SheetPatch', 'SheetReport', 'Structure', 'Support', 'Targets', 'TextTable', 'ToolPath', 'TouchForecast', 'TouchPlan', 'Touches', 'Tracked', 'Trade', 'TriangleMesh', 'Verification', 'arm_from_chain', 'arm_from_parts', 'arm_parts', 'chain_from_arm', 'check_bytes', 'clean_cloud', 'cover_polygon', 'diagnose', 'find_effect_with', 'find_sheets', 'find_targets', 'fit_plane', 'forecast_touches', 'generate_survey', 'identify_arm', 'intersect_moller_trumbore', 'library_effects', 'mesh_report', 'plan_toolpath', 'plan_touches', 'read_pcd', 'read_text_table', 'set_simd_level', 'simd_level', 'survey_height', 'triangulate', 'triangulate_delaunay', 'verify_positions', 'warn_of_support_with', 'write_xyz']
 class Error(RuntimeError):
     """
     A broken file, a solver that failed or a part that is not installed.
@@ -102,7 +102,9 @@ class PointCloud:
         """
     @property
     def crs(self) -> str:
-        ...
+        """
+        Reference system of x and y, as its file gives it; empty if unknown.
+        """
     @property
     def points(self) -> numpy.ndarray:
         """
@@ -110,7 +112,9 @@ class PointCloud:
         """
     @property
     def vertical_datum(self) -> str:
-        ...
+        """
+        What z is measured from; empty if unknown.
+        """
 class TriangleMesh:
     """
     Vertices and the triangles over them.
@@ -160,7 +164,9 @@ class TriangleMesh:
         """
     @property
     def crs(self) -> str:
-        ...
+        """
+        Reference system of x and y, as its file gives it; empty if unknown.
+        """
     @property
     def triangles(self) -> numpy.ndarray:
         """
@@ -168,7 +174,9 @@ class TriangleMesh:
         """
     @property
     def vertical_datum(self) -> str:
-        ...
+        """
+        What z is measured from; empty if unknown.
+        """
     @property
     def vertices(self) -> numpy.ndarray:
         """
@@ -285,7 +293,9 @@ class MeshReport:
         """
     @property
     def triangle_count(self) -> int:
-        ...
+        """
+        Triangles of the mesh.
+        """
     @property
     def unused_vertices(self) -> int:
         """
@@ -293,7 +303,9 @@ class MeshReport:
         """
     @property
     def vertex_count(self) -> int:
-        ...
+        """
+        Vertices, used or not.
+        """
     @property
     def volume(self) -> float:
         """
@@ -301,7 +313,9 @@ class MeshReport:
         """
     @property
     def zero_area_triangles(self) -> int:
-        ...
+        """
+        Triangles whose area is 0.
+        """
 class RigidBody:
     """
     What a body weighs, how it resists turning, and the water it displaces.
@@ -476,7 +490,9 @@ class TextTable:
         ...
     @property
     def decimal(self) -> str:
-        ...
+        """
+        Decimal point or comma.
+        """
     @property
     def extra(self) -> list:
         """
@@ -494,7 +510,9 @@ class TextTable:
         """
     @property
     def separator(self) -> str:
-        ...
+        """
+        Character between two columns.
+        """
     @property
     def table(self) -> numpy.ndarray:
         """
@@ -514,10 +532,14 @@ class CleanReport:
         """
     @property
     def after(self) -> int:
-        ...
+        """
+        Soundings that remain.
+        """
     @property
     def before(self) -> int:
-        ...
+        """
+        Soundings given.
+        """
     @property
     def duplicates(self) -> int:
         """
@@ -530,7 +552,9 @@ class CleanReport:
         """
     @property
     def outliers(self) -> int:
-        ...
+        """
+        Dropped as outliers.
+        """
     @property
     def same_place(self) -> int:
         """
@@ -538,10 +562,14 @@ class CleanReport:
         """
     @property
     def same_place_dropped(self) -> int:
-        ...
+        """
+        Dropped as another depth at the same x, y.
+        """
     @property
     def spikes(self) -> int:
-        ...
+        """
+        Dropped as spikes.
+        """
     @property
     def thinned(self) -> int:
         """
@@ -588,7 +616,9 @@ class PlaneFit:
         """
     @property
     def inlier_count(self) -> int:
-        ...
+        """
+        Number of `inliers`.
+        """
     @property
     def inliers(self) -> numpy.ndarray:
         """
@@ -790,7 +820,50 @@ class Nearest:
     @property
     def point(self) -> numpy.ndarray:
         """
-        (N, 3) [m], NaN where there is none.
+        (N, 3) of the scene [m], NaN where there is none.
+        """
+    @property
+    def triangle(self) -> numpy.ndarray:
+        """
+        (N,) triangle of that mesh, −1 where there is none.
+        """
+class NearestSegments:
+    """
+    Where a scene comes closest to each of N segments.
+    """
+    def __len__(self) -> int:
+        ...
+    def __repr__(self) -> str:
+        ...
+    @property
+    def barycentric(self) -> numpy.ndarray:
+        """
+        (N, 3) weights (u, v, w) of corners 1, 2 and 0, as eq 4; NaN where there is none.
+        """
+    @property
+    def distance(self) -> numpy.ndarray:
+        """
+        (N,) [m], 0 where the segment meets a triangle, inf where there is none within reach.
+        """
+    @property
+    def fraction(self) -> numpy.ndarray:
+        """
+        (N,) where along the segment, 0 at its start, 1 at its end; NaN where there is none.
+        """
+    @property
+    def mesh(self) -> numpy.ndarray:
+        """
+        (N,) number of the mesh in the scene, −1 where there is none.
+        """
+    @property
+    def point(self) -> numpy.ndarray:
+        """
+        (N, 3) of the scene [m], NaN where there is none.
+        """
+    @property
+    def segment_point(self) -> numpy.ndarray:
+        """
+        (N, 3) of the segment [m], the same as `point` where they meet; NaN where there is none.
         """
     @property
     def triangle(self) -> numpy.ndarray:
@@ -946,6 +1019,47 @@ class Scene:
         >>> near = bathyal.Scene(floor).nearest([[1, 1, 3], [-3, 0, -4]])
         >>> near.distance.tolist(), near.point.tolist()
         ([3.0, 5.0], [[1.0, 1.0, 0.0], [0.0, 0.0, 0.0]])
+        """
+    def nearest_segments(self, start: numpy.typing.ArrayLike, end: numpy.typing.ArrayLike, *, within: typing.SupportsFloat | typing.SupportsIndex = ..., num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> NearestSegments:
+        """
+        Where all triangles come closest to each straight segment.
+        
+        Decided in double; equal distances give the lowest (mesh, triangle). Where a segment meets a
+        triangle, borders and ends included, its distance is exactly 0 and both points are one: decided with
+        exact signs, in the plane of a triangle too. A triangle without area counts as the segment or point
+        that it is; a segment without length is as by nearest. The distance of a capsule is that of its axis
+        less its radius.
+        
+        Parameters
+        ----------
+        start : (N, 3), (1, 3) or (3,) array
+            [m], finite and no further out than 10²⁵ m. One start serves all ends.
+        end : (N, 3) or (3,) array
+            [m], likewise.
+        within : float
+            What is further away is not found [m]; a small distance saves time.
+        num_threads : int
+            0 means all. The result is the same bytes for any number.
+        
+        Returns
+        -------
+        NearestSegments
+            ``.distance`` (N,) [m], ``.point`` (N, 3) of the scene, ``.mesh`` (N,), ``.triangle`` (N,),
+            ``.barycentric`` (N, 3), ``.fraction`` (N,) along the segment and ``.segment_point`` (N, 3).
+            Where nothing lies within reach: inf, NaN and −1.
+        
+        Raises
+        ------
+        ValueError
+            For an end that is not finite or out of range: names the first row at fault.
+        
+        Examples
+        --------
+        >>> import bathyal
+        >>> floor = bathyal.TriangleMesh([[0, 0, 0], [4, 0, 0], [0, 4, 0]], [[0, 1, 2]])
+        >>> near = bathyal.Scene(floor).nearest_segments((1, 1, 3), [[1, 2, 2], [1, 1, -1]])
+        >>> near.distance.tolist(), near.fraction.tolist()
+        ([2.0, 0.0], [1.0, 0.75])
         """
     def occluded(self, from_: numpy.typing.ArrayLike, to: numpy.typing.ArrayLike, *, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> numpy.ndarray:
         """
@@ -1301,7 +1415,9 @@ class Link:
         """
     @property
     def name(self) -> str:
-        ...
+        """
+        As the file of the arm calls it; may be empty.
+        """
     @property
     def visual(self) -> tuple[Shape, ...]:
         """
@@ -1794,7 +1910,9 @@ class Arm:
         """
     @property
     def name(self) -> str:
-        ...
+        """
+        For people; may be empty.
+        """
     @property
     def size(self) -> int:
         """
@@ -1891,10 +2009,14 @@ class Touches:
         """
     @property
     def known_distances(self) -> dict:
-        ...
+        """
+        {(label, label): distance [m]} between touched points.
+        """
     @property
     def known_points(self) -> dict:
-        ...
+        """
+        {label: (3,) position [m]} in the world.
+        """
     @property
     def names(self) -> dict[int, str]:
         """
@@ -1902,7 +2024,9 @@ class Touches:
         """
     @property
     def planes(self) -> dict:
-        ...
+        """
+        {name: (K,) rows} of planes touched in many places.
+        """
     @property
     def point(self) -> numpy.ndarray:
         """
@@ -2061,16 +2185,24 @@ class EffectRange:
         ...
     @property
     def high(self) -> float:
-        ...
+        """
+        Largest plausible size, in `unit`.
+        """
     @property
     def low(self) -> float:
-        ...
+        """
+        Smallest plausible size, in `unit`.
+        """
     @property
     def parameter(self) -> str:
-        ...
+        """
+        Name of the parameter.
+        """
     @property
     def unit(self) -> str:
-        ...
+        """
+        Of `low` and `high`.
+        """
 class Effect:
     """
     An error of an arm that its geometric parameters cannot represent.
@@ -2137,10 +2269,14 @@ class Effect:
         """
     @property
     def formula(self) -> str:
-        ...
+        """
+        What it adds, as text for people.
+        """
     @property
     def name(self) -> str:
-        ...
+        """
+        As diagnosis names it.
+        """
     @property
     def needs(self) -> list[str]:
         """
@@ -2199,7 +2335,9 @@ class FoundEffect:
         ...
     @property
     def cause(self) -> str:
-        ...
+        """
+        Effects of one cause are descriptions of the same thing.
+        """
     @property
     def effect(self) -> Effect:
         """
@@ -2212,7 +2350,9 @@ class FoundEffect:
         """
     @property
     def name(self) -> str:
-        ...
+        """
+        Of its effect.
+        """
     @property
     def parameters(self) -> dict:
         """
@@ -2517,7 +2657,9 @@ class CorrectedArm:
         """
     @property
     def name(self) -> str:
-        ...
+        """
+        Of the rigid arm.
+        """
     @property
     def size(self) -> int:
         """
@@ -2564,10 +2706,14 @@ class Trade:
         """
     @property
     def name(self) -> str:
-        ...
+        """
+        Of the parameter, as "theta_3".
+        """
     @property
     def words(self) -> str:
-        ...
+        """
+        Description, as "theta of row 3".
+        """
 class FitParameter:
     """
     One parameter as estimated by `identify_arm`.
@@ -2580,31 +2726,49 @@ class FitParameter:
         ...
     @property
     def group(self) -> str:
-        ...
+        """
+        Part of the arm, as "row 3", "tool" or "base".
+        """
     @property
     def name(self) -> str:
-        ...
+        """
+        As "theta_3".
+        """
     @property
     def nominal(self) -> float:
-        ...
+        """
+        In `unit`; of a tool or a base, where the search started.
+        """
     @property
     def status(self) -> str:
-        ...
+        """
+        How it is determined; see the class.
+        """
     @property
     def std(self) -> float:
-        ...
+        """
+        Standard deviation, in `unit`: 0 when fixed, inf when undetermined.
+        """
     @property
     def trades(self) -> list[Trade]:
-        ...
+        """
+        Parameters that take part in an unobservable change of it.
+        """
     @property
     def unit(self) -> str:
-        ...
+        """
+        "m" or "rad".
+        """
     @property
     def value(self) -> float:
-        ...
+        """
+        Estimate, in `unit`.
+        """
     @property
     def words(self) -> str:
-        ...
+        """
+        Description, as "theta of row 3".
+        """
 class Outlier:
     """
     A row that contradicts the others.
@@ -2628,17 +2792,21 @@ class Outlier:
         """
     @property
     def row(self) -> int:
-        ...
+        """
+        Row of the data, counted from 0.
+        """
 class ArmFit:
     """
     Result of `identify_arm`: the arm with its uncertainty.
     
-    ``str(fit)`` and ``fit.summary()`` describe it in one paragraph.
+    ``str(fit)`` describes it in a few lines, ``fit.summary()`` in one paragraph.
     """
     def __repr__(self) -> str:
         ...
     def __str__(self) -> str:
-        ...
+        """
+        Verdict, numbers with units and the next step, in a few lines.
+        """
     def summary(self, *, warnings: bool = True) -> str:
         """
         One paragraph; ``warnings=False`` leaves the warnings to the caller.
@@ -2686,7 +2854,9 @@ class ArmFit:
         """
     @property
     def converged(self) -> bool:
-        ...
+        """
+        Whether the search ended before its limit of iterations.
+        """
     @property
     def covariance(self) -> numpy.ndarray:
         """
@@ -2694,7 +2864,9 @@ class ArmFit:
         """
     @property
     def degrees_of_freedom(self) -> float:
-        ...
+        """
+        Position rows less those of points and parameters.
+        """
     @property
     def distances(self) -> dict:
         """
@@ -2717,7 +2889,9 @@ class ArmFit:
         """
     @property
     def outliers(self) -> list[Outlier]:
-        ...
+        """
+        Outlier of each row that contradicts the others.
+        """
     @property
     def pairs_after(self) -> float:
         """
@@ -2735,7 +2909,9 @@ class ArmFit:
         """
     @property
     def point_labels(self) -> list[int]:
-        ...
+        """
+        (K,) label of each touched point, in the order of `points`.
+        """
     @property
     def point_rms_after(self) -> numpy.ndarray:
         """
@@ -2808,7 +2984,9 @@ class ArmFit:
         """
     @property
     def scale_std(self) -> float:
-        ...
+        """
+        Relative standard deviation of `scale`.
+        """
     @property
     def singular_values(self) -> numpy.ndarray:
         """
@@ -2945,7 +3123,9 @@ class TouchPlan:
         """
     @property
     def criterion(self) -> str:
-        ...
+        """
+        "worst_tip", "d_optimal" or "o1": what was optimised.
+        """
     @property
     def forecast(self) -> TouchForecast:
         """
@@ -3029,7 +3209,7 @@ class Verification:
         """
 class Estimate:
     """
-    A number and the interval that holds it in 95 of 100 cases; float() gives the number.
+    A number with its 95 % confidence interval; float() gives the number.
     """
     def __float__(self) -> float:
         ...
@@ -3040,11 +3220,13 @@ class Estimate:
     @property
     def interval(self) -> tuple[float, float]:
         """
-        (low, high) that holds the truth in 95 of 100 cases.
+        (low, high): 95 % confidence interval.
         """
     @property
     def name(self) -> str:
-        ...
+        """
+        Of the parameter.
+        """
     @property
     def std(self) -> float:
         """
@@ -3052,22 +3234,30 @@ class Estimate:
         """
     @property
     def unit(self) -> str:
-        ...
+        """
+        SI; "" of a setting, "1" of a number.
+        """
     @property
     def value(self) -> float:
-        ...
+        """
+        In `unit`.
+        """
 class Cause:
     """
-    A cause by name, as lists of rivals hold it.
+    A cause by name, as lists of alternatives hold it.
     """
     def __repr__(self) -> str:
         ...
     @property
     def joint(self) -> int | None:
-        ...
+        """
+        Counted from 0; None of an effect of the whole arm.
+        """
     @property
     def name(self) -> str:
-        ...
+        """
+        Of the effect.
+        """
     @property
     def odds(self) -> float:
         """
@@ -3075,7 +3265,9 @@ class Cause:
         """
     @property
     def words(self) -> str:
-        ...
+        """
+        Description, as "a harmonic of order 2 along joint 3".
+        """
 class NamedEffect:
     """
     A cause that was found, with its evidence.
@@ -3085,7 +3277,7 @@ class NamedEffect:
     @property
     def gain(self) -> float:
         """
-        Share of the held-out variance above noise that it removes; of effects on the noise itself: held-out log likelihood.
+        Share of the held-out variance above noise that it explains; of effects on the noise itself: held-out log likelihood.
         """
     @property
     def held_out_after(self) -> float:
@@ -3104,11 +3296,13 @@ class NamedEffect:
         """
     @property
     def name(self) -> str:
-        ...
+        """
+        Of the effect.
+        """
     @property
     def p_value(self) -> float:
         """
-        Of its F test among the others, corrected for all that was tried.
+        Of its F test given the others, corrected for multiplicity.
         """
     @property
     def parameters(self) -> dict:
@@ -3118,7 +3312,7 @@ class NamedEffect:
     @property
     def rivals(self) -> list[Cause]:
         """
-        Cause: the best other explanations of it.
+        Cause: the best alternatives to it.
         """
     @property
     def rows(self) -> list[int]:
@@ -3128,50 +3322,90 @@ class NamedEffect:
     @property
     def size(self) -> float:
         """
-        rms of what it moves beside all else that was fitted, per axis [m].
+        rms contribution given all else that was fitted, per axis [m].
         """
     @property
     def words(self) -> str:
-        ...
+        """
+        Description, as "a harmonic of order 2 along joint 3".
+        """
 class Structure:
     """
-    A dependence of residuals, made by chance or not.
+    A lack-of-fit test: a dependence of the residuals, significant or not.
     """
     def __repr__(self) -> str:
         ...
     @property
     def against(self) -> str:
-        ...
+        """
+        The dependence as text, joints counted from 1: "joints 2 and 3"; "" of kind "none".
+        """
+    @property
+    def component(self) -> int | None:
+        """
+        Column of a covariate that has several, from 0; else None.
+        """
+    @property
+    def coordinates(self) -> list[int]:
+        """
+        Of kind "joints" (one or two) and "approach" (one): the joints' coordinates, from 0.
+        """
+    @property
+    def covariate(self) -> str | None:
+        """
+        Of kind "covariate": its name; else None.
+        """
     @property
     def is_beyond_noise(self) -> bool:
         """
         Whether `p_value` is at most 0.002.
         """
     @property
+    def joint(self) -> int | None:
+        """
+        Coordinate that is in error, from 0; None where the tip is.
+        """
+    @property
+    def kind(self) -> str:
+        """
+        What the residuals depend on: "position" of the tip, "joints" (one, or two together), "time",
+        "order" of the rows (where no times are recorded), "approach" (the direction of a joint's last
+        move), "session" or "covariate"; "none" where nothing was found.
+        """
+    @property
     def p_value(self) -> float:
         """
-        Corrected for all that was asked.
+        Corrected for all tests that were made.
+        """
+    @property
+    def period(self) -> float | None:
+        """
+        Of kind "time": period of a vibration [s]; None of a drift.
         """
     @property
     def share(self) -> float:
         """
-        Of the residuals' variance, noise taken out.
+        Of the residuals' variance, less noise.
         """
     @property
     def size(self) -> float:
         """
-        rms per axis, noise taken out [m].
+        rms per axis, less noise [m].
         """
     @property
     def words(self) -> str:
-        ...
+        """
+        Description of the dependence.
+        """
 class HeldOutPart:
     """
     One session, or one touched point.
     """
     @property
     def name(self) -> str:
-        ...
+        """
+        "session 2", "point 0", "all".
+        """
     @property
     def rms_after(self) -> float:
         """
@@ -3184,10 +3418,12 @@ class HeldOutPart:
         """
     @property
     def rows(self) -> int:
-        ...
+        """
+        How many rows it has.
+        """
 class HeldOut:
     """
-    Errors of rows that were foretold by all others.
+    Prediction errors of held-out rows.
     """
     @property
     def after(self) -> numpy.ndarray:
@@ -3201,11 +3437,13 @@ class HeldOut:
         """
     @property
     def blocks(self) -> int:
-        ...
+        """
+        Number of folds.
+        """
     @property
     def how(self) -> str:
         """
-        What was held out at once.
+        What one fold is.
         """
     @property
     def noise(self) -> float:
@@ -3215,11 +3453,13 @@ class HeldOut:
     @property
     def p_value(self) -> float:
         """
-        That the gain is luck, over the blocks.
+        Of the gain, by sign flips of the folds.
         """
     @property
     def parts(self) -> list[HeldOutPart]:
-        ...
+        """
+        HeldOutPart: errors by session or touched point.
+        """
     @property
     def rms_after(self) -> float:
         """
@@ -3232,10 +3472,14 @@ class HeldOut:
         """
 class Diagnosis:
     """
-    What the model of an arm gets wrong, by its measurements; see `diagnose`.
+    Errors of an arm's model, by its measurements; see `diagnose`.
     """
     def __repr__(self) -> str:
         ...
+    def __str__(self) -> str:
+        """
+        Verdict, numbers with units and the next step, in a few lines.
+        """
     def summary(self) -> str:
         """
         One paragraph that a person can act on.
@@ -3258,17 +3502,17 @@ class Diagnosis:
     @property
     def ambiguous(self) -> list[Cause]:
         """
-        Cause: all among which these data cannot choose.
+        Cause: all that these data cannot distinguish.
         """
     @property
     def data(self) -> Touches | Tracked:
         """
-        Touches or Tracked: what it was found from.
+        Touches or Tracked: the data.
         """
     @property
     def detectable(self) -> float:
         """
-        Size of an effect that would have been found, per axis [m].
+        Smallest size of an effect that is found, per axis [m].
         """
     @property
     def effects(self) -> list[NamedEffect]:
@@ -3287,21 +3531,23 @@ class Diagnosis:
         """
     @property
     def held_out(self) -> HeldOut:
-        ...
+        """
+        HeldOut: the cross-validation.
+        """
     @property
     def leftover(self) -> Structure:
         """
-        Structure beside all that was named; its size is 0 when there is none.
+        Structure that the effects do not explain; its size is 0 when there is none.
         """
     @property
     def model(self) -> CorrectedArm:
         """
-        CorrectedArm: geometry and effects, with the support that taught them.
+        CorrectedArm: geometry and effects, with the support of the data.
         """
     @property
     def next_poses(self) -> numpy.ndarray:
         """
-        (m, n) poses that would tell them apart [rad or m].
+        (m, n) poses that would distinguish them [rad or m].
         """
     @property
     def noise(self) -> float:
@@ -3310,7 +3556,9 @@ class Diagnosis:
         """
     @property
     def noise_source(self) -> str:
-        ...
+        """
+        What the noise was estimated from.
+        """
     @property
     def residuals_after(self) -> numpy.ndarray:
         """
@@ -3324,7 +3572,7 @@ class Diagnosis:
     @property
     def shown(self) -> list[Structure]:
         """
-        Structure in the residuals of geometry alone, likeliest first: what is beyond noise; where nothing is, the least unlikely.
+        Structure in the residuals of geometry alone, most significant first: all that is beyond noise; where nothing is, the most significant.
         """
     @property
     def verdict(self) -> str:
@@ -3445,37 +3693,37 @@ def cover_polygon(surface: Scene | Plane, polygon: numpy.typing.ArrayLike, spaci
     """
 def diagnose(arm: Arm, data: Touches | Tracked, *, effects: collections.abc.Iterable[Effect] | None = None, parametrization: str = 'hayati', fixed: collections.abc.Sequence[str] = [], blocks: typing.SupportsInt | typing.SupportsIndex = 10, rival_odds: typing.SupportsFloat | typing.SupportsIndex = 0.05, leftover: typing.SupportsFloat | typing.SupportsIndex = 0.25, num_next_poses: typing.SupportsInt | typing.SupportsIndex = 8, progress: collections.abc.Callable[[float, str], None] | None = None, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> Diagnosis:
     """
-    Show what the best rigid model of an arm gets wrong, name the cause, measure the gain.
+    Find what the best rigid model of an arm gets wrong, name the cause, measure the gain.
     
-    The arm's geometry is identified first. What it leaves is compared with each effect of the library,
-    alone and in growing sets, fitted jointly with the geometry; sets are judged by their likelihood
-    less what their freedom costs, and each name must foretell data that it has not seen. Structure that
-    nothing in the library explains is told as such, without a name.
+    The arm's geometry is identified first. Effects of the library are selected to explain its
+    residuals, alone and in growing sets, fitted jointly with the geometry; sets are compared by their
+    likelihood less a complexity penalty, and each effect must improve the prediction of held-out data.
+    Structure that nothing in the library explains is reported as such, without a name.
     
     Parameters
     ----------
     arm : Arm
-        Nominal; its masses, where they are told, make loads of gravity known.
+        Nominal; its masses, where they are given, make loads of gravity known.
     data : Touches or Tracked
         With any of the covariates `temperature` (N,) [°C], `time` (N,) [s], `payload` (N,) [kg at the
         tool centre point], `direction` (N, n) -1, 0 or 1, `gravity` (N, 3) [m/s², base frame] and
-        `session` (N,); others are looked at for structure. One that is missing (nan) in some rows is
-        not used, and a warning says so. Rows that repeat another to the last digit count once.
+        `session` (N,); others are tested for structure. One that is missing (nan) in some rows is
+        not used, and a warning says so. Rows that duplicate another to the last digit count once.
     effects : list of Effect, optional
-        What may be named; `bathyal.effects.list()` unless given.
+        What may be selected; `bathyal.effects.list()` unless given.
     parametrization : {"hayati", "dh"}
         Of the geometry, as in `identify_arm`.
     fixed : list of str
         Names of geometric parameters to hold at nominal.
     blocks : int
-        How many blocks are held out in turn, 3 to 50.
+        Number of folds of the cross-validation, 3 to 50.
     rival_odds : float
-        Odds of a rival against the best explanation from which the two count as not to be told apart.
+        Odds of an alternative against the best explanation from which the verdict is "ambiguous".
     leftover : float
-        Structure left over, as a share of the variance that the names removed, from which the verdict
-        is "unknown" and the names stand as partial.
+        Unexplained structure, as a share of the variance that the effects explain, from which the
+        verdict is "unknown" and the effects are partial.
     num_next_poses : int
-        How many poses to propose where causes cannot be told apart.
+        How many poses to propose where the verdict is "ambiguous".
     progress : callable, optional
         Called with (share done, what comes next), often within a stage; what it raises ends the run.
     num_threads : int

@@ -30,7 +30,7 @@ def methods_of(cls: type) -> Callable[[Carrier], Carrier]:
 
     def attach(carrier: Carrier) -> Carrier:
         for name, member in vars(carrier).items():
-            if name.startswith("__"):
+            if name.startswith("__") and name != "__str__":
                 continue  # of every class
             for function in _functions(member):
                 function.__qualname__ = f"{cls.__qualname__}.{name}"

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What may be wrong with an arm beside its geometry: the library of effects, and your own.
+"""What may be wrong with an arm apart from its geometry: the library of effects, and your own.
 
 >>> import bathyal
 >>> [effect.name for effect in bathyal.effects.list()][:3]
@@ -83,7 +83,7 @@ def get(name: str) -> Effect:
 
 
 def register(effect: Effect) -> None:
-    """Make an effect of your own known by its name, as files of corrected arms tell it.
+    """Make an effect of your own known by its name, as files of corrected arms store it.
 
     Parameters
     ----------

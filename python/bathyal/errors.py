@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""How a caller's mistake is told, in Python as in the engine."""
+"""How a caller's mistake is reported, in Python as in the engine."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The program `bathyal`.
 
-It stands outside of the package, whose import takes a good part of a second: Ctrl-C and SIGTERM are
+It is no part of the package, whose import takes a good part of a second: Ctrl-C and SIGTERM are
 answered during that time, too.
 """
 

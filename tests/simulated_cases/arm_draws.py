@@ -77,13 +77,13 @@ def draw_arm(random: np.random.Generator) -> SimArm:
     lower = np.where(sliding, 0.0, middle - half)
     upper = np.where(sliding, span, middle + half)
     urdf = random.random() < 0.3
-    if urdf:  # what stands behind the last joint is read as a flange: the tool has it anyway
+    if urdf:  # what lies behind the last joint is read as a flange: the tool has it anyway
         a, alpha = np.array(a, float), np.array(alpha, float)
         a[-1] = alpha[-1] = 0.0
     known = random.random() < 0.7
     masses = np.concatenate([[20.0], random.uniform(8.0, 14.0) * 0.7 ** np.arange(count)])
     masses *= random.uniform(0.7, 1.3, count + 1)
-    # Half way back along the link, and a little beside it.
+    # Half way back along the link, and a little off it.
     centers = np.zeros((count + 1, 3))
     centers[1:, 0] = -0.5 * np.asarray(a, float)
     centers += random.uniform(-0.05, 0.05, centers.shape)

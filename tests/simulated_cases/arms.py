@@ -38,7 +38,7 @@ def pose(shift: Array, turn: Array) -> Array:
 
 @dataclass(frozen=True)
 class Frames:
-    """Where an arm's frames stand, one a pose: [k] before row k, [n] behind the last."""
+    """An arm's frames, one a pose: [k] before row k, [n] behind the last."""
 
     rotation: list[Array]  # (N, 3, 3)
     origin: list[Array]  # (N, 3)
@@ -50,7 +50,7 @@ class Frames:
 class SimArm:
     """A row is Rz(theta) Tz(d) Tx(a) Rx(alpha) Ry(beta); q adds to theta, or to d where it slides.
 
-    Link k hangs behind row k - 1; `centers` are told in the frame behind that row; 0 is the foot.
+    Link k hangs behind row k - 1; `centers` are given in the frame behind that row; 0 is the foot.
     """
 
     theta: Array
@@ -117,7 +117,7 @@ class SimArm:
         return replace(self, **off)
 
     def arm(self, folder: Path | None = None) -> bathyal.Arm:
-        """What is handed to the diagnosis. Base and tool are not told."""
+        """What is handed to the diagnosis. Base and tool are not given."""
         if self.urdf:
             return _arm_from_urdf(self, folder)
         links = [

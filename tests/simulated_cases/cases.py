@@ -4,8 +4,8 @@
     python -m tests.simulated_cases.cases FOLDER SEED ...
 
 Everything is computed here in NumPy; bathyal only holds the numbers that are handed over. Seeds
-are told apart by their last digits: of 20, five are clean, five carry what the library does not
-have, two what their data cannot tell apart, eight one to three effects of the library.
+are distinguished by their last digits: of 20, five are clean, five carry what the library does not
+have, two what their data do not distinguish, eight one to three effects of the library.
 """
 
 from __future__ import annotations
@@ -38,7 +38,9 @@ class Answer:
     size: float  # of the smallest effect, in noises; 0 of clean ones
     noise: float  # per axis [m]
     effects: list[dict[str, Any]] = field(default_factory=list)
-    rivals: list[str] = field(default_factory=list)  # names that these data cannot tell apart
+    alternatives: list[str] = field(
+        default_factory=list
+    )  # names that these data do not distinguish
     outside: str = ""  # what the library does not have
     unexplained: float = 0.0  # share of it, in size, that four effects of the library leave
     attempts: int = 1
@@ -46,7 +48,7 @@ class Answer:
 
 @dataclass
 class Case:
-    """A sealed case: what is handed over, and what only the judges use."""
+    """A sealed case: what is handed over, and what only the evaluation uses."""
 
     arm: SimArm  # as drawn by its maker
     scene: Scene
@@ -78,27 +80,27 @@ class Case:
 def handed_over(record: dict[str, Array]) -> bathyal.Tracked | bathyal.Touches:
     """The data of a case from its arrays."""
     start = "covariate_"
-    beside = {k.removeprefix(start): v for k, v in record.items() if k.startswith(start)}
-    session = beside.pop("session", None)
+    covariates = {k.removeprefix(start): v for k, v in record.items() if k.startswith(start)}
+    session = covariates.pop("session", None)
     more = {} if session is None else {"session": session.astype(int)}
     if "point" in record:
-        told = {
+        distances = {
             (int(a), int(b)): float(length) for a, b, length in record.get("distances", np.empty(0))
         }
         return bathyal.Touches(
             record["q"],
             record["point"].astype(int),
-            known_distances=told or None,
-            covariates=beside,
+            known_distances=distances or None,
+            covariates=covariates,
             **more,
         )
     if "pose" in record:
-        return bathyal.Tracked(record["q"], pose=record["pose"], covariates=beside, **more)
-    return bathyal.Tracked(record["q"], record["position"], covariates=beside, **more)
+        return bathyal.Tracked(record["q"], pose=record["pose"], covariates=covariates, **more)
+    return bathyal.Tracked(record["q"], record["position"], covariates=covariates, **more)
 
 
 def draw_case(seed: int) -> Case:
-    """The case of a seed: what cannot be, or cannot be told, is drawn anew."""
+    """The case of a seed: what cannot be, or cannot be determined, is drawn anew."""
     kind = KINDS[seed % len(KINDS)]
     for attempt in count():
         random = np.random.default_rng([seed, attempt, 5])
@@ -120,7 +122,7 @@ def _answer(seed: int, attempts: int, plan: Plan, sealed: Sealed) -> Answer:
         min(sizes, default=0.0),
         plan.noise,
         sealed.effects,
-        plan.rivals,
+        plan.alternatives,
         plan.outside,
         sealed.unexplained,
         attempts,

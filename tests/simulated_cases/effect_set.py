@@ -17,13 +17,13 @@ from tests.simulated_cases.effect_shapes import (
     Shape,
     base_columns,
     basis,
-    beside,
     columns,
+    project_out,
 )
 from tests.simulated_cases.oracle import Oracle
 from tests.simulated_cases.scenario import Plan, Scene
 
-LEAST_LEFT = 0.05  # of an effect, beside what geometry and the others can do
+LEAST_LEFT = 0.05  # of an effect, beyond what geometry and the others can do
 LEAST_LEAD = 12.0  # in squared noises, over what any other cause explains of it
 
 
@@ -60,7 +60,7 @@ class Effects:
             others = [o for k, o in enumerate(out.shapes) if k != i]
             known = basis(np.hstack([base_columns(poses), *(columns(poses, o) for o in others)]))
             raw = columns(poses, shape) @ out.values[i] / plan.noise
-            left = beside(known, raw)
+            left = project_out(known, raw)
             if np.linalg.norm(left) < LEAST_LEFT * np.linalg.norm(raw):
                 return None
             out.values[i] = out.values[i] * size / np.sqrt(np.mean(left**2))
@@ -68,11 +68,11 @@ class Effects:
                 return None
             given = dict(zip(shape.actions, out.values[i].tolist(), strict=True))
             out.facts.append(fact_of(shape.name, shape.joint, given, plan, shape.settings))
-        oracle.add(poses, rivals_of(poses))
-        return out if _can_be_told(out, oracle, poses, plan.noise, plan.rivals) else None
+        oracle.add(poses, alternatives_of(poses))
+        return out if _is_determined(out, oracle, poses, plan.noise, plan.alternatives) else None
 
     def joints(self, scene: Scene, poses: Poses) -> Array:
-        """(N, n) by how much joints stand elsewhere than recorded."""
+        """(N, n) by how much joints are elsewhere than recorded."""
         out = np.zeros_like(poses.q)
         for shape, values in zip(self.shapes, self.values, strict=True):
             if shape.name == "clock_shift":
@@ -128,21 +128,21 @@ def _overlap(shape: Shape, others: list[Shape]) -> bool:
     )
 
 
-def rivals_of(poses: Poses) -> list[Shape]:
+def alternatives_of(poses: Poses) -> list[Shape]:
     """All that may be mistaken for the truth: a slip at each session's start, too."""
     starts = np.flatnonzero(np.diff(poses.sessions)) + 1
     return lib.library(poses) + [lib.tool_slip(poses, int(s)) for s in starts]
 
 
-def _can_be_told(
-    effects: Effects, oracle: Oracle, poses: Poses, noise: float, rivals: list[str]
+def _is_determined(
+    effects: Effects, oracle: Oracle, poses: Poses, noise: float, alternatives: list[str]
 ) -> bool:
     """Whether each effect explains clearly more than chance, and than any other cause would."""
     true = list(range(len(effects.shapes)))
     seen = sum(
         columns(poses, s) @ v / noise for s, v in zip(effects.shapes, effects.values, strict=True)
     )
-    seen = beside(oracle.known, np.asarray(seen))
+    seen = project_out(oracle.known, np.asarray(seen))
     cost = np.array([oracle.penalty(i) for i in range(len(oracle.shapes))])
     for i in true:
         shape = effects.shapes[i]
@@ -150,7 +150,7 @@ def _can_be_told(
         if gains[i] < 1.3 * cost[i] + 8.0:
             return False
         for k, other in enumerate(oracle.shapes):
-            same = other.cause == shape.cause or other.name in rivals
+            same = other.cause == shape.cause or other.name in alternatives
             # A scale is a curve, too: the simpler word is the right one.
             curve = shape.name == "joint_scale" and other.cause == ("curve", shape.joint)
             if k in true or same or curve:

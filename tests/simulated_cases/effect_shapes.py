@@ -72,7 +72,7 @@ def cause_of(name: str, joint: int | None) -> tuple[Any, ...]:
     if name in ("joint_harmonic", "joint_map"):
         return ("curve", joint)
     if name in ("base_compliance", "link_compliance"):
-        # A column that bends turns all that stands on it, as its base does.
+        # A column that bends turns all that is on it, as its base does.
         return ("bending", joint or 0)
     return (name, joint)
 
@@ -146,8 +146,8 @@ def basis(matrix: Array) -> Array:
     return np.asarray(left[:, values > 1e-7 * max(values[0], 1e-300)])
 
 
-def beside(known: Array, matrix: Array) -> Array:
-    """What is left of columns beside an orthonormal basis."""
+def project_out(known: Array, matrix: Array) -> Array:
+    """Columns projected off an orthonormal basis."""
     return np.asarray(matrix - known @ (known.T @ matrix))
 
 
@@ -194,7 +194,7 @@ def torque(poses: Poses, joint: int, only_tip: bool = False) -> Array:
 
 
 def cantilever(poses: Poses, row: int) -> Array:
-    """(N, 6) shift and turn at the end of a beam along row `row`, for 1/(E I) = 1, told in the
+    """(N, 6) shift and turn at the end of a beam along row `row`, for 1/(E I) = 1, given in the
     frame behind it: an end load and an end moment (any table of beams)."""
     frames, end = poses.frames, row + 1
     into = np.swapaxes(frames.rotation[end], 1, 2)

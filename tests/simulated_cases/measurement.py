@@ -28,7 +28,7 @@ class Sealed:
     point: Array | None
     distances: Array | None  # (P, 3) label, label, length
     # (N, 3) of the measurement, and what the rounding of recorded joints moves the tip by [m], in
-    # the frame that `residuals` are told in: nobody who has the record can know them
+    # the frame that `residuals` are given in: nobody who has the record can know them
     errors: Array
     spin: Array  # (N, 3) of the measured rotations [rad]
     frame: Array  # (3, 3) from the frame of the base to that of the errors
@@ -38,9 +38,9 @@ class Sealed:
     outside_size: float = 0.0
     unexplained: float = 0.0
 
-    def told_error(self) -> Array:
-        """(N, 3) what errors a refit leaves in its tips that is told the causes, to first order; in
-        the frame of the base."""
+    def refit_error(self) -> Array:
+        """(N, 3) the tips' errors after a refit that is given the causes, to first order; in the
+        frame of the base."""
         shapes = [columns(self.poses, s) for s in self.shapes]
         span = basis(np.hstack([base_columns(self.poses), *shapes]))
         seen = self.errors @ self.frame
@@ -59,9 +59,9 @@ def measure(
     tips: Array,
     rounded: Array,
 ) -> Sealed | None:
-    """`added` (N, n) is by how much joints stand elsewhere than recorded, `rounded` (N, n) how much
+    """`added` (N, n) is by how much joints are elsewhere than recorded, `rounded` (N, n) how much
     of that is rounding, `tips` (N, 3) by how much the tip does, base's frame. None where noise or
-    outliers could not be told."""
+    outliers could not be recognised."""
     plan, rows = scene.plan, len(poses.q)
     twists, stretch = effects.twists()
     frames = scene.true.walk(poses.q + added, twists, stretch)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Poses for hidden effects, and what was recorded beside them."""
+"""Poses for hidden effects, and the covariates recorded with them."""
 
 from __future__ import annotations
 

@@ -10,16 +10,25 @@ from statistics import NormalDist
 import numpy as np
 
 from tests.simulated_cases.arms import Array
-from tests.simulated_cases.effect_shapes import Poses, Shape, base_columns, basis, beside, columns
+from tests.simulated_cases.effect_shapes import (
+    Poses,
+    Shape,
+    base_columns,
+    basis,
+    columns,
+    project_out,
+)
 
 
 @dataclass
 class Oracle:
-    """Shapes of some poses beside what geometry, base and tool can do, in noises."""
+    """Shapes of given poses beyond what geometry, base and tool can do, in noises."""
 
     shapes: list[Shape]
     known: Array  # (M, r) orthonormal: geometry, base, tool
-    bases: list[Array] = field(default_factory=list)  # of each shape, orthonormal, beside `known`
+    bases: list[Array] = field(
+        default_factory=list
+    )  # of each shape, orthonormal, projected off `known`
     dimensions: int = 0
 
     @staticmethod
@@ -32,7 +41,7 @@ class Oracle:
     def add(self, poses: Poses, shapes: list[Shape]) -> None:
         for shape in shapes:
             raw = columns(poses, shape)
-            left = beside(self.known, raw)
+            left = project_out(self.known, raw)
             size = np.linalg.norm(raw, axis=0)
             # What geometry swallows to a thousandth is nobody's to find.
             keep = np.linalg.norm(left, axis=0) > 1e-3 * np.where(size > 0, size, np.inf)
@@ -56,7 +65,7 @@ class Oracle:
         return float(np.sum((span.T @ seen) ** 2))
 
     def gains(self, seen: Array, chosen: list[int]) -> Array:
-        """What each shape would explain beyond those chosen: of `seen` beside `known`."""
+        """What each shape would explain beyond those chosen: of `seen` projected off `known`."""
         stacked = np.hstack(self.bases)
         left = seen
         within = np.zeros((0, stacked.shape[1]))
@@ -78,7 +87,7 @@ class Oracle:
     def find(self, seen: Array, most: int = 4, free: bool = False) -> list[int]:
         """The set that explains most beyond its penalties: grown one by one, then each member tried
         against all others. `free` asks for no penalty: how far any set of `most` comes."""
-        seen = beside(self.known, seen)
+        seen = project_out(self.known, seen)
         cost = np.array([0.0 if free else self.penalty(i) for i in range(len(self.bases))])
         causes = [s.cause for s in self.shapes]
         chosen: list[int] = []

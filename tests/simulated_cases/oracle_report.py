@@ -10,8 +10,8 @@ import numpy as np
 
 from tests.simulated_cases.arms import Array
 from tests.simulated_cases.cases import Case
-from tests.simulated_cases.effect_set import rivals_of
-from tests.simulated_cases.effect_shapes import Poses, beside, column
+from tests.simulated_cases.effect_set import alternatives_of
+from tests.simulated_cases.effect_shapes import Poses, column, project_out
 from tests.simulated_cases.oracle import Oracle, chance
 
 
@@ -35,9 +35,9 @@ def oracle(case: Case) -> OracleReport:
     sealed, noise = case.sealed, case.answer.noise
     poses = sealed.poses
     seen = column(poses, _moves(case)) / noise
-    shapes = [*sealed.shapes, *rivals_of(poses)]
+    shapes = [*sealed.shapes, *alternatives_of(poses)]
     sight = Oracle.of(poses, shapes)
-    seen = beside(sight.known, seen)
+    seen = project_out(sight.known, seen)
     effects: list[OracleEffect] = []
     # Rounded joint values throw rows off, too, as far as half a step can.
     lattice = _on_a_lattice(sealed.q, poses.arm.sliding)
@@ -49,8 +49,8 @@ def oracle(case: Case) -> OracleReport:
         mask = np.repeat(keep, seen.size // len(keep)).astype(float)
         sight.known = np.linalg.qr(sight.known * mask[:, None])[0]
         for i, b in enumerate(sight.bases):
-            sight.bases[i] = np.linalg.qr(beside(sight.known, b * mask[:, None]))[0]
-        seen = beside(sight.known, seen * mask)
+            sight.bases[i] = np.linalg.qr(project_out(sight.known, b * mask[:, None]))[0]
+        seen = project_out(sight.known, seen * mask)
     chosen, noisier = _chosen(case, sight, seen, lattice)
     effects += [
         OracleEffect(s.name, s.joint, dict(s.settings)) for s in (sight.shapes[i] for i in chosen)
@@ -71,7 +71,7 @@ def oracle(case: Case) -> OracleReport:
 
 
 def _chosen(case: Case, sight: Oracle, seen: Array, lattice: bool) -> tuple[list[int], str]:
-    """Shapes beside the noise that there is: where it is more than told, because values were
+    """Shapes against the noise that there is: where it is more than given, because values were
     rounded or because it grows with the distance, shapes have to explain more."""
     if not lattice and not _grows(case, sight, seen, sight.find(seen)):
         return sight.find(seen), ""
@@ -89,7 +89,7 @@ def _chosen(case: Case, sight: Oracle, seen: Array, lattice: bool) -> tuple[list
 
 
 def _moves(case: Case) -> Array:
-    """(N, 3 or 6) what the measurement shows beside the true arm without effects, base's frame."""
+    """(N, 3 or 6) what the measurement shows beyond the true arm without effects, base's frame."""
     sealed, poses = case.sealed, case.sealed.poses
     frames = poses.arm.walk(sealed.q)
     if poses.point is not None:

@@ -40,7 +40,7 @@ class Plan:
         return self.sizes[self.names.index(name)]
 
     @property
-    def rivals(self) -> list[str]:
+    def alternatives(self) -> list[str]:
         return CONFOUNDED[self.confounded][1] if self.confounded else []
 
 
@@ -81,7 +81,7 @@ def plan_case(
 
 @dataclass
 class Scene:
-    """An arm, where it stands, and its poses as commanded."""
+    """An arm, its base, and its poses as commanded."""
 
     plan: Plan
     drawn: SimArm

@@ -24,7 +24,7 @@ from typing import Any
 
 import numpy as np
 
-from tests.simulated_cases.judge import Diagnose, Judged, engine, judge
+from tests.simulated_cases.evaluation import Diagnose, Evaluated, engine, evaluate
 
 CLASSES = (0.25, 0.5, 1.0, 2.0, 4.0)
 
@@ -33,26 +33,26 @@ def run(
     seeds: Iterable[int],
     diagnose: Diagnose = engine,
     processes: int = 1,
-    told: Callable[[int], None] = lambda done: None,
-) -> list[Judged]:
-    """Judges the cases of `seeds`, in their order; `told` hears how many are done."""
-    work = partial(judge, diagnose=diagnose)
+    progress: Callable[[int], None] = lambda done: None,
+) -> list[Evaluated]:
+    """Evaluates the cases of `seeds`, in their order; `progress` hears how many are done."""
+    work = partial(evaluate, diagnose=diagnose)
     out = []
     if processes == 1:
         for seed in seeds:
             out.append(work(seed))
-            told(len(out))
+            progress(len(out))
         return out
     with _one_thread_each(), get_context("spawn").Pool(processes) as pool:
-        for judged in pool.imap(work, seeds, chunksize=4):
-            out.append(judged)
-            told(len(out))
+        for evaluated in pool.imap(work, seeds, chunksize=4):
+            out.append(evaluated)
+            progress(len(out))
     return out
 
 
 @contextmanager
 def _one_thread_each() -> Iterator[None]:
-    """Cases run beside each other: NumPy is to use one thread in each process that starts."""
+    """Cases run in parallel: NumPy is to use one thread in each process that starts."""
     names = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS")
     before = {n: os.environ.get(n) for n in names}
     os.environ |= dict.fromkeys(names, "1")
@@ -66,9 +66,9 @@ def _one_thread_each() -> Iterator[None]:
                 os.environ[name] = value
 
 
-def card(cases: Sequence[Judged]) -> dict[str, Any]:
+def card(cases: Sequence[Evaluated]) -> dict[str, Any]:
     """All that the card says, as plain numbers."""
-    kinds: dict[str, list[Judged]] = defaultdict(list)
+    kinds: dict[str, list[Evaluated]] = defaultdict(list)
     for case in cases:
         kinds[case.kind].append(case)
     return {
@@ -97,16 +97,16 @@ def card(cases: Sequence[Judged]) -> dict[str, Any]:
     }
 
 
-def _at(cases: list[Judged], size: float | None) -> list[Judged]:
+def _at(cases: list[Evaluated], size: float | None) -> list[Evaluated]:
     """Of a class of sizes; None is all from 1 on."""
     return [c for c in cases if (c.size >= 1 if size is None else c.size == size)]
 
 
-def _share(cases: list[Judged], good: Callable[[Judged], bool]) -> float:
+def _share(cases: list[Evaluated], good: Callable[[Evaluated], bool]) -> float:
     return sum(good(c) for c in cases) / len(cases) if cases else float("nan")
 
 
-def _inside(size: float | None, cases: list[Judged]) -> dict[str, Any]:
+def _inside(size: float | None, cases: list[Evaluated]) -> dict[str, Any]:
     held = [c for c in cases if c.holds]
     return {
         "size": "1 and more" if size is None else f"{size:g}",
@@ -120,7 +120,7 @@ def _inside(size: float | None, cases: list[Judged]) -> dict[str, Any]:
     }
 
 
-def _outside(size: float | None, cases: list[Judged]) -> dict[str, Any]:
+def _outside(size: float | None, cases: list[Evaluated]) -> dict[str, Any]:
     return {
         "size": "1 and more" if size is None else f"{size:g}",
         "cases": len(cases),
@@ -128,16 +128,16 @@ def _outside(size: float | None, cases: list[Judged]) -> dict[str, Any]:
         "named": _share(cases, lambda c: c.verdict == "named"),
         "ambiguous": _share(cases, lambda c: c.verdict == "ambiguous"),
         "clean": _share(cases, lambda c: c.verdict == "clean"),
-        "unknown with names beside": _share(cases, lambda c: c.exact and c.partial > 0),
+        "unknown with partial names": _share(cases, lambda c: c.exact and c.partial > 0),
     }
 
 
-def _shares(cases: list[Judged]) -> dict[str, Any]:
+def _shares(cases: list[Evaluated]) -> dict[str, Any]:
     verdicts = Counter(c.verdict for c in cases)
     return {"cases": len(cases)} | {v: n / len(cases) for v, n in sorted(verdicts.items())}
 
 
-def _confounded(cases: list[Judged]) -> dict[str, Any]:
+def _confounded(cases: list[Evaluated]) -> dict[str, Any]:
     right = [c for c in cases if c.exact]
     return {
         "cases": len(cases),
@@ -147,7 +147,7 @@ def _confounded(cases: list[Judged]) -> dict[str, Any]:
     }
 
 
-def _coverage(cases: Sequence[Judged]) -> dict[str, Any]:
+def _coverage(cases: Sequence[Evaluated]) -> dict[str, Any]:
     each: dict[str, list[bool]] = defaultdict(list)
     off = []
     for case in cases:
@@ -174,12 +174,12 @@ def _median(values: list[float]) -> float:
     return float(np.median(values)) if values else float("nan")
 
 
-def _error(cases: list[Judged]) -> dict[str, Any]:
-    """Foretold tips against the truth, over what a refit comes to that is told the causes."""
-    known = [c for c in cases if np.isfinite(c.error) and c.told > 0]
+def _error(cases: list[Evaluated]) -> dict[str, Any]:
+    """Predicted tips against the truth, over what a refit comes to that is given the causes."""
+    known = [c for c in cases if np.isfinite(c.error) and c.refit_error > 0]
     if not known:
         return {"cases": 0, "ratio": float("nan"), "median": float("nan")}
-    square = np.array([[c.error**2, c.told**2] for c in known])
+    square = np.array([[c.error**2, c.refit_error**2] for c in known])
     return {
         "cases": len(known),
         "ratio": float(np.sqrt(square[:, 0].sum() / square[:, 1].sum())),
@@ -187,7 +187,7 @@ def _error(cases: list[Judged]) -> dict[str, Any]:
     }
 
 
-def _confusion(cases: Sequence[Judged]) -> dict[str, dict[str, int]]:
+def _confusion(cases: Sequence[Evaluated]) -> dict[str, dict[str, int]]:
     table: dict[str, Counter[str]] = defaultdict(Counter)
     for case in cases:
         for true, given in case.pairs:
@@ -219,7 +219,7 @@ def text(result: dict[str, Any]) -> str:
         f"| 95 % intervals that hold the truth | {cover['parameters']} numbers "
         f"| {_percent(cover['covered'])} |",
         *(
-            f"| error / that of a refit told the causes, {name} | {e['cases']} "
+            f"| error / that of a refit given the causes, {name} | {e['cases']} "
             f"| {e['ratio']:.2f} × (median {e['median']:.2f}) |"
             for name, e in error.items()
         ),

@@ -6,15 +6,15 @@ from __future__ import annotations
 import numpy as np
 
 from tests.simulated_cases.arms import Array
-from tests.simulated_cases.effect_set import LEAST_LEFT, Effects, fact_of, rivals_of
+from tests.simulated_cases.effect_set import LEAST_LEFT, Effects, alternatives_of, fact_of
 from tests.simulated_cases.effect_shapes import (
     Action,
     Poses,
     base_columns,
     basis,
-    beside,
     column,
     moved,
+    project_out,
 )
 from tests.simulated_cases.measurement import Sealed, measure
 from tests.simulated_cases.oracle import Oracle
@@ -22,11 +22,11 @@ from tests.simulated_cases.scenario import Scene
 from tests.simulated_cases.touch_poses import touching
 from tests.simulated_cases.unmodelled_effects import draw_outside
 
-OUTSIDE_LEFT = 0.8  # of what is not in the library, beside the best four that are
+OUTSIDE_LEFT = 0.8  # of what is not in the library, beyond the best four that are
 
 
 def seal(random: np.random.Generator, scene: Scene) -> Sealed | None:
-    """None where what was drawn cannot be, or cannot be told from what it is not."""
+    """None where what was drawn cannot be, or cannot be distinguished from what it is not."""
     plan = scene.plan
     q, point = (scene.q, None)
     if plan.form == "touches":
@@ -66,8 +66,8 @@ def _outside(
     for j in np.flatnonzero(joints.any(axis=0)):
         moves += moved(poses, Action("joint", int(j), joints[:, j]))
     raw = column(poses, moves) / plan.noise
-    oracle = Oracle.of(poses, rivals_of(poses))
-    left = beside(oracle.known, raw)
+    oracle = Oracle.of(poses, alternatives_of(poses))
+    left = project_out(oracle.known, raw)
     if np.linalg.norm(left) < LEAST_LEFT * np.linalg.norm(raw):
         return None
     factor = plan.outside_size / np.sqrt(np.mean(left**2))
@@ -103,6 +103,6 @@ def _step(random: np.random.Generator, scene: Scene) -> float:
     poses = _poses(scene, scene.q, None)
     error = random.uniform(-0.5, 0.5, scene.q.shape)
     moves = sum(moved(poses, Action("joint", j, error[:, j])) for j in range(scene.q.shape[1]))
-    left = beside(basis(base_columns(poses)), column(poses, np.asarray(moves)))
+    left = project_out(basis(base_columns(poses)), column(poses, np.asarray(moves)))
     size = scene.plan.size_of("quantisation")
     return float(size * scene.plan.noise / np.sqrt(np.mean(left**2)))

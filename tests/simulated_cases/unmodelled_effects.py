@@ -19,7 +19,7 @@ Draw = Callable[[np.random.Generator, Poses], Moves]
 
 
 def cable(random: np.random.Generator, poses: Poses) -> Moves:
-    """A cable pulls at one joint by how two stand together."""
+    """A cable pulls at one joint by the positions of two together."""
     joint = int(random.integers(poses.arm.size))
     a, b = random.choice(poses.arm.size, 2, replace=False)
     wave = [
@@ -50,7 +50,7 @@ def bump(random: np.random.Generator, poses: Poses) -> Moves:
 
 
 def vibration(random: np.random.Generator, poses: Poses) -> Moves:
-    """The stand swings with a period."""
+    """The support swings with a period."""
     return _tip(poses, _swing(random, poses)[:, None] * random.normal(size=3))
 
 
@@ -93,8 +93,8 @@ def warm_zero(random: np.random.Generator, poses: Poses) -> Moves:
     return _joint(poses, int(random.integers(poses.arm.size)), warm - warm.mean())
 
 
-def warm_stand(random: np.random.Generator, poses: Poses) -> Moves:
-    """What the tracker stands on leans with the temperature."""
+def warm_support(random: np.random.Generator, poses: Poses) -> Moves:
+    """The tracker's support leans with the temperature."""
     warm = poses.covariates["temperature"]
     shift, turn = random.normal(size=3), random.normal(size=3)
     lean = shift + np.cross(turn, poses.frames.tip)
@@ -116,7 +116,7 @@ IN_TIME: dict[str, Draw] = {
 }
 WITH: dict[str, tuple[str, Draw]] = {
     "warm_zero": ("temperature", warm_zero),
-    "warm_stand": ("temperature", warm_stand),
+    "warm_support": ("temperature", warm_support),
     "heavy_flange": ("payload", heavy_flange),
 }
 

@@ -18,7 +18,7 @@ from pathlib import Path
 
 SECONDS = 60
 MEMORY = 2 << 30
-ARGUMENT = re.compile(r"`[^`]+`: expected .+, got .+", re.DOTALL)  # how a mistake is told
+ARGUMENT = re.compile(r"`[^`]+`: expected .+, got .+", re.DOTALL)  # how a mistake is reported
 
 
 @dataclass(frozen=True)
@@ -45,7 +45,7 @@ def refused(
     return Case(name, body, errors, says)
 
 
-def judge(case: Case) -> str:
+def outcome_of(case: Case) -> str:
     """Empty when the case went as it should, else what went wrong."""
     try:
         answer = case.body()
@@ -72,7 +72,7 @@ def run_alone(case: Case, folder: Path) -> str:
             signal.alarm(SECONDS)
             used = int(Path("/proc/self/statm").read_text().split()[0]) * resource.getpagesize()
             resource.setrlimit(resource.RLIMIT_AS, (used + MEMORY, used + MEMORY))
-            os.write(write_end, pickle.dumps(judge(case)[:60_000]))
+            os.write(write_end, pickle.dumps(outcome_of(case)[:60_000]))
             status = 0
         finally:
             os._exit(status)
@@ -90,7 +90,9 @@ def run_alone(case: Case, folder: Path) -> str:
 def check(case: Case, folder: Path) -> None:
     """Fail unless the case goes as it should and leaves no half-written file behind."""
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # of fork beside the pool's threads, which the child leaves
+        warnings.simplefilter(
+            "ignore"
+        )  # of fork next to the pool's threads, which the child leaves
         wrong = run_alone(case, folder)
     assert not wrong, wrong
     left_aside = [path.name for path in folder.rglob("*") if path.name.startswith(".")]

@@ -60,17 +60,45 @@ def cause(name: str, joint: int | None, words: str, odds: float = 1.0) -> Simple
 
 
 def structure(
-    against: str, words: str, size: float, share: float, p_value: float
+    kind: str, against: str, words: str, size: float, share: float, p_value: float, **facts: object
 ) -> SimpleNamespace:
-    return Structure(against=against, words=words, size=size, share=share, p_value=p_value)
+    """`facts`: coordinates, period, covariate, component."""
+    given: dict[str, object] = {
+        "coordinates": [], "period": None, "covariate": None, "component": None, "joint": None
+    }  # fmt: skip
+    return Structure(
+        kind=kind, against=against, words=words, size=size, share=share, p_value=p_value,
+        **given | facts,
+    )  # fmt: skip
 
 
-def effect(name: str, joint: int | None, words: str, **told: object) -> SimpleNamespace:
+def on_joint(number: int, words: str, size: float, share: float, p_value: float) -> SimpleNamespace:
+    return structure(
+        "joints", f"joint {number}", words, size, share, p_value, coordinates=[number - 1]
+    )
+
+
+def on_pair(
+    first: int, second: int, words: str, size: float, share: float, p_value: float
+) -> SimpleNamespace:
+    against = f"joints {first} and {second}"
+    coordinates = [first - 1, second - 1]
+    return structure("joints", against, words, size, share, p_value, coordinates=coordinates)
+
+
+def vibration(
+    period: float, words: str, size: float, share: float, p_value: float
+) -> SimpleNamespace:
+    against = f"time, period {period:.4g} s"
+    return structure("time", against, words, size, share, p_value, period=period)
+
+
+def effect(name: str, joint: int | None, words: str, **numbers: object) -> SimpleNamespace:
     given = {
         "parameters": {}, "gain": 0.9, "held_out_before": 4e-4, "held_out_after": 0.6e-4,
         "p_value": 1e-300, "size": 2e-4, "rivals": [], "rows": [],
     }  # fmt: skip
-    return SimpleNamespace(name=name, joint=joint, words=words, **{**given, **told})
+    return SimpleNamespace(name=name, joint=joint, words=words, **{**given, **numbers})
 
 
 def harmonic() -> SimpleNamespace:
@@ -136,14 +164,14 @@ def base(count: int = 240, sessions: int = 2) -> Report:
         ambiguous=[],
         next_poses=np.empty((0, 6)),
         shown=[
-            structure("joint 3", "The residual turns over twice along joint 3", 2e-4, 0.93, 1e-300),
-            structure("position z", "The residual bends with z", 0.4e-4, 0.11, 0.004),
-            structure("time", "Nothing along time", 0.0, 0.0, 0.63),
-            structure("temperature", "Nothing along temperature", 0.0, 0.0, 0.88),
-            structure("joints 2 and 3", "The residual depends on joints 2 and 3 together", 0.9e-4,
-                      0.3, 1e-5),
+            on_joint(3, "The residual turns over twice along joint 3", 2e-4, 0.93, 1e-300),
+            structure("position", "position", "The residual bends with z", 0.4e-4, 0.11, 0.004),
+            structure("time", "time", "Nothing along time", 0.0, 0.0, 0.63),
+            structure("covariate", "temperature", "Nothing along temperature", 0.0, 0.0, 0.88,
+                      covariate="temperature"),
+            on_pair(2, 3, "The residual depends on joints 2 and 3 together", 0.9e-4, 0.3, 1e-5),
         ],
-        leftover=structure("nothing", "nothing", 0.0, 0.0, 0.7),
+        leftover=structure("none", "", "", 0.0, 0.0, 0.7),
         held_out=SimpleNamespace(
             how="20 blocks of poses that lie near each other were held out in turn", blocks=20,
             rms_before=rms(before),
@@ -181,7 +209,7 @@ def clean() -> Report:
     report.__dict__.update(
         verdict="clean", effects=[], gain=0.0, warnings=[],
         residuals_before=report.residuals_after,
-        shown=[structure(f"joint {k}", f"Nothing along joint {k}", 0.0, 0.0, 0.1 * k)
+        shown=[on_joint(k, f"Nothing along joint {k}", 0.0, 0.0, 0.1 * k)
                for k in range(1, 7)],
     )  # fmt: skip
     return report
@@ -219,9 +247,7 @@ def unknown() -> Report:
     report.__dict__.update(
         verdict="unknown",
         gain=0.37,
-        leftover=structure(
-            "time, period 12.1 s", "The residual swings with time, period 12.1 s", 1.6e-4, 0.8, 1e-9
-        ),
+        leftover=vibration(12.1, "The residual swings with time, period 12.1 s", 1.6e-4, 0.8, 1e-9),
         residuals_after=0.8 * report.residuals_before,
     )
     return report
@@ -264,9 +290,9 @@ def many(count: int = 20) -> Report:
     report.effects = []
     for k in range(count):
         name, joint, words, numbers = kinds[k % len(kinds)]
-        told = {key: estimate(*value) for key, value in numbers.items()}
+        estimates = {key: estimate(*value) for key, value in numbers.items()}
         report.effects.append(
-            effect(name, joint, words, parameters=told, gain=0.5 / (k + 1),
+            effect(name, joint, words, parameters=estimates, gain=0.5 / (k + 1),
                    rows=list(range(12)) if name == "outliers" else [])
         )  # fmt: skip
     return report

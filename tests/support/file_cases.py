@@ -13,7 +13,7 @@ MEASURED = Path(__file__).resolve().parents[2].parent / "shared" / "data"
 
 
 def measured(name: str) -> Path:
-    """A file of the measured data beside the project; the test is skipped where it is absent."""
+    """A file of the measured data next to the project; the test is skipped where it is absent."""
     path = MEASURED / name
     if not path.exists():
         pytest.skip(f"measured data are not at {path}")

@@ -37,7 +37,7 @@ class Shown:
     covered: Array
     """Share of 95 % intervals that hold the truth."""
     spread: Array
-    """Scatter of the values found by the standard deviation told."""
+    """Scatter of the values found by the standard deviation reported."""
     count: int
 
     def allows(self, coverage: tuple[float, float], bias: float, sigmas: float = 4.5) -> bool:
@@ -77,7 +77,7 @@ def _values(fit: Any) -> Truth:
 def tracked(sets: int) -> tuple[list[Any], Truth]:
     """63 positions of the paper's UR10e, as a tracker sees them; the base free.
 
-    Turns of the base are told about the base that the nominal arm has in each set: they have no
+    Turns of the base are given about the base that the nominal arm has in each set: they have no
     truth of their own, and are left out.
     """
     truth, nominal = identified_ur10e(), bathyal.arms.ur10e()
@@ -102,17 +102,17 @@ def _touched(
     std = 1e-4
     fits = []
     for _ in range(sets):
-        told = {pair: metres + random.normal(0, std) for pair, metres in distances.items()}
+        measured = {pair: metres + random.normal(0, std) for pair, metres in distances.items()}
         touches = bathyal.Touches(
-            scattered(truth, q, noise, random), points, known_distances=told, distance_std=std
+            scattered(truth, q, noise, random), points, known_distances=measured, distance_std=std
         )
         fits.append(bathyal.identify_arm(nominal, touches))
     exact = bathyal.Touches(q, points, known_distances=distances)
     return fits, _values(bathyal.identify_arm(nominal, exact))
 
 
-def told(sets: int) -> tuple[list[Any], Truth]:
-    """63 touches of the paper's UR10e, the three distances told to 0.1 mm."""
+def with_distances(sets: int) -> tuple[list[Any], Truth]:
+    """63 touches of the paper's UR10e, the three distances given to 0.1 mm."""
     truth = identified_ur10e()
     q, points = touching(truth, POINTS, 21, cone_deg=60, seed=3)
     distances = distances_of(POINTS, [(0, 1), (0, 2), (1, 2)])
@@ -120,7 +120,7 @@ def told(sets: int) -> tuple[list[Any], Truth]:
 
 
 def sockets(sets: int) -> tuple[list[Any], Truth]:
-    """400 touches of a Panda in ten pairs of sockets 50 mm apart, told to 0.1 mm.
+    """400 touches of a Panda in ten pairs of sockets 50 mm apart, given to 0.1 mm.
 
     Many touches and short distances: what scatter does to the size shows here.
     """
@@ -139,7 +139,7 @@ def sockets(sets: int) -> tuple[list[Any], Truth]:
     return _touched(truth, nominal, q, points, distances, 0.17e-3, sets)
 
 
-def untold(sets: int) -> tuple[list[Any], Truth]:
+def without_distances(sets: int) -> tuple[list[Any], Truth]:
     """63 touches, no distance: another arm in each set, its lengths off by what the prior says (1
     mm) and its angles by 1 mrad, for a prior is right over many arms or not at all."""
     nominal = bathyal.arms.ur10e()
@@ -161,9 +161,9 @@ def untold(sets: int) -> tuple[list[Any], Truth]:
 
 CASES: dict[str, Callable[[int], tuple[list[Any], Truth]]] = {
     "tracked": tracked,
-    "told": told,
+    "with_distances": with_distances,
     "sockets": sockets,
-    "untold": untold,
+    "without_distances": without_distances,
 }
-COLUMNS = {"tracked": 24, "told": 21, "sockets": 25, "untold": 14}
+COLUMNS = {"tracked": 24, "with_distances": 21, "sockets": 25, "without_distances": 14}
 """Numbers that the data tell in each case."""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""An arm told to Pinocchio, joint by joint, from its table."""
+"""An arm given to Pinocchio, joint by joint, from its table."""
 
 import numpy as np
 import pytest

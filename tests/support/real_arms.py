@@ -26,7 +26,7 @@ def _there(path: Path) -> Path:
 
 
 def placements(robot: str) -> list[str]:
-    """Where MUKCa's pair of sockets stood: each of them is its own two points."""
+    """Where MUKCa's pair of sockets was: each of them is its own two points."""
     return sorted(folder.name for folder in _there(ARMS / "mukca" / "data" / robot).iterdir())
 
 
@@ -40,10 +40,10 @@ def _every_socket(robot: str) -> bathyal.Touches:
 
 def sockets(
     robot: str,
-    told: Callable[[str], bool] = lambda placement: True,
+    with_distance: Callable[[str], bool] = lambda placement: True,
     used: Callable[[str], bool] = lambda placement: True,
 ) -> bathyal.Touches:
-    """Touches of MUKCa's sockets at the placements `used`, their distance told where `told`.
+    """Touches of MUKCa's sockets at the placements `used`; `with_distance` says where one is given.
 
     Placement k's two sockets are points 2 k and 2 k + 1.
     """
@@ -53,7 +53,7 @@ def sockets(
     distances = {
         (2 * k, 2 * k + 1): SOCKETS_APART
         for k, name in enumerate(names)
-        if used(name) and told(name)
+        if used(name) and with_distance(name)
     }
     return bathyal.Touches(every.q[rows], every.point[rows], known_distances=distances or None)
 

@@ -31,7 +31,7 @@ def bottom(*, offset: np.ndarray | None = None, hole: bool = True, crs: str = ""
 
 
 def aims(*, offset: np.ndarray | None = None, miss: bool = True) -> np.ndarray:
-    """Three axes straight down, on either side of the hole; with `miss` a fourth beside it all."""
+    """Three axes straight down, on either side of the hole; with `miss` a fourth outside it all."""
     places = [[2.2, 3.1, -20], [6.3, 4.2, -20], [16.4, 8.7, -20]]
     if miss:
         places.append([60.0, 3.0, -20])

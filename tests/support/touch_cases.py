@@ -108,7 +108,7 @@ def touched(
 def moved(
     arm: bathyal.Arm, q: NDArray[np.float64], miss: NDArray[np.float64]
 ) -> NDArray[np.float64]:
-    """The joint values nearest to `q` whose tip lies `miss` (N, 3) beside that of `q`."""
+    """The joint values nearest to `q` whose tip lies `miss` (N, 3) off that of `q`."""
     goal = arm.forward(q)[:, :3, 3] + miss
     q = q.copy()
     for _ in range(5):

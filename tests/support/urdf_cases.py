@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""URDFs to read: made ones, small enough to see through, and the real ones beside the project."""
+"""URDFs to read: made ones, small enough to see through, and the real ones next to the project."""
 
 from __future__ import annotations
 

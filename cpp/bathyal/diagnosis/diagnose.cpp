@@ -16,6 +16,7 @@
 #include "bathyal/selection/selection.hpp"
 
 namespace bathyal {
+namespace diagnosis {
 namespace {
 
 void check_effects(const std::vector<std::shared_ptr<const Effect>>& effects) {
@@ -32,13 +33,13 @@ void check_positions_differ(const RowMatrix& position) {
   throw_argument("position", "positions that differ", "the same in all rows");
 }
 
-/// Of a long record of tracked poses, what a search in some rows finds; else nothing. They are
-/// drawn, so that they follow no grid of the record.
-FirstLook look_at_some_rows(ArmSubject& subject, int num_threads,
-                            const DiagnosisProgress& progress) {
+/// Of a long record of tracked poses, the result of a search in a subset of rows; else empty. Rows
+/// are drawn at random, so that they follow no grid of the record.
+selection::Shortlist shortlist_from_subset(ArmModel& arm_model, int num_threads,
+                                           const DiagnosisProgress& progress) {
   constexpr int kLong = 6000, kLookedAt = 3000;
-  const int count = static_cast<int>(subject.units().count());
-  if (count <= kLong || !subject.is_tracked()) return {};
+  const int count = static_cast<int>(arm_model.observations().count());
+  if (count <= kLong || !arm_model.is_tracked()) return {};
   std::vector<int> rows(static_cast<std::size_t>(count));
   std::iota(rows.begin(), rows.end(), 0);
   RandomStream random(0);
@@ -47,9 +48,9 @@ FirstLook look_at_some_rows(ArmSubject& subject, int num_threads,
   }
   rows.resize(kLookedAt);
   std::sort(rows.begin(), rows.end());
-  ArmSubject some(subject, rows);
-  FirstLook found = find_forms(some, num_threads, progress);
-  subject.take_forms(some);
+  ArmModel subset(arm_model, rows);
+  selection::Shortlist found = selection::shortlist_terms(subset, num_threads, progress);
+  arm_model.take_terms(subset);
   return found;
 }
 
@@ -62,36 +63,39 @@ Diagnosis run(const Arm& arm, const Measurement& measurement, const Covariates& 
   identify.parametrization = options.parametrization;
   identify.fixed = options.fixed;
   identify.num_threads = options.num_threads;
-  // Bad covariates are refused before anything takes its time.
+  // Bad covariates are refused before the long computation.
   make_effect_data(arm, measurement.q, covariates, measurement.has_rotation());
-  ArmSubject subject(arm, measurement, covariates, identify, effects);
-  const ExaminationOptions asked{options.num_threads, options.blocks};
-  const FirstLook look = look_at_some_rows(subject, options.num_threads, progress);
-  const Examination found = examine(subject, asked, progress, look);
-  Diagnosis out = report(subject, measurement, arm, found, options);
-  check_model(out, subject, measurement, options.num_threads);
-  for (const auto& sentences :
-       {subject.geometry_doubts(), subject.untried(), doubt_record(subject.data(), effects)}) {
+  ArmModel arm_model(arm, measurement, covariates, identify, effects);
+  const selection::SelectionOptions asked{options.num_threads, options.blocks};
+  const selection::Shortlist shortlist =
+      shortlist_from_subset(arm_model, options.num_threads, progress);
+  const selection::SelectionResult found =
+      selection::select_terms(arm_model, asked, progress, shortlist);
+  Diagnosis out = report(arm_model, measurement, arm, found, options);
+  check_model(out, arm_model, measurement, options.num_threads);
+  for (const auto& sentences : {arm_model.geometry_warnings(), arm_model.untried(),
+                                check_record(arm_model.data(), effects)}) {
     out.warnings.insert(out.warnings.end(), sentences.begin(), sentences.end());
   }
   if (out.verdict == Verdict::kAmbiguous) {
-    out.next_poses = next_poses(subject, found, options.rival_odds, options.num_next_poses);
+    out.next_poses = next_poses(arm_model, found, options.rival_odds, options.num_next_poses);
   }
   return out;
 }
 
 template <class Data>
-Diagnosis run_without_copies(const Arm& arm, const Data& data, const DiagnoseOptions& options,
-                             const std::vector<std::shared_ptr<const Effect>>& effects,
-                             const DiagnosisProgress& progress) {
-  const std::vector<int> of = find_copies(data);
-  const Data once = without_copies(data, of);
+Diagnosis run_without_duplicates(const Arm& arm, const Data& data, const DiagnoseOptions& options,
+                                 const std::vector<std::shared_ptr<const Effect>>& effects,
+                                 const DiagnosisProgress& progress) {
+  const std::vector<int> first = find_duplicates(data);
+  const Data once = without_duplicates(data, first);
   Diagnosis out = run(arm, to_measurement(arm, once), once.covariates, options, effects, progress);
-  spread_over_copies(of, out);
+  expand_to_duplicates(first, out);
   return out;
 }
 
 }  // namespace
+}  // namespace diagnosis
 
 void DiagnoseOptions::check() const {
   check_range("blocks", blocks, 3, 50);
@@ -106,7 +110,7 @@ Diagnosis diagnose(const Arm& arm, const Touches& touches, const DiagnoseOptions
                    const DiagnosisProgress& progress) {
   options.check();
   touches.check();
-  return run_without_copies(arm, touches, options, effects, progress);
+  return diagnosis::run_without_duplicates(arm, touches, options, effects, progress);
 }
 
 Diagnosis diagnose(const Arm& arm, const Tracked& tracked, const DiagnoseOptions& options,
@@ -114,8 +118,8 @@ Diagnosis diagnose(const Arm& arm, const Tracked& tracked, const DiagnoseOptions
                    const DiagnosisProgress& progress) {
   options.check();
   tracked.check();
-  check_positions_differ(tracked.position);
-  return run_without_copies(arm, tracked, options, effects, progress);
+  diagnosis::check_positions_differ(tracked.position);
+  return diagnosis::run_without_duplicates(arm, tracked, options, effects, progress);
 }
 
 }  // namespace bathyal

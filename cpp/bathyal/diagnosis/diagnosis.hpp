@@ -11,12 +11,12 @@
 
 namespace bathyal {
 
-/// What a diagnosis comes to.
+/// The conclusion of a diagnosis.
 enum class Verdict {
-  kNone,       ///< no data could be held out: what is shown is all there is
+  kNone,       ///< too few data for cross-validation: the lack of fit only
   kClean,      ///< nothing beyond noise
   kNamed,      ///< causes, each with its evidence
-  kAmbiguous,  ///< causes that these data cannot tell apart
+  kAmbiguous,  ///< causes that these data cannot distinguish
   kUnknown,    ///< structure that nothing in the library explains
 };
 
@@ -30,47 +30,70 @@ struct Estimate {
   double high = 0.0;
 };
 
-/// A cause by name: what lists of rivals hold.
+/// A cause by name, as in lists of alternatives.
 struct Cause {
   std::string name;
-  int joint = -1;     ///< coordinate, or -1
-  std::string words;  ///< "a harmonic of order 2 along joint 3"
-  double odds = 1.0;  ///< against the best explanation, in (0, 1]
+  int joint = -1;           ///< coordinate, or -1
+  std::string description;  ///< "a harmonic of order 2 along joint 3"
+  double odds = 1.0;        ///< against the best explanation, in (0, 1]
 };
 
 /// A cause that was found, and its evidence.
 struct NamedEffect {
   std::string name;
   int joint = -1;
-  std::string words;
+  std::string description;
   std::vector<Estimate> parameters;
-  std::vector<int> rows;  ///< of `outliers`: the rows
-  double size = 0.0;      ///< rms of what it moves beside all else that was fitted, per axis [m]
-  double gain = 0.0;      ///< share of the held-out variance above noise that it removes
-  double held_out_before = 0.0;  ///< rms (3-D) on data not used, without it [m]
+  std::vector<int> rows;         ///< of `outliers`: the rows
+  double size = 0.0;             ///< rms contribution given all else that was fitted, per axis [m]
+  double gain = 0.0;             ///< share of the held-out variance above noise that it explains
+  double held_out_before = 0.0;  ///< rms (3-D) of held-out errors without it [m]
   double held_out_after = 0.0;   ///< with it [m]
-  double p_value = 1.0;          ///< of its F test within the set, corrected for all that was tried
-  std::vector<Cause> rivals;     ///< the best other explanations of what it explains
+  double p_value = 1.0;          ///< of its F test within the set, corrected for multiplicity
+  std::vector<Cause> alternatives;  ///< the best other explanations of the same
 };
 
-/// A dependence of the residuals, which chance may make or not.
+/// What residuals depend on.
+struct Dependence {
+  enum class Kind {
+    kNone,
+    kPosition,  ///< of the tip
+    kJoints,    ///< values of one joint, or of two together
+    kTime,      ///< a drift, or a vibration where `period` is given
+    kOrder,     ///< of the rows, where no times are recorded
+    kApproach,  ///< the direction of a joint's last move
+    kSession,
+    kCovariate,
+  };
+  Kind kind = Kind::kNone;
+  std::vector<int> coordinates = {};  ///< of the joints, from 0, ascending
+  std::optional<double> period = {};  ///< [s]
+  std::string covariate = {};         ///< its name
+  std::optional<int> component = {};  ///< column of a covariate that has several, from 0
+};
+
+/// "joint 3", "joints 2 and 3", "position", "time, period 12.1 s": joints counted from 1.
+std::string to_text(const Dependence& dependence);
+
+/// A lack-of-fit test: a dependence of the residuals, significant or not.
 struct Structure {
-  std::string against;   ///< "joint 3", "position", "time, period 12.1 s", "joints 2 and 3"
-  std::string words;     ///< a sentence
-  double size = 0.0;     ///< rms of it, per axis, noise taken out [m]
-  double share = 0.0;    ///< of the residuals' variance, noise taken out
-  double p_value = 1.0;  ///< corrected for all that were asked
-  bool is_beyond_noise() const { return p_value <= kBeyondNoise; }
+  Dependence dependence;
+  int joint = -1;           ///< coordinate that is in error; -1: the tip is
+  std::string description;  ///< "what moves joint 4 with joints 2 and 3 together"
+  double size = 0.0;        ///< rms per axis, less noise [m]
+  double share = 0.0;       ///< of the residuals' variance, less noise
+  double p_value = 1.0;     ///< corrected for multiplicity
+  bool is_beyond_noise() const { return p_value <= selection::kBeyondNoise; }
 };
 
-/// What was held out, and how well it was foretold.
+/// Cross-validation: what was held out, and the prediction errors.
 struct HeldOut {
-  std::string how;  ///< sentence: what one block is
+  std::string how;  ///< sentence: what one fold is
   int blocks = 0;
   double rms_before = 0.0;  ///< geometry alone, 3-D [m]
   double rms_after = 0.0;   ///< with the named effects, 3-D [m]
   double noise = 0.0;       ///< floor, 3-D [m]
-  double p_value = 1.0;     ///< that the gain is luck, over the blocks
+  double p_value = 1.0;     ///< of the gain, by sign flips of folds
   struct Part {
     std::string name;  ///< "session 2", "point 0", "all"
     int rows = 0;
@@ -78,8 +101,8 @@ struct HeldOut {
     double rms_after = 0.0;
   };
   std::vector<Part> parts;
-  Eigen::VectorXd before;  ///< (N,) error foretold without it, by row [m]; NaN where not held out
-  Eigen::VectorXd after;   ///< (N,)
+  Eigen::VectorXd before;  ///< (N,) prediction error by row, geometry alone [m]; NaN: not held out
+  Eigen::VectorXd after;   ///< (N,) with the effects [m]
 };
 
 }  // namespace bathyal

@@ -8,7 +8,7 @@
 
 namespace bathyal {
 
-/// Measures by which to judge a mesh before use. Angles in radians, lengths in metres.
+/// Measures by which to assess a mesh before use. Angles in radians, lengths in metres.
 struct MeshReport {
   Index vertex_count = 0;
   Index unused_vertices = 0;  ///< of no triangle

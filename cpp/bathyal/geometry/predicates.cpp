@@ -57,11 +57,11 @@ bool to_integers(const std::array<double, N>& values, std::array<std::int64_t, N
   return true;
 }
 
-template <std::size_t N>
-bool fit_in_30_bits(const std::array<std::int64_t, N>& integers) {
+template <int Bits, std::size_t N>
+bool fit_in(const std::array<std::int64_t, N>& integers) {
   std::uint64_t bits = 0;
   for (const std::int64_t integer : integers) bits |= static_cast<std::uint64_t>(std::abs(integer));
-  return bits >> 30U == 0;
+  return bits >> Bits == 0;
 }
 
 /// A sum of products of 126-bit numbers, up to four of them, in two's complement.
@@ -104,7 +104,7 @@ int incircle_of_integers(const std::array<std::int64_t, 6>& v) {
   const auto cross = [&](int i, int j) {
     return Int128{v[i]} * v[j + 1] - Int128{v[j]} * v[i + 1];
   };
-  if (fit_in_30_bits(v)) {  // lifts and crosses below 2^61, the sum below 2^124
+  if (fit_in<30>(v)) {  // lifts and crosses below 2^61, the sum below 2^124
     return sign_of(lift(0) * cross(2, 4) + lift(2) * cross(4, 0) + lift(4) * cross(0, 2));
   }
   Int256 det;
@@ -133,17 +133,16 @@ BigInteger scaled(double value, int unit_exponent) {
 
 /// The last bit's exponent of the coordinate that reaches down furthest; zeros are left out.
 template <std::size_t N>
-int common_unit(const std::array<Point2, N>& points) {
+int common_unit(const std::array<double, N>& coordinates) {
   int exponent = std::numeric_limits<int>::max();
-  for (const Point2& p : points) {
-    if (p.x != 0.0) exponent = std::min(exponent, last_bit_exponent(p.x));
-    if (p.y != 0.0) exponent = std::min(exponent, last_bit_exponent(p.y));
+  for (const double x : coordinates) {
+    if (x != 0.0) exponent = std::min(exponent, last_bit_exponent(x));
   }
   return exponent;
 }
 
 int general_orient2d(const Point2& a, const Point2& b, const Point2& c) {
-  const int unit = common_unit(std::array{a, b, c});
+  const int unit = common_unit(std::array{a.x, a.y, b.x, b.y, c.x, c.y});
   const BigInteger cx = scaled(c.x, unit), cy = scaled(c.y, unit);
   const BigInteger left = (scaled(a.x, unit) - cx) * (scaled(b.y, unit) - cy);
   const BigInteger right = (scaled(a.y, unit) - cy) * (scaled(b.x, unit) - cx);
@@ -151,7 +150,7 @@ int general_orient2d(const Point2& a, const Point2& b, const Point2& c) {
 }
 
 int general_incircle(const Point2& a, const Point2& b, const Point2& c, const Point2& d) {
-  const int unit = common_unit(std::array{a, b, c, d});
+  const int unit = common_unit(std::array{a.x, a.y, b.x, b.y, c.x, c.y, d.x, d.y});
   const BigInteger dx = scaled(d.x, unit), dy = scaled(d.y, unit);
   const BigInteger ax = scaled(a.x, unit) - dx, ay = scaled(a.y, unit) - dy;
   const BigInteger bx = scaled(b.x, unit) - dx, by = scaled(b.y, unit) - dy;
@@ -159,6 +158,20 @@ int general_incircle(const Point2& a, const Point2& b, const Point2& c, const Po
   const BigInteger det = (ax * ax + ay * ay) * (bx * cy - cx * by) +
                          (bx * bx + by * by) * (cx * ay - ax * cy) +
                          (cx * cx + cy * cy) * (ax * by - bx * ay);
+  return det.sign();
+}
+
+int general_orient3d(const Point3& a, const Point3& b, const Point3& c, const Point3& d) {
+  const int unit =
+      common_unit(std::array{a.x, a.y, a.z, b.x, b.y, b.z, c.x, c.y, c.z, d.x, d.y, d.z});
+  const BigInteger dx = scaled(d.x, unit), dy = scaled(d.y, unit), dz = scaled(d.z, unit);
+  const BigInteger ax = scaled(a.x, unit) - dx, ay = scaled(a.y, unit) - dy;
+  const BigInteger bx = scaled(b.x, unit) - dx, by = scaled(b.y, unit) - dy;
+  const BigInteger cx = scaled(c.x, unit) - dx, cy = scaled(c.y, unit) - dy;
+  const BigInteger az = scaled(a.z, unit) - dz, bz = scaled(b.z, unit) - dz;
+  const BigInteger cz = scaled(c.z, unit) - dz;
+  const BigInteger det =
+      az * (bx * cy - cx * by) + bz * (cx * ay - ax * cy) + cz * (ax * by - bx * ay);
   return det.sign();
 }
 
@@ -181,6 +194,22 @@ int incircle(const Point2& a, const Point2& b, const Point2& c, const Point2& d)
                      subtract_exactly(c.x, d.x, e[4]) & subtract_exactly(c.y, d.y, e[5]);
   if (!exact || !to_integers(e, v)) return general_incircle(a, b, c, d);
   return incircle_of_integers(v);
+}
+
+int orient3d(const Point3& a, const Point3& b, const Point3& c, const Point3& d) {
+  std::array<double, 9> e;
+  std::array<std::int64_t, 9> v;
+  const bool exact = subtract_exactly(a.x, d.x, e[0]) & subtract_exactly(a.y, d.y, e[1]) &
+                     subtract_exactly(a.z, d.z, e[2]) & subtract_exactly(b.x, d.x, e[3]) &
+                     subtract_exactly(b.y, d.y, e[4]) & subtract_exactly(b.z, d.z, e[5]) &
+                     subtract_exactly(c.x, d.x, e[6]) & subtract_exactly(c.y, d.y, e[7]) &
+                     subtract_exactly(c.z, d.z, e[8]);
+  constexpr int kBits = 40;  // products of three and the sum of six stay below 2^123
+  if (!exact || !to_integers(e, v) || !fit_in<kBits>(v)) return general_orient3d(a, b, c, d);
+  const auto cross = [&](int i, int j) {
+    return Int128{v[i]} * v[j + 1] - Int128{v[j]} * v[i + 1];
+  };
+  return sign_of(v[2] * cross(3, 6) + v[5] * cross(6, 0) + v[8] * cross(0, 3));
 }
 
 int perturbed_incircle(const Point2& a, const Point2& b, const Point2& c, const Point2& d) {

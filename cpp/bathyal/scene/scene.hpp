@@ -28,6 +28,25 @@ struct NearestPoint {
   Vec3 point = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
 };
 
+/// Where the scene comes closest to a segment.
+struct NearestToSegment {
+  double distance = std::numeric_limits<double>::infinity();  ///< [m]
+  std::int32_t mesh = -1;
+  std::int32_t triangle = -1;
+  double u = 0.0, v = 0.0;
+  Vec3 point = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());  ///< of the scene
+  double fraction = std::numeric_limits<double>::quiet_NaN();  ///< 0 at the start, 1 at the end
+  Vec3 segment_point = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
+};
+
+/// What counts as near a segment.
+struct NearestSegmentOptions {
+  /// What is further away is not found [m], 0 or more; a small one saves time.
+  double within = std::numeric_limits<double>::infinity();
+
+  void check() const;
+};
+
 /// How closely winding numbers are computed.
 struct WindingOptions {
   /// What a far cluster of triangles may be off by at most, as a part of its area / (4π distance²);
@@ -93,6 +112,21 @@ class Scene {
   /// \throw std::invalid_argument for a point that is not finite.
   NearestPoint nearest(const Vec3& point) const;
   std::vector<NearestPoint> nearest(PointView points, int num_threads = 0) const;
+
+  /// Where all triangles come closest to the straight segment from `start` to `end`, decided in
+  /// double. The distance is exactly 0, and both points are one, where the segment meets a
+  /// triangle: borders and ends included, in its plane too, decided with exact signs. A triangle
+  /// without area counts as the segment or point that it is; a segment without length is as by
+  /// `nearest`. Where nothing lies within `options.within`, the distance is infinite. \throw
+  /// std::invalid_argument for an end that is not finite or further out than 10²⁵ m.
+  NearestToSegment nearest_segment(const Vec3& start, const Vec3& end,
+                                   const NearestSegmentOptions& options = {}) const;
+
+  /// The same for (N, 3) starts and ends; one start serves all ends.
+  /// \throw std::invalid_argument that names the first row at fault, or when the rows do not match.
+  std::vector<NearestToSegment> nearest_segments(PointView start, PointView end,
+                                                 const NearestSegmentOptions& options = {},
+                                                 int num_threads = 0) const;
 
   /// Winding number of each point: the solid angle of all triangles over 4π (Jacobson, Kavan,
   /// Sorkine-Hornung 2013, Robust inside-outside segmentation using generalized winding numbers).

@@ -6,13 +6,13 @@
 #include <map>
 #include <numeric>
 
-namespace bathyal {
+namespace bathyal::selection {
 namespace {
 
-/// Fewer points than this, and to hold one out would hold out too much.
-constexpr int kLeastPoints = 6;
-/// Of each block, where only the order of a list is known: a list is often a sweep, one block of
-/// which would hold out a region that no other row comes near.
+/// With fewer groups, each would be too large a share to hold out.
+constexpr int kMinGroups = 6;
+/// Of each fold, where only the order of a list is known: a list is often a sweep, and one block of
+/// it covers a region that no other row is near.
 constexpr std::size_t kPieces = 8;
 
 class Unions {
@@ -49,10 +49,10 @@ int count_of(const std::vector<int>& numbers) {
 
 }  // namespace
 
-std::vector<int> find_twins(const Eigen::Ref<const Eigen::MatrixXd>& q, double near) {
+std::vector<int> find_replicates(const Eigen::Ref<const Eigen::MatrixXd>& q, double near) {
   const Index n = q.rows();
   Unions unions(static_cast<std::size_t>(n));
-  // Sorted along the column that spreads most: twins lie close together there.
+  // Sorted along the column of largest range: replicates are close together there.
   Eigen::VectorXd spread(q.cols());
   for (Index c = 0; c < q.cols(); ++c) spread[c] = q.col(c).maxCoeff() - q.col(c).minCoeff();
   Index widest = 0;
@@ -76,33 +76,34 @@ std::vector<int> find_twins(const Eigen::Ref<const Eigen::MatrixXd>& q, double n
 
 namespace {
 
-/// With `by_point`, whole points are in one block too.
-Blocks cut(const Units& units, int wanted, bool by_point) {
-  const auto n = static_cast<std::size_t>(units.count());
-  Blocks out;
-  out.of.assign(n, 0);
-  std::vector<int> key = units.twin;
-  if (by_point) {
-    // What is held out together must not share a point that the model leaves free.
+/// With `by_group`, whole groups share a fold too.
+Folds cut(const Observations& observations, int wanted, bool by_group) {
+  const auto n = static_cast<std::size_t>(observations.count());
+  Folds out;
+  out.fold_of.assign(n, 0);
+  std::vector<int> key = observations.replicate;
+  if (by_group) {
+    // Folds must not share an unknown of the model.
     Unions unions(n);
-    std::map<int, int> first_of_point, first_twin;
+    std::map<int, int> first_of_group, first_replicate;
     for (int i = 0; i < static_cast<int>(n); ++i) {
-      if (units.point[i] >= 0)
-        unions.join(i, first_of_point.emplace(units.point[i], i).first->second);
-      unions.join(i, first_twin.emplace(units.twin[i], i).first->second);
+      if (observations.group[i] >= 0)
+        unions.join(i, first_of_group.emplace(observations.group[i], i).first->second);
+      unions.join(i, first_replicate.emplace(observations.replicate[i], i).first->second);
     }
     for (int i = 0; i < static_cast<int>(n); ++i) key[i] = unions.root(i);
-    out.how = "whole touched points were held out";
+    out.description = "whole touched points were held out";
   }
-  // Groups in the order of their first unit, session by session; points that are touched in several
-  // sessions are of none.
-  const auto session_of = [&](int i) { return by_point ? 0 : units.session[i]; };
+  // Keys in the order of their first observation, session by session; groups that occur in several
+  // sessions belong to none.
+  const auto session_of = [&](int i) { return by_group ? 0 : observations.session[i]; };
   std::vector<int> order(n);
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
-    return std::pair(session_of(a), units.order[a]) < std::pair(session_of(b), units.order[b]);
+    return std::pair(session_of(a), observations.order[a]) <
+           std::pair(session_of(b), observations.order[b]);
   });
-  // What repeats in several sessions counts in that where it came first.
+  // A key that occurs in several sessions counts in its first one.
   std::map<int, std::size_t> size_in_session, before;
   std::map<int, std::size_t> size_of_key;
   std::map<int, int> session_of_key;
@@ -110,45 +111,48 @@ Blocks cut(const Units& units, int wanted, bool by_point) {
     ++size_in_session[session_of_key.emplace(key[i], session_of(i)).first->second];
     ++size_of_key[key[i]];
   }
-  const auto blocks = std::min(static_cast<std::size_t>(wanted), n);
+  const auto folds = std::min(static_cast<std::size_t>(wanted), n);
   std::map<int, int> block_of_key;
   std::size_t dealt = 0;
   for (const int i : order) {
     if (block_of_key.contains(key[i])) continue;
     std::size_t& place = before[session_of(i)];
     const std::size_t size = size_in_session[session_of(i)];
-    // A session of fewer units than blocks has none for some: the next one goes on there.
-    const std::size_t pieces = units.timed ? 1 : std::clamp(size / blocks, std::size_t{1}, kPieces);
-    const std::size_t block =
-        size < blocks ? dealt++ % blocks
-                      : std::min(place * blocks * pieces / size, blocks * pieces - 1) % blocks;
-    block_of_key[key[i]] = static_cast<int>(block);
+    // A session of fewer observations than folds misses the last ones: the next session goes on
+    // there.
+    const std::size_t pieces =
+        observations.timed ? 1 : std::clamp(size / folds, std::size_t{1}, kPieces);
+    const std::size_t fold =
+        size < folds ? dealt++ % folds
+                     : std::min(place * folds * pieces / size, folds * pieces - 1) % folds;
+    block_of_key[key[i]] = static_cast<int>(fold);
     place += size_of_key[key[i]];
   }
   std::vector<int> raw(n);
   for (std::size_t i = 0; i < n; ++i) raw[i] = block_of_key[key[i]];
-  out.of = counted_up(raw);
-  out.count = count_of(out.of);
-  if (out.how.empty()) {
-    out.how = std::to_string(out.count) +
-              (units.timed ? " blocks of poses that follow one another"
-                           : " blocks of short runs of poses") +
-              " were held out in turn" +
-              (count_of(units.session) > 1 ? ", each with its share of every session" : "");
+  out.fold_of = counted_up(raw);
+  out.count = count_of(out.fold_of);
+  if (out.description.empty()) {
+    out.description =
+        std::to_string(out.count) +
+        (observations.timed ? " blocks of poses that follow one another"
+                            : " blocks of short runs of poses") +
+        " were held out in turn" +
+        (count_of(observations.session) > 1 ? ", each with its share of every session" : "");
   }
   return out;
 }
 
 }  // namespace
 
-Blocks make_blocks(const Units& units, int wanted) {
-  const int points = units.point.empty() ? 0 : count_of(units.point);
-  if (points >= kLeastPoints) {
-    // Touches of planes, or twins that join points, may leave too few to hold out.
-    Blocks whole = cut(units, wanted, true);
-    if (2 * whole.count >= kLeastPoints) return whole;
+Folds make_folds(const Observations& observations, int wanted) {
+  const int points = observations.group.empty() ? 0 : count_of(observations.group);
+  if (points >= kMinGroups) {
+    // Touches of planes, or replicates that join groups, may leave too few folds.
+    Folds whole = cut(observations, wanted, true);
+    if (2 * whole.count >= kMinGroups) return whole;
   }
-  return cut(units, wanted, false);
+  return cut(observations, wanted, false);
 }
 
-}  // namespace bathyal
+}  // namespace bathyal::selection

@@ -6,26 +6,26 @@
 
 #include "bathyal/selection/model.hpp"
 
-namespace bathyal {
+namespace bathyal::selection {
 
-inline constexpr int kLeastBlocks = 3;  ///< fewer hold nothing out
+inline constexpr int kMinFolds = 3;  ///< fewer allow no cross-validation
 
-/// Which units are held out together: (units,) block numbers 0 … count - 1.
-struct Blocks {
-  std::vector<int> of;
+/// Which observations are held out together: (observations,) fold numbers 0 … count - 1.
+struct Folds {
+  std::vector<int> fold_of;
   int count = 0;
-  std::string how;  ///< a sentence
+  std::string description;  ///< a sentence
 };
 
-/// Positions of rows `q` that lie within `near` of one another in every column, as numbers that
-/// near-twins share; twins of twins are twins.
-std::vector<int> find_twins(const Eigen::Ref<const Eigen::MatrixXd>& q, double near);
+/// Numbers that replicates share: rows of `q` within `near` of one another in every column, by
+/// single linkage.
+std::vector<int> find_replicates(const Eigen::Ref<const Eigen::MatrixXd>& q, double near);
 
-/// `wanted` blocks of units that follow one another in time, or of runs of units from all over a
-/// list without times, cut inside each session alike, twins always in one block; by points, where
-/// units have them and there are enough. Sessions of fewer units than blocks are dealt out over
-/// them one after another. Fewer blocks where there are few units; one, which cannot be held out,
-/// where twins chain everything together.
-Blocks make_blocks(const Units& units, int wanted = 10);
+/// `wanted` folds: blocks of observations consecutive in time, or short runs spread over a list
+/// without times, cut in each session alike. Replicates share a fold. Folds are whole groups where
+/// observations have groups and there are enough. Sessions of fewer observations than folds are
+/// dealt out over the folds. Fewer folds where there are few observations; a single one, which
+/// cannot be held out, where replicates link everything.
+Folds make_folds(const Observations& observations, int wanted = 10);
 
-}  // namespace bathyal
+}  // namespace bathyal::selection

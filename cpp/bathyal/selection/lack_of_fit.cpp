@@ -8,115 +8,119 @@
 #include "bathyal/selection/internal/cross_validation.hpp"
 #include "bathyal/selection/internal/subset_search.hpp"
 
-namespace bathyal {
+namespace bathyal::selection {
 namespace {
 
-constexpr int kMostRounds = 4;
-constexpr std::size_t kMostProbes = 6;  ///< that are asked at once
-constexpr std::size_t kManyNames = 6;
+constexpr int kMaxRounds = 4;
+constexpr std::size_t kMaxLackOfFitTerms = 6;  ///< tested at once
+constexpr std::size_t kManyTerms = 6;
 
-bool contains(const std::vector<int>& forms, int form) {
-  return std::find(forms.begin(), forms.end(), form) != forms.end();
+bool contains(const std::vector<int>& terms, int term) {
+  return std::find(terms.begin(), terms.end(), term) != terms.end();
 }
 
-std::vector<int> joined(std::vector<int> forms, const std::vector<int>& more) {
-  forms.insert(forms.end(), more.begin(), more.end());
-  return forms;
+std::vector<int> joined(std::vector<int> terms, const std::vector<int>& more) {
+  terms.insert(terms.end(), more.begin(), more.end());
+  return terms;
 }
 
 }  // namespace
 
-std::vector<int> Standing::all() const { return joined(names, probes); }
+std::vector<int> ActiveSet::all() const { return joined(terms, lack_of_fit); }
 
-BeyondNames::BeyondNames(Vantage& vantage, const std::vector<int>& candidates, const Blocks& blocks,
-                         const Eigen::VectorXd& trust, std::function<void()> still_at_it)
-    : vantage_(vantage),
+LackOfFitCheck::LackOfFitCheck(WorkingPoint& working_point, const std::vector<int>& candidates,
+                               const Folds& folds, const Eigen::VectorXd& weights,
+                               std::function<void()> check_stop)
+    : working_point_(working_point),
       candidates_(candidates),
-      blocks_(blocks),
-      trust_(trust),
-      still_at_it_(std::move(still_at_it)) {}
+      folds_(folds),
+      weights_(weights),
+      check_stop_(std::move(check_stop)) {}
 
-Standing BeyondNames::look(const std::vector<int>& names) {
-  Standing standing{names, {}};
-  for (int round = 0; round < kMostRounds; ++round) {
-    still_at_it_();
-    without_place_ = beyond_noise(standing);
-    // So many names describe more than they explain, and structure is told beside them.
-    if (standing.names.size() > kManyNames) break;
-    const std::vector<int> asked = foretelling(standing, without_place_);
-    if (asked.empty()) break;
-    std::erase_if(without_place_, [&](int form) { return contains(asked, form); });
-    const Pool pool = vantage_.pool_of(joined(joined(candidates_, standing.probes), asked));
-    const std::vector<int> set = standing.all().empty()
-                                     ? find_best_set(pool)
-                                     : improve_set(pool, members_of(pool, standing.all()));
-    Standing next;
-    for (const int form : forms_of(pool, set)) {
-      (vantage_.form(form).probe ? next.probes : next.names).push_back(form);
+ActiveSet LackOfFitCheck::select(const std::vector<int>& terms) {
+  ActiveSet active{terms, {}};
+  for (int round = 0; round < kMaxRounds; ++round) {
+    check_stop_();
+    unplaced_ = significant(active);
+    // So many terms approximate anything: structure is reported in addition to them.
+    if (active.terms.size() > kManyTerms) break;
+    const std::vector<int> tested = predictive(active, unplaced_);
+    if (tested.empty()) break;
+    std::erase_if(unplaced_, [&](int term) { return contains(tested, term); });
+    const CandidateSet candidates =
+        working_point_.candidate_set(joined(joined(candidates_, active.lack_of_fit), tested));
+    const std::vector<int> set =
+        active.all().empty() ? beam_search(candidates)
+                             : stepwise_search(candidates, members_of(candidates, active.all()));
+    ActiveSet next;
+    for (const int term : terms_of(candidates, set)) {
+      (working_point_.term(term).lack_of_fit ? next.lack_of_fit : next.terms).push_back(term);
     }
-    if (next.probes == standing.probes) break;
-    if (next.names != standing.names && !holds(next, standing)) {
-      without_place_ = joined(without_place_, asked);
+    if (next.lack_of_fit == active.lack_of_fit) break;
+    if (next.terms != active.terms && !is_improvement(next, active)) {
+      unplaced_ = joined(unplaced_, tested);
       break;
     }
-    standing = std::move(next);
+    active = std::move(next);
   }
-  return standing;
+  return active;
 }
 
-std::vector<int> BeyondNames::beyond_noise(const Standing& standing) const {
-  std::vector<int> probes;
-  for (const Dependence& d : vantage_.dependences(vantage_.ground(standing.all()))) {
-    if (d.p > kBeyondNoise || probes.size() == kMostProbes) break;
-    probes.push_back(d.form);
+std::vector<int> LackOfFitCheck::significant(const ActiveSet& active) const {
+  std::vector<int> found;
+  for (const LackOfFit& d : working_point_.lack_of_fit(working_point_.nuisance(active.all()))) {
+    if (d.p > kBeyondNoise || found.size() == kMaxLackOfFitTerms) break;
+    found.push_back(d.term);
   }
-  return probes;
+  return found;
 }
 
-/// Structure takes the place of names only where it foretells, as they must.
-std::vector<int> BeyondNames::foretelling(const Standing& standing,
-                                          const std::vector<int>& probes) {
-  const FormsHeldOut held(vantage_, joined(standing.all(), probes), blocks_);
-  const double without = held.density_of(standing.all());
+/// Lack-of-fit terms replace others only where they predict held-out rows, as those must.
+std::vector<int> LackOfFitCheck::predictive(const ActiveSet& active,
+                                            const std::vector<int>& lack_of_fit_terms) {
+  const BlockCrossValidation held(working_point_, joined(active.all(), lack_of_fit_terms), folds_);
+  const double without = held.log_predictive_density_of(active.all());
   std::vector<int> out;
-  for (const int probe : probes) {
-    if (held.density_of(joined(standing.all(), {probe})) > without) out.push_back(probe);
+  for (const int term : lack_of_fit_terms) {
+    if (held.log_predictive_density_of(joined(active.all(), {term})) > without) out.push_back(term);
   }
   return out;
 }
 
-/// What a search promised must hold where the fit ends; else the subject returns.
-bool BeyondNames::holds(const Standing& next, const Standing& standing) {
-  const double score = vantage_.score_of(standing.all(), trust_);
-  const double foretold = foretold_by(standing.all());
-  const auto place = vantage_.place();
-  vantage_.settle(next.names);
-  if (vantage_.score_of(next.all(), trust_) > score && foretold_by(next.all()) > foretold) {
+/// The gain of a search, made at one linearization, must persist after the fit; else the model is
+/// restored.
+bool LackOfFitCheck::is_improvement(const ActiveSet& next, const ActiveSet& active) {
+  const double score = working_point_.score(active.all(), weights_);
+  const double density = log_predictive_density(active.all());
+  const auto checkpoint = working_point_.save();
+  working_point_.fit(next.terms);
+  if (working_point_.score(next.all(), weights_) > score &&
+      log_predictive_density(next.all()) > density) {
     return true;
   }
-  vantage_.return_to(*place);
+  working_point_.restore(*checkpoint);
   return false;
 }
 
-/// ln of how likely held-out rows are, comparable from place to place.
-double BeyondNames::foretold_by(const std::vector<int>& forms) const {
-  const FormsHeldOut held(vantage_, forms, blocks_);
-  return held.density() - held.rows() * std::log(vantage_.subject().noise());
+/// Of held-out rows, comparable between working points.
+double LackOfFitCheck::log_predictive_density(const std::vector<int>& terms) const {
+  const BlockCrossValidation held(working_point_, terms, folds_);
+  return held.log_predictive_density() - held.rows() * std::log(working_point_.model().noise());
 }
 
-std::vector<Dependence> BeyondNames::left_by(const Standing& standing, bool refuted) const {
-  std::vector<Dependence> out;
-  std::vector<int> all = standing.all();
-  for (int round = 0; round < kMostRounds; ++round) {
-    const std::vector<Dependence> there = vantage_.dependences(vantage_.ground(all));
-    const auto next = std::find_if(there.begin(), there.end(), [&](const Dependence& d) {
-      return d.p <= kBeyondNoise && (refuted || (contains(without_place_, d.form) && d.gain > 0.0));
+std::vector<LackOfFit> LackOfFitCheck::remaining(const ActiveSet& active, bool refuted) const {
+  std::vector<LackOfFit> out;
+  std::vector<int> all = active.all();
+  for (int round = 0; round < kMaxRounds; ++round) {
+    const std::vector<LackOfFit> there = working_point_.lack_of_fit(working_point_.nuisance(all));
+    const auto next = std::find_if(there.begin(), there.end(), [&](const LackOfFit& d) {
+      return d.p <= kBeyondNoise && (refuted || (contains(unplaced_, d.term) && d.gain > 0.0));
     });
     if (next == there.end()) break;
     out.push_back(*next);
-    all.push_back(next->form);
+    all.push_back(next->term);
   }
   return out;
 }
 
-}  // namespace bathyal
+}  // namespace bathyal::selection

@@ -7,47 +7,50 @@
 #include "bathyal/selection/folds.hpp"
 #include "bathyal/selection/working_point.hpp"
 
-namespace bathyal {
+namespace bathyal::selection {
 
-/// Corrected p-value up to which structure is beyond noise, wherever that is asked.
+/// Corrected p-value up to which structure is beyond noise; the one such threshold.
 inline constexpr double kBeyondNoise = 0.002;
 
-/// Names, and probes of structure beside them.
-struct Standing {
-  std::vector<int> names;
-  std::vector<int> probes;
+/// Terms of the library, and lack-of-fit terms that were selected with them.
+struct ActiveSet {
+  std::vector<int> terms;
+  std::vector<int> lack_of_fit;
   std::vector<int> all() const;
 };
 
-/// Structure that names leave: probes take part in the search, and may show that a name was only
-/// the nearest thing to what is there.
-class BeyondNames {
+/// Lack of fit of a selection: lack-of-fit terms take part in the search, and may replace a term
+/// that was only the nearest approximation to the structure in the residuals.
+class LackOfFitCheck {
  public:
-  /// All must outlive it, and `candidates` are the forms that a name may give way to.
-  /// `still_at_it` is called often; it may throw to stop.
-  BeyondNames(Vantage& vantage, const std::vector<int>& candidates, const Blocks& blocks,
-              const Eigen::VectorXd& trust, std::function<void()> still_at_it);
+  /// All references must outlive it. `candidates` are the terms that may replace a selected one.
+  /// `check_stop` is called often; it may throw to stop.
+  LackOfFitCheck(WorkingPoint& working_point, const std::vector<int>& candidates,
+                 const Folds& folds, const Eigen::VectorXd& weights,
+                 std::function<void()> check_stop);
 
-  /// What stands once structure has taken part; the subject stands at its names.
-  Standing look(const std::vector<int>& names);
+  /// The active set after a search that includes lack-of-fit terms; the model is fitted with its
+  /// `terms`.
+  ActiveSet select(const std::vector<int>& terms);
 
-  /// Structure beside what stands, likeliest first, each beside those before it: what took no
-  /// name's place, where it is worth its freedom. Where names were `refuted` since, what they stood
-  /// for is still there: all that is beyond noise.
-  std::vector<Dependence> left_by(const Standing& standing, bool refuted) const;
+  /// Lack of fit that remains, most significant first, each given those before it: terms that did
+  /// not replace a selected one and whose evidence exceeds their penalty. Where terms were
+  /// `refuted` since, the structure that they described is still there: then all that is beyond
+  /// noise.
+  std::vector<LackOfFit> remaining(const ActiveSet& active, bool refuted) const;
 
  private:
-  std::vector<int> beyond_noise(const Standing& standing) const;
-  std::vector<int> foretelling(const Standing& standing, const std::vector<int>& probes);
-  bool holds(const Standing& next, const Standing& standing);
-  double foretold_by(const std::vector<int>& forms) const;
+  std::vector<int> significant(const ActiveSet& active) const;
+  std::vector<int> predictive(const ActiveSet& active, const std::vector<int>& lack_of_fit_terms);
+  bool is_improvement(const ActiveSet& next, const ActiveSet& active);
+  double log_predictive_density(const std::vector<int>& terms) const;
 
-  Vantage& vantage_;
+  WorkingPoint& working_point_;
   const std::vector<int>& candidates_;
-  const Blocks& blocks_;
-  const Eigen::VectorXd& trust_;
-  std::function<void()> still_at_it_;
-  std::vector<int> without_place_;  ///< probes beyond noise that take no name's place
+  const Folds& folds_;
+  const Eigen::VectorXd& weights_;
+  std::function<void()> check_stop_;
+  std::vector<int> unplaced_;  ///< lack-of-fit terms beyond noise that replace no term
 };
 
-}  // namespace bathyal
+}  // namespace bathyal::selection

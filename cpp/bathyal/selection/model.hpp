@@ -7,100 +7,101 @@
 #include <string>
 #include <vector>
 
-// What diagnosis knows of a model and its measurement: rows, columns, names and groups. An arm is
-// one such subject; sonars and vehicles may be others. For use inside the room.
+// The interface between term selection and a model with its measurement: rows, columns, candidate
+// terms, groups of observations. An arm is one such model; sonars and vehicles may be others.
 
-namespace bathyal {
+namespace bathyal::selection {
 
 using Eigen::Index;
 
-/// A way in which the model may be wrong: columns that change its residuals together.
-struct Form {
-  std::string effect;  ///< "joint_harmonic"; of a probe: what the structure is against
+/// A candidate term, one way in which the model may be wrong: columns that enter or leave a set
+/// together.
+struct Term {
+  std::string effect;  ///< "joint_harmonic"; of a lack-of-fit term: what the residuals depend on
   int joint = -1;
-  std::string cause;    ///< forms of one cause are words for one thing
-  std::string words;    ///< for people
-  double trials = 1.0;  ///< how many forms of its effect are tried beside it, itself counted
-  bool plain = false;   ///< among its neighbours of a scan, the one to take when they fit alike
-  bool shares = false;  ///< may stand beside others of its cause that it is not made of
-  bool moves = false;   ///< along its scan, with every fit
-  bool probe = false;   ///< shows that structure is there, and is no cause
+  std::string alias_group;    ///< terms of one group describe the same physical cause
+  std::string description;    ///< for people
+  double multiplicity = 1.0;  ///< terms of its effect that are tried, itself included
+  bool preferred = false;     ///< taken where it fits as well as its neighbours in a scan
+  bool combinable = false;    ///< may be selected with others of its alias group, if independent
+  bool continuous = false;    ///< its setting is refined by every fit
+  bool lack_of_fit = false;   ///< tests for structure, and is no cause
 };
 
-/// What makes the noise of some rows larger than that of others, and one with another.
-struct NoiseForm {
+/// A source of heteroscedastic, correlated noise.
+struct VarianceComponent {
   std::string effect;
-  std::string words;
+  std::string description;
   std::string parameter;  ///< standard deviation of its sources
   std::string unit;
-  double trials = 1.0;
-  Eigen::MatrixXd loads;  ///< (noise rows, k) what sources of their own, k in each unit, do [m]
-  double known = 0.0;     ///< the parameter, where the record itself tells it; else 0
+  double multiplicity = 1.0;
+  Eigen::MatrixXd loads;  ///< (noise rows, k) d row / d source, k sources an observation [m]
+  double known = 0.0;     ///< the parameter, where the record itself gives it; else 0
 };
 
-/// One measured thing (a pose) and what is known of it beside the model.
-struct Units {
-  std::vector<int> order;    ///< place of each in time
-  bool timed = true;         ///< when each was measured is known; else `order` is that of a list
-  std::vector<int> twin;     ///< units of one number are near-twins and are held out together
-  std::vector<int> session;  ///< 0 …; all 0 when there is but one
-  std::vector<int> point;    ///< the touched point, 0 …, or -1
+/// The measured items (poses), and what is known of each apart from the model.
+struct Observations {
+  std::vector<int> order;      ///< rank of each in time
+  bool timed = true;           ///< the times are known; else `order` is that of the list
+  std::vector<int> replicate;  ///< observations of one number are replicates, held out together
+  std::vector<int> session;    ///< 0 …; all 0 when there is but one
+  std::vector<int> group;      ///< 0 …, sharing an unknown (a touched point); -1: none
   Index count() const { return static_cast<Index>(order.size()); }
 };
 
-/// Where a model stands: what it leaves, and what its own unknowns can do about it.
+/// A model at its current estimate: residual and derivatives by its own parameters.
 struct Linearization {
-  Eigen::VectorXd misfit;  ///< (M,) measured less modelled by the base model, in units of noise
-  Eigen::MatrixXd base;    ///< (M, b) d modelled / d unknowns of the base model
-  std::vector<int> unit;   ///< (M,) the unit of each row; -1: a row that is always known
-  Index noise_rows = 0;    ///< rows, from the first, that noise forms speak of
-  double lost = 0.0;       ///< degrees of freedom that the rows lose beside the columns
+  Eigen::VectorXd residual;      ///< (M,) measured less base model, in units of noise
+  Eigen::MatrixXd jacobian;      ///< (M, b) d modelled / d parameters of the base model
+  std::vector<int> observation;  ///< (M,) of each row; -1: a row that is never held out
+  Index noise_rows = 0;          ///< rows, from the first, that variance components apply to
+  double constrained_dof = 0.0;  ///< rows that carry no degree of freedom
 };
 
-/// Trust in a unit that is left out: its rows stay, and weigh nothing.
-inline constexpr double kLeftOut = 1e-12;
+/// Weight of an excluded observation: its rows stay in place and count for nothing.
+inline constexpr double kExcludedWeight = 1e-12;
 
-/// A model that may be wrong, beside what was measured.
-class Subject {
+/// A model that may be wrong, with its measurement.
+class Model {
  public:
-  virtual ~Subject() = default;
-  virtual const Units& units() const = 0;
+  virtual ~Model() = default;
+  virtual const Observations& observations() const = 0;
 
   /// In a fixed order; those of a scan are in `scans` too.
-  virtual const std::vector<Form>& forms() const = 0;
-  /// Positions in `forms` of families along one number (orders, moments, periods), in its order.
+  virtual const std::vector<Term>& terms() const = 0;
+  /// Indices of terms that differ in one setting only (order, moment, period), by its value.
   virtual const std::vector<std::vector<int>>& scans() const = 0;
-  virtual const std::vector<NoiseForm>& noise_forms() const = 0;
+  virtual const std::vector<VarianceComponent>& variance_components() const = 0;
 
-  /// Forms between `form` of a scan and its neighbours there, made on demand, or near it; empty
+  /// New terms between `term` of a scan and its neighbours, made on demand, or terms near it; empty
   /// where there are none.
-  virtual std::vector<int> finer(int form) = 0;
+  virtual std::vector<int> refine(int term) = 0;
 
-  /// (M, k) of each of `forms`: d modelled / d parameters where the model stands, each parameter in
-  /// units of the largest size that is plausible of it: that is the standard deviation of what is
-  /// thought of it before the data. Safe to call from several threads.
-  virtual std::vector<Eigen::MatrixXd> columns(std::span<const int> forms) const = 0;
+  /// (M, k) of each term: d modelled / d parameters at the current estimate, each parameter in
+  /// units of the largest plausible size, which is its prior standard deviation. Safe to call from
+  /// several threads.
+  virtual std::vector<Eigen::MatrixXd> columns(std::span<const int> terms) const = 0;
   virtual const Linearization& linearization() const = 0;
 
-  /// Fits the base model together with `forms` and stands there. A scanned form may move along its
-  /// scan.
-  virtual void settle(const std::vector<int>& forms) = 0;
+  /// Fits the base model together with `terms`, which become the active set. The setting of a
+  /// continuous term is fitted too.
+  virtual void fit(const std::vector<int>& terms) = 0;
 
-  /// Where it stands, to come back to without a fit.
-  struct Place {
-    virtual ~Place() = default;
+  /// An estimate that can be restored without a fit.
+  struct Checkpoint {
+    virtual ~Checkpoint() = default;
   };
-  virtual std::shared_ptr<const Place> place() const = 0;
-  virtual void return_to(const Place& place) = 0;
+  virtual std::shared_ptr<const Checkpoint> save() const = 0;
+  virtual void restore(const Checkpoint& checkpoint) = 0;
 
-  /// Factors on the weight (1 / variance) of each unit; 0 leaves it out. Counts from the next
-  /// `settle` on.
-  virtual void set_trust(const Eigen::VectorXd& trust) = 0;
-  /// (noise forms,) squares of their parameters over that of the noise which is the same for all
-  /// [per m²]: rows weigh by what all of it makes of their errors. The same.
-  virtual void set_noise_forms(const Eigen::VectorXd& ratios) = 0;
-  /// Standard deviation of a position row where the model stands [m].
+  /// Factors on the weight (1 / variance) of each observation; 0 excludes it. Takes effect with the
+  /// next `fit`.
+  virtual void set_observation_weights(const Eigen::VectorXd& weights) = 0;
+  /// (components,) their variances over that of the homoscedastic noise [per m²], from which the
+  /// covariance of each row's errors follows. Takes effect with the next `fit`.
+  virtual void set_variance_ratios(const Eigen::VectorXd& ratios) = 0;
+  /// Standard deviation of a position row at the current estimate [m].
   virtual double noise() const = 0;
 };
 
-}  // namespace bathyal
+}  // namespace bathyal::selection

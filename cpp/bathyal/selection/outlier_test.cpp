@@ -6,34 +6,35 @@
 
 #include "bathyal/estimation/f_distribution.hpp"
 
-namespace bathyal {
+namespace bathyal::selection {
 namespace {
 
-/// Variance in units of the noise: what exact data leave lies below, and has no outliers.
+/// Variance in units of the noise below which residuals are rounding, and have no outliers.
 constexpr double kRounding = 1e-6;
-constexpr double kMostOdd = 0.2;  ///< share of units: more are no exception
+constexpr double kMaxOutliers = 0.2;  ///< share of observations: more are no exception
 
-std::vector<std::vector<Index>> rows_of_units(const Linearization& at, Index units) {
-  std::vector<std::vector<Index>> rows(static_cast<std::size_t>(units));
-  for (Index r = 0; r < at.misfit.size(); ++r) {
-    if (at.unit[r] >= 0) rows[at.unit[r]].push_back(r);
+std::vector<std::vector<Index>> rows_of_observations(const Linearization& at, Index observations) {
+  std::vector<std::vector<Index>> rows(static_cast<std::size_t>(observations));
+  for (Index r = 0; r < at.residual.size(); ++r) {
+    if (at.observation[r] >= 0) rows[at.observation[r]].push_back(r);
   }
   return rows;
 }
 
-/// What the rows show, turned within each unit so that a noise form makes them independent.
+/// Squared residuals, rotated within each observation so that a variance component makes them
+/// independent.
 struct Spread {
-  std::vector<int> unit;
-  std::vector<double> squares;   ///< leverage taken out
-  std::vector<double> variance;  ///< of the form, relative to the noise
+  std::vector<int> observation;
+  std::vector<double> squares;   ///< corrected for leverage
+  std::vector<double> variance;  ///< by the component, relative to the noise
   void add(int of, double square, double by_form) {
-    unit.push_back(of);
+    observation.push_back(of);
     squares.push_back(square);
     variance.push_back(by_form);
   }
 };
 
-/// -2 log likelihood at variances 1 + θ v, the common factor at its best.
+/// -2 log likelihood at variances 1 + θ v, profiled over the common factor.
 double deviance(const Spread& s, double theta) {
   double logs = 0.0, sum = 0.0;
   for (std::size_t i = 0; i < s.squares.size(); ++i) {
@@ -45,11 +46,11 @@ double deviance(const Spread& s, double theta) {
   return logs + rows * std::log(std::max(sum / rows, 1e-300));
 }
 
-/// θ of the least deviance, by golden sections of ln θ; 0 when nothing is better than that.
+/// θ of least deviance, by golden-section search in ln θ; 0 when none is better than that.
 double best_theta(const Spread& s) {
   constexpr double kGolden = 0.6180339887498949;
   double low = std::log(1e-6), high = std::log(1e6);
-  // One minimum inside is not certain: the best of a coarse grid is what is narrowed.
+  // The deviance may have several minima: the search starts from the best point of a coarse grid.
   constexpr int kSteps = 60;
   int best = 0;
   double least = deviance(s, std::exp(low));
@@ -76,11 +77,11 @@ double best_theta(const Spread& s) {
   return deviance(s, theta) < deviance(s, 0.0) ? theta : 0.0;
 }
 
-Spread some_of(const Spread& all, const std::vector<int>& block, int wanted, bool inside) {
+Spread some_of(const Spread& all, const std::vector<int>& fold, int wanted, bool inside) {
   Spread out;
-  for (std::size_t i = 0; i < all.unit.size(); ++i) {
-    if ((block[all.unit[i]] == wanted) == inside) {
-      out.add(all.unit[i], all.squares[i], all.variance[i]);
+  for (std::size_t i = 0; i < all.observation.size(); ++i) {
+    if ((fold[all.observation[i]] == wanted) == inside) {
+      out.add(all.observation[i], all.squares[i], all.variance[i]);
     }
   }
   return out;
@@ -103,21 +104,22 @@ double log_likelihood(const Spread& s, double theta, double scale) {
   return sum;
 }
 
-/// Rows of units that count.
-Spread spread_of(const NoiseForm& form, const Linearization& at, const Eigen::MatrixXd& basis,
-                 const Eigen::VectorXd& trust, double noise) {
-  constexpr double kLeastFree = 1e-3;  // of a row that the model all but explains by itself
-  const Eigen::VectorXd left = at.misfit - basis * (basis.transpose() * at.misfit);
-  const std::vector<std::vector<Index>> rows = rows_of_units(at, trust.size());
+/// Rows of observations that are not excluded.
+Spread spread_of(const VarianceComponent& term, const Linearization& at,
+                 const Eigen::MatrixXd& basis, const Eigen::VectorXd& weights, double noise) {
+  constexpr double kLeastFree = 1e-3;  // 1 - leverage of a row that the model all but determines
+  const Eigen::VectorXd unexplained_residual =
+      at.residual - basis * (basis.transpose() * at.residual);
+  const std::vector<std::vector<Index>> rows = rows_of_observations(at, weights.size());
   Spread out;
-  for (Index u = 0; u < trust.size(); ++u) {
-    if (!(trust[u] > 0.0)) continue;
+  for (Index u = 0; u < weights.size(); ++u) {
+    if (!(weights[u] > 0.0)) continue;
     std::vector<Index> own = rows[static_cast<std::size_t>(u)];
     std::erase_if(own, [&](Index row) { return row >= at.noise_rows; });
-    const Eigen::MatrixXd loads = form.loads(own, Eigen::all) / noise;
+    const Eigen::MatrixXd loads = term.loads(own, Eigen::all) / noise;
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(loads * loads.transpose());
     const Eigen::MatrixXd turn = eigen.eigenvectors().transpose();
-    const Eigen::VectorXd along = turn * left(own);
+    const Eigen::VectorXd along = turn * unexplained_residual(own);
     const Eigen::VectorXd taken = (turn * basis(own, Eigen::all)).rowwise().squaredNorm();
     for (Index k = 0; k < along.size(); ++k) {
       const double free = 1.0 - taken[k];
@@ -131,33 +133,36 @@ Spread spread_of(const NoiseForm& form, const Linearization& at, const Eigen::Ma
 
 }  // namespace
 
-std::vector<UnitTest> test_units(const Linearization& at, const Eigen::MatrixXd& basis,
-                                 const Eigen::VectorXd& trust, double freedom) {
-  std::vector<std::vector<Index>> rows = rows_of_units(at, trust.size());
-  for (std::vector<Index>& own : rows) {  // a touch of a plane has two that measure nothing
-    std::erase_if(
-        own, [&](Index r) { return at.misfit[r] == 0.0 && (at.base.row(r).array() == 0.0).all(); });
+std::vector<ObservationTest> test_observations(const Linearization& at,
+                                               const Eigen::MatrixXd& basis,
+                                               const Eigen::VectorXd& weights, double dof) {
+  std::vector<std::vector<Index>> rows = rows_of_observations(at, weights.size());
+  for (std::vector<Index>& own : rows) {  // a touch of a plane has two rows that measure nothing
+    std::erase_if(own, [&](Index r) {
+      return at.residual[r] == 0.0 && (at.jacobian.row(r).array() == 0.0).all();
+    });
   }
-  const Eigen::VectorXd left = at.misfit - basis * (basis.transpose() * at.misfit);
-  const double squares = left.squaredNorm();
-  std::vector<UnitTest> out(rows.size());
+  const Eigen::VectorXd unexplained_residual =
+      at.residual - basis * (basis.transpose() * at.residual);
+  const double squares = unexplained_residual.squaredNorm();
+  std::vector<ObservationTest> out(rows.size());
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const Eigen::MatrixXd part = basis(rows[i], Eigen::all);
     const auto k = static_cast<Index>(rows[i].size());
     const Eigen::MatrixXd spread = Eigen::MatrixXd::Identity(k, k) - part * part.transpose();
-    const Eigen::VectorXd own = left(rows[i]);
+    const Eigen::VectorXd own = unexplained_residual(rows[i]);
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(spread);
     double distance = 0.0, width = 0.0;
     for (Index c = 0; c < k; ++c) {
-      if (eigen.eigenvalues()[c] < 1e-6) continue;  // that nothing else foretells
+      if (eigen.eigenvalues()[c] < 1e-6) continue;  // not predicted by any other row
       const double along = eigen.eigenvectors().col(c).dot(own);
       distance += along * along / eigen.eigenvalues()[c];
       width += 1.0;
     }
-    const bool used = trust[static_cast<Index>(i)] > 0.0;
-    if (!used) distance /= kLeftOut;
+    const bool used = weights[static_cast<Index>(i)] > 0.0;
+    if (!used) distance /= kExcludedWeight;
     const double others = used ? squares - distance : squares;
-    const double free = used ? freedom - width : freedom;
+    const double free = used ? dof - width : dof;
     if (width == 0.0 || !(free > 0.0)) continue;
     const double variance = std::max({others, 1e-12 * squares, kRounding * free}) / free;
     out[i] = {distance / width / variance, f_tail(distance / width / variance, width, free), width};
@@ -165,43 +170,47 @@ std::vector<UnitTest> test_units(const Linearization& at, const Eigen::MatrixXd&
   return out;
 }
 
-Eigen::VectorXd leave_out_odd(const Linearization& at, const Eigen::MatrixXd& basis,
-                              const Eigen::VectorXd& trust, double freedom) {
-  const std::vector<UnitTest> tests = test_units(at, basis, trust, freedom);
-  const double threshold = kOddUnit / static_cast<double>(trust.size());
-  Eigen::VectorXd out = trust;
-  Index odd = 0;
-  for (Index i = 0; i < trust.size(); ++i) {
+Eigen::VectorXd exclude_outliers(const Linearization& at, const Eigen::MatrixXd& basis,
+                                 const Eigen::VectorXd& weights, double dof) {
+  const std::vector<ObservationTest> tests = test_observations(at, basis, weights, dof);
+  const double threshold = kOutlierLevel / static_cast<double>(weights.size());
+  Eigen::VectorXd out = weights;
+  Index outliers = 0;
+  for (Index i = 0; i < weights.size(); ++i) {
     const bool belongs = tests[static_cast<std::size_t>(i)].p > threshold;
-    if (!belongs) ++odd;
-    if (belongs && !(trust[i] > 0.0)) out[i] = 1.0;
+    if (!belongs) ++outliers;
+    if (belongs && !(weights[i] > 0.0)) out[i] = 1.0;
     if (!belongs) out[i] = 0.0;
   }
-  return static_cast<double>(odd) > kMostOdd * static_cast<double>(trust.size()) ? trust : out;
+  return static_cast<double>(outliers) > kMaxOutliers * static_cast<double>(weights.size())
+             ? weights
+             : out;
 }
 
-NoiseFit fit_noise(const NoiseForm& form, const Linearization& at, const Eigen::MatrixXd& basis,
-                   const Eigen::VectorXd& trust, double noise, const Blocks& blocks) {
-  Spread all = spread_of(form, at, basis, trust, noise);
+VarianceComponentFit fit_noise(const VarianceComponent& term, const Linearization& at,
+                               const Eigen::MatrixXd& basis, const Eigen::VectorXd& weights,
+                               double noise, const Folds& folds) {
+  Spread all = spread_of(term, at, basis, weights, noise);
   double mean = 0.0;
   for (const double v : all.variance) mean += v / static_cast<double>(all.variance.size());
-  NoiseFit out;
+  VarianceComponentFit out;
   if (!(mean > 0.0)) return out;
-  for (double& v : all.variance) v /= mean;  // so that θ is of the noise's size
+  for (double& v : all.variance) v /= mean;  // so that θ is the variance ratio
 
   const auto theta_of = [&](const Spread& s) {
-    if (!(form.known > 0.0)) return best_theta(s);
-    // The step is in the record; what it does beside the rest of the noise, σ² = s² (1 - c).
-    const double share = form.known * form.known * mean;
+    if (!(term.known > 0.0)) return best_theta(s);
+    // The step is known from the record: its share c of the variance, of which σ² = s² (1 - c) is
+    // the rest.
+    const double share = term.known * term.known * mean;
     const double whole = best_scale(s, 0.0);
     return share < 0.99 * whole ? share / (whole - share) : 99.0;
   };
   const double theta = theta_of(all);
   const double scale = best_scale(all, theta);
   out.gain = 0.5 * (deviance(all, 0.0) - deviance(all, theta));
-  out.parameter = form.known > 0.0 ? form.known : std::sqrt(theta * scale / mean);
+  out.parameter = term.known > 0.0 ? term.known : std::sqrt(theta * scale / mean);
   // By the curvature of the likelihood in ln θ.
-  if (theta > 0.0 && !(form.known > 0.0)) {
+  if (theta > 0.0 && !(term.known > 0.0)) {
     constexpr double kStep = 0.05;
     const double bend = 0.5 *
                         (deviance(all, theta * std::exp(kStep)) +
@@ -209,8 +218,9 @@ NoiseFit fit_noise(const NoiseForm& form, const Linearization& at, const Eigen::
                         (kStep * kStep);
     if (bend > 0.0) out.std = 0.5 * out.parameter / std::sqrt(bend);
   }
-  for (int b = 0; b < blocks.count; ++b) {
-    const Spread others = some_of(all, blocks.of, b, false), own = some_of(all, blocks.of, b, true);
+  for (int b = 0; b < folds.count; ++b) {
+    const Spread others = some_of(all, folds.fold_of, b, false),
+                 own = some_of(all, folds.fold_of, b, true);
     const double other_theta = theta_of(others);
     out.held_out_gain += log_likelihood(own, other_theta, best_scale(others, other_theta)) -
                          log_likelihood(own, 0.0, best_scale(others, 0.0));
@@ -220,4 +230,4 @@ NoiseFit fit_noise(const NoiseForm& form, const Linearization& at, const Eigen::
   return out;
 }
 
-}  // namespace bathyal
+}  // namespace bathyal::selection

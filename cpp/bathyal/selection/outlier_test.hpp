@@ -6,42 +6,44 @@
 #include "bathyal/selection/folds.hpp"
 #include "bathyal/selection/model.hpp"
 
-// Units that do not belong, and noise that is not the same for all. For use inside the room.
+// Outliers among the observations, and heteroscedastic noise.
 
-namespace bathyal {
+namespace bathyal::selection {
 
-/// A unit beside what the others foretell of it.
-struct UnitTest {
-  double distance = 0.0;  ///< squared, in units of its own variance had it not been used; per row
-  double p = 1.0;         ///< by Fisher's F, of this unit alone
-  double rows = 0.0;      ///< of it that the others foretell
+/// An observation against its prediction from the others.
+struct ObservationTest {
+  double distance = 0.0;  ///< squared deleted residual over its variance, per row
+  double p = 1.0;         ///< by Fisher's F, of this observation alone
+  double rows = 0.0;      ///< of it that the others predict
 };
 
-/// Each unit's rows against a fit to all others (deleted residuals, leverage counted). `trust`
-/// says which ones the fit leaves out already.
-std::vector<UnitTest> test_units(const Linearization& at, const Eigen::MatrixXd& basis,
-                                 const Eigen::VectorXd& trust, double freedom);
+/// Each observation's rows against a fit to all others (externally studentized residuals).
+/// `weights` is 0 for those that the fit excludes already.
+std::vector<ObservationTest> test_observations(const Linearization& at,
+                                               const Eigen::MatrixXd& basis,
+                                               const Eigen::VectorXd& weights, double dof);
 
-/// The share of chance that names one innocent unit.
-inline constexpr double kOddUnit = 0.001;
+/// Family-wise significance level of the outlier test.
+inline constexpr double kOutlierLevel = 0.001;
 
-/// `trust` with 0 for units that do not belong, and with those taken back that do.
-Eigen::VectorXd leave_out_odd(const Linearization& at, const Eigen::MatrixXd& basis,
-                              const Eigen::VectorXd& trust, double freedom);
+/// `weights` with 0 for outliers, and 1 for excluded observations that are none any more.
+Eigen::VectorXd exclude_outliers(const Linearization& at, const Eigen::MatrixXd& basis,
+                                 const Eigen::VectorXd& weights, double dof);
 
-/// A noise form, fitted.
-struct NoiseFit {
-  int form = 0;
+/// A variance component, fitted by maximum likelihood.
+struct VarianceComponentFit {
+  int term = 0;
   double parameter = 0.0;      ///< in its unit
   double std = 0.0;            ///< of it
-  double gain = 0.0;           ///< log likelihood over that of equal noise
-  double held_out_gain = 0.0;  ///< the same on blocks that it did not see
-  double share = 0.0;          ///< of the noise's variance that it makes
-  double ratio = 0.0;          ///< Subject::set_noise_forms
+  double gain = 0.0;           ///< log likelihood over that of homoscedastic noise
+  double held_out_gain = 0.0;  ///< the same on held-out folds
+  double share = 0.0;          ///< of the noise's variance
+  double ratio = 0.0;          ///< Model::set_variance_ratios
 };
 
-/// `basis` as above; `noise` of a position row [m]. `trust` is 0 or 1.
-NoiseFit fit_noise(const NoiseForm& form, const Linearization& at, const Eigen::MatrixXd& basis,
-                   const Eigen::VectorXd& trust, double noise, const Blocks& blocks);
+/// `basis` as above; `noise` of a position row [m]. `weights` are 0 or 1.
+VarianceComponentFit fit_noise(const VarianceComponent& term, const Linearization& at,
+                               const Eigen::MatrixXd& basis, const Eigen::VectorXd& weights,
+                               double noise, const Folds& folds);
 
-}  // namespace bathyal
+}  // namespace bathyal::selection

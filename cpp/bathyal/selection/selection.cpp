@@ -12,302 +12,316 @@
 #include "bathyal/selection/internal/cross_validation.hpp"
 #include "bathyal/selection/internal/subset_search.hpp"
 
-namespace bathyal {
+namespace bathyal::selection {
 namespace {
 
-constexpr double kLeastFreedom = 10.0;
-constexpr double kChance = 0.05;  ///< corrected p-value from which a name is no better than luck
+constexpr double kMinDof = 10.0;
+constexpr double kMaxPValue = 0.05;  ///< corrected; terms above it are dropped
 
-class Examiner {
+class StructureSelection {
  public:
-  Examiner(Subject& subject, const ExaminationOptions& options, const Progress& progress)
-      : subject_(subject),
+  StructureSelection(Model& model, const SelectionOptions& options, const Progress& progress)
+      : model_(model),
         options_(options),
         progress_(progress),
-        vantage_(subject, options.num_threads),
-        explainer_(vantage_, [this] { tell_again(); }) {
+        working_point_(model, options.num_threads),
+        selector_(working_point_, [this] { repeat_progress(); }) {
     std::set<std::string> effects;
-    for (const Form& form : subject_.forms()) {
-      if (!form.probe) effects.insert(form.effect);
+    for (const Term& term : model_.terms()) {
+      if (!term.lack_of_fit) effects.insert(term.effect);
     }
     effects_ = static_cast<double>(effects.size());
   }
 
-  Examination run(const FirstLook& look);
+  SelectionResult run(const Shortlist& shortlist);
 
  private:
-  void tell(double done, const std::string& stage) {
+  void report_progress(double done, const std::string& stage) {
     done_ = done;
     stage_ = stage;
-    tell_again();
+    repeat_progress();
   }
-  /// Within a long stage: whoever listens may want to stop.
-  void tell_again() const {
+  /// Within a long stage: the caller may want to stop.
+  void repeat_progress() const {
     if (progress_) progress_(done_, stage_);
   }
 
-  void choose_explanation(const FirstLook& look);
-  void weigh_noise();
-  void drop_what_is_not_needed();
-  void drop_what_foretells_nothing();
-  double chance(const Pool& pool, int member, const SetFit& fit, std::size_t i) const;
-  void tell_held_out(const FormsHeldOut& held, const HeldOutErrors& before);
-  void tell_evidence();
-  void tell_structure(const std::vector<Dependence>& beside);
-  void tell_rivals();
-  void tell_detectable();
+  void select_explanation(const Shortlist& shortlist);
+  void fit_variance_components();
+  void drop_redundant_terms();
+  void drop_unpredictive_terms();
+  double p_value_of(const CandidateSet& candidates, int member, const SetFit& fit,
+                    std::size_t i) const;
+  void fill_held_out(const BlockCrossValidation& held, const HeldOutErrors& before);
+  void fill_evidence();
+  void add_lack_of_fit(const std::vector<LackOfFit>& forward);
+  void fill_alternatives();
+  void fill_detectable();
 
-  const Subject& subject_;
-  const ExaminationOptions& options_;
+  const Model& model_;
+  const SelectionOptions& options_;
   const Progress& progress_;
-  Vantage vantage_;
-  Explainer explainer_;
-  double effects_;  ///< that could be named
-  Standing standing_;
-  Eigen::VectorXd trust_;
-  Examination out_;
+  WorkingPoint working_point_;
+  TermSelector selector_;
+  double effects_;  ///< that could be selected
+  ActiveSet active_;
+  Eigen::VectorXd weights_;
+  SelectionResult out_;
   double done_ = 0.0;
   std::string stage_;
 };
 
-void Examiner::choose_explanation(const FirstLook& look) {
-  vantage_.set_trust(Eigen::VectorXd::Ones(subject_.units().count()));
-  vantage_.settle({});
-  out_.shown = vantage_.dependences(vantage_.ground());
-  out_.base_noise = subject_.noise();
-  tell(look.forms.empty() ? 0.2 : 0.5, "looking for causes");
-  const Explanation best = look.forms.empty() ? explainer_.best() : explainer_.best_from(look);
-  standing_.names = best.forms;
-  trust_ = best.trust;
+void StructureSelection::select_explanation(const Shortlist& shortlist) {
+  working_point_.set_observation_weights(Eigen::VectorXd::Ones(model_.observations().count()));
+  working_point_.fit({});
+  out_.lack_of_fit_before = working_point_.lack_of_fit(working_point_.nuisance());
+  out_.base_noise = model_.noise();
+  report_progress(shortlist.terms.empty() ? 0.2 : 0.5, "looking for causes");
+  const Selection best =
+      shortlist.terms.empty() ? selector_.select() : selector_.select_from(shortlist);
+  active_.terms = best.terms;
+  weights_ = best.weights;
 }
 
-void Examiner::weigh_noise() {
-  const Ground& whole = vantage_.ground(standing_.names);
-  for (int f = 0; f < static_cast<int>(subject_.noise_forms().size()); ++f) {
-    const NoiseForm& form = subject_.noise_forms()[f];
-    NoiseFit fit = fit_noise(form, subject_.linearization(), whole.basis, trust_, subject_.noise(),
-                             out_.blocks);
-    fit.form = f;
-    // A record that shows its step needs no proof that it has one, only that it matters.
+void StructureSelection::fit_variance_components() {
+  const NuisanceBasis& whole = working_point_.nuisance(active_.terms);
+  for (int f = 0; f < static_cast<int>(model_.variance_components().size()); ++f) {
+    const VarianceComponent& term = model_.variance_components()[f];
+    VarianceComponentFit fit =
+        fit_noise(term, model_.linearization(), whole.basis, weights_, model_.noise(), out_.folds);
+    fit.term = f;
+    // A step that the record itself shows needs no evidence, only a share that matters.
     constexpr double kMatters = 0.04;
-    const bool named = form.known > 0.0
+    const bool named = term.known > 0.0
                            ? fit.share > kMatters
-                           : fit.gain > kNameCost + cost_of_freedom(1.0, 2.0 * fit.gain) &&
+                           : fit.gain > kTermPenalty + complexity_penalty(1.0, 2.0 * fit.gain) &&
                                  fit.held_out_gain > 0.0;
     if (named) out_.noise.push_back(fit);
   }
   if (out_.noise.empty()) return;
-  // Rows count by their own noise from here on, and what was named is asked again.
-  Eigen::VectorXd ratios = Eigen::VectorXd::Zero(static_cast<Index>(subject_.noise_forms().size()));
-  for (const NoiseFit& fit : out_.noise) ratios[fit.form] = fit.ratio;
-  vantage_.set_noise_forms(ratios);
-  vantage_.settle(standing_.names);
-  const Explanation again = explainer_.again({standing_.names, trust_});
-  standing_.names = again.forms;
-  trust_ = again.trust;
+  // Rows are whitened from here on, and the selection is updated for that.
+  Eigen::VectorXd ratios =
+      Eigen::VectorXd::Zero(static_cast<Index>(model_.variance_components().size()));
+  for (const VarianceComponentFit& fit : out_.noise) ratios[fit.term] = fit.ratio;
+  working_point_.set_variance_ratios(ratios);
+  working_point_.fit(active_.terms);
+  const Selection again = selector_.reselect({active_.terms, weights_});
+  active_.terms = again.terms;
+  weights_ = again.weights;
 }
 
-/// That the `i`-th of a set is luck, beside the others: by Fisher's F, with all that was tried of
-/// all effects counted.
-double Examiner::chance(const Pool& pool, int member, const SetFit& fit, std::size_t i) const {
-  return std::min(
-      1.0, pool.about(member).trials * effects_ * f_tail(fit.f[i], fit.width[i], fit.freedom));
+/// p-value of the `i`-th of a set given the others: by Fisher's F, corrected for the multiplicity
+/// of its effect and for the number of effects.
+double StructureSelection::p_value_of(const CandidateSet& candidates, int member, const SetFit& fit,
+                                      std::size_t i) const {
+  return std::min(1.0, candidates.term(member).multiplicity * effects_ *
+                           f_tail(fit.f[i], fit.width[i], fit.dof));
 }
 
-/// Where the search looked, a name may have been worth it that is not where the fit ended, or not
-/// beside structure found later.
-void Examiner::drop_what_is_not_needed() {
-  while (!standing_.names.empty()) {
-    const Pool pool = vantage_.pool_of(standing_.all());
-    std::vector<int> set = improve_set(pool, everyone(pool));
-    // A name may help only in that it makes another look smaller, and cost less.
-    const auto fit = pool.judge(set);
+/// A term may have been selected at the linearization of the search and be redundant at that of the
+/// fit, or given structure found later.
+void StructureSelection::drop_redundant_terms() {
+  while (!active_.terms.empty()) {
+    const CandidateSet candidates = working_point_.candidate_set(active_.all());
+    std::vector<int> set = stepwise_search(candidates, all_members(candidates));
+    // A term may help only because it lowers the value of another, and so its penalty.
+    const auto fit = candidates.evaluate(set);
     std::size_t weakest = set.size();
-    double p = kChance;
+    double p = kMaxPValue;
     for (std::size_t i = 0; i < set.size(); ++i) {
-      if (pool.about(set[i]).probe || !(chance(pool, set[i], *fit, i) > p)) continue;
+      if (candidates.term(set[i]).lack_of_fit || !(p_value_of(candidates, set[i], *fit, i) > p))
+        continue;
       weakest = i;
-      p = chance(pool, set[i], *fit, i);
+      p = p_value_of(candidates, set[i], *fit, i);
     }
     if (weakest < set.size()) set.erase(set.begin() + static_cast<std::ptrdiff_t>(weakest));
-    std::vector<int> needed = forms_of(pool, set);
-    std::erase_if(needed, [this](int form) { return vantage_.form(form).probe; });
-    if (needed == standing_.names) return;
-    standing_.names = needed;
-    vantage_.settle(standing_.names);
+    std::vector<int> needed = terms_of(candidates, set);
+    std::erase_if(needed, [this](int term) { return working_point_.term(term).lack_of_fit; });
+    if (needed == active_.terms) return;
+    active_.terms = needed;
+    working_point_.fit(active_.terms);
   }
 }
 
-/// The place of a name that foretells nothing beside the others, where there is one. `before`:
-/// squares of the base model.
-std::optional<std::size_t> place_without_use(const FormsHeldOut& held, double before) {
-  if (held.forms().empty()) return std::nullopt;
+/// Position of a term that does not improve the prediction given the others, where there is one.
+/// `before`: PRESS of the base model.
+std::optional<std::size_t> find_unpredictive(const BlockCrossValidation& held, double before) {
+  if (held.terms().empty()) return std::nullopt;
   const auto least = [&held](const auto& of_place) {
     std::vector<double> values;
-    for (std::size_t i = 0; i < held.forms().size(); ++i) values.push_back(of_place(i));
+    for (std::size_t i = 0; i < held.terms().size(); ++i) values.push_back(of_place(i));
     const auto at = std::min_element(values.begin(), values.end());
     return std::pair(*at, static_cast<std::size_t>(at - values.begin()));
   };
-  const double with = held.density();
-  const auto [gain, worst] = least([&](std::size_t i) { return with - held.density(i); });
+  const double with = held.log_predictive_density();
+  const auto [gain, worst] =
+      least([&](std::size_t i) { return with - held.log_predictive_density(i); });
   if (!(gain > 0.0)) return worst;
-  if (held.squares() < before) return std::nullopt;
-  // Some that only make up for each other are each needed. One that sends held-out rows far away
-  // spoils what the others gain.
-  return least([&](std::size_t i) { return held.squares(i); }).second;
+  if (held.press() < before) return std::nullopt;
+  // Terms that compensate each other are each needed. The one whose removal lowers PRESS most is
+  // what makes the prediction worse than that of the base model.
+  return least([&](std::size_t i) { return held.press(i); }).second;
 }
 
-/// A name must foretell what it has not seen.
-void Examiner::drop_what_foretells_nothing() {
+/// A term must improve the prediction of held-out rows.
+void StructureSelection::drop_unpredictive_terms() {
   for (;;) {
-    drop_what_is_not_needed();
-    FormsHeldOut held(vantage_, standing_.names, out_.blocks);
-    const std::size_t promised = held.forms().size();
+    drop_redundant_terms();
+    BlockCrossValidation held(working_point_, active_.terms, out_.folds);
+    const std::size_t promised = held.terms().size();
     const HeldOutErrors before = held.errors_of_base();
-    while (const auto place = place_without_use(held, before.of_block.sum())) held.drop(*place);
-    if (held.forms().size() == promised) {
-      tell_held_out(held, before);
+    while (const auto place = find_unpredictive(held, before.by_fold.sum())) held.drop(*place);
+    if (held.terms().size() == promised) {
+      fill_held_out(held, before);
       return;
     }
-    standing_.names = held.forms();
-    std::sort(standing_.names.begin(), standing_.names.end());
-    vantage_.settle(standing_.names);
+    active_.terms = held.terms();
+    std::sort(active_.terms.begin(), active_.terms.end());
+    working_point_.fit(active_.terms);
   }
 }
 
-void Examiner::tell_held_out(const FormsHeldOut& held, const HeldOutErrors& before) {
-  const double squares = held.squares();
-  for (std::size_t i = 0; i < held.forms().size(); ++i) {
-    Chosen chosen;
-    chosen.form = held.forms()[i];
+void StructureSelection::fill_held_out(const BlockCrossValidation& held,
+                                       const HeldOutErrors& before) {
+  const double squares = held.press();
+  for (std::size_t i = 0; i < held.terms().size(); ++i) {
+    SelectedTerm chosen;
+    chosen.term = held.terms()[i];
     chosen.held_out_with = squares / held.rows();
-    chosen.held_out_without = held.squares(i) / held.rows();
-    out_.names.push_back(chosen);
+    chosen.held_out_without = held.press(i) / held.rows();
+    out_.terms.push_back(chosen);
   }
   const HeldOutErrors after = held.errors();
   out_.error_before = before.error;
   out_.error_after = after.error;
-  out_.luck = sign_flip_p(before.of_block - after.of_block);
+  out_.p_value = sign_flip_p(before.by_fold - after.by_fold);
 }
 
-void Examiner::tell_evidence() {
-  const Pool pool = vantage_.pool_of(standing_.all());
+void StructureSelection::fill_evidence() {
+  const CandidateSet candidates = working_point_.candidate_set(active_.all());
   std::vector<int> named, everything;
-  for (int m = 0; m < pool.size(); ++m) {
+  for (int m = 0; m < candidates.size(); ++m) {
     everything.push_back(m);
-    if (!pool.about(m).probe) named.push_back(m);
+    if (!candidates.term(m).lack_of_fit) named.push_back(m);
   }
-  const auto whole = pool.judge(everything);
-  const auto names_only = pool.judge(named);
-  out_.base_squares = pool.total();
-  if (!whole || !names_only) return;
-  out_.freedom = names_only->freedom;
+  const auto whole = candidates.evaluate(everything);
+  const auto terms_only = candidates.evaluate(named);
+  out_.base_squares = candidates.total();
+  if (!whole || !terms_only) return;
+  out_.dof = terms_only->dof;
   const auto width_of = [&](const std::vector<int>& members) {
     double width = 0.0;
-    for (const int m : members) width += static_cast<double>(pool.width(m));
+    for (const int m : members) width += static_cast<double>(candidates.width(m));
     return width;
   };
   const double noise = whole->noise();
-  out_.removed = std::max(pool.total() - names_only->left - width_of(named) * noise, 0.0);
-  out_.left_over = std::max(
-      names_only->left - whole->left - (width_of(everything) - width_of(named)) * noise, 0.0);
-  const auto rows = static_cast<double>(subject_.linearization().misfit.size());
+  out_.explained =
+      std::max(candidates.total() - terms_only->residual_sum - width_of(named) * noise, 0.0);
+  out_.unexplained = std::max(terms_only->residual_sum - whole->residual_sum -
+                                  (width_of(everything) - width_of(named)) * noise,
+                              0.0);
+  const auto rows = static_cast<double>(model_.linearization().residual.size());
   for (std::size_t i = 0; i < everything.size(); ++i) {
     const int m = everything[i];
     const double width = whole->width[i], f = whole->f[i];
-    const bool probe = pool.about(m).probe;
-    if (probe) out_.probes.push_back({pool.form(m)});
-    Chosen& chosen = probe ? out_.probes.back()
-                           : *std::find_if(out_.names.begin(), out_.names.end(),
-                                           [&](const Chosen& c) { return c.form == pool.form(m); });
+    const bool lack_of_fit = candidates.term(m).lack_of_fit;
+    if (lack_of_fit) out_.lack_of_fit.push_back({candidates.term_index(m)});
+    SelectedTerm& chosen = lack_of_fit ? out_.lack_of_fit.back()
+                                       : *std::find_if(out_.terms.begin(), out_.terms.end(),
+                                                       [&](const SelectedTerm& c) {
+                                                         return c.term == candidates.term_index(m);
+                                                       });
     chosen.f = f;
     chosen.width = width;
     chosen.explained = f * width * noise;
     chosen.size = std::sqrt(std::max(f * width - width, 0.0) / rows);
-    chosen.p = chance(pool, m, *whole, i);
+    chosen.p = p_value_of(candidates, m, *whole, i);
   }
 }
 
-/// Structure beside all that stands.
-void Examiner::tell_structure(const std::vector<Dependence>& beside) {
-  const auto rows = static_cast<double>(subject_.linearization().misfit.size());
-  for (const Dependence& d : beside) {
-    Chosen probe;
-    probe.form = d.form;
-    probe.explained = d.explained;
-    probe.width = d.width;
-    probe.size = d.size;
-    probe.p = d.p;
-    out_.probes.push_back(probe);
-    out_.left_over += d.size * d.size * rows;
+/// Lack of fit given all of the active set.
+void StructureSelection::add_lack_of_fit(const std::vector<LackOfFit>& forward) {
+  const auto rows = static_cast<double>(model_.linearization().residual.size());
+  for (const LackOfFit& d : forward) {
+    SelectedTerm selected;
+    selected.term = d.term;
+    selected.explained = d.explained;
+    selected.width = d.width;
+    selected.size = d.size;
+    selected.p = d.p;
+    out_.lack_of_fit.push_back(selected);
+    out_.unexplained += d.size * d.size * rows;
   }
 }
 
-void Examiner::tell_rivals() {
-  if (standing_.names.empty()) return;
-  for (const int form : standing_.names) explainer_.remember(form);
-  const Pool pool = vantage_.pool_of(explainer_.candidates());
-  for (const Rival& rival : find_rivals(pool, members_of(pool, standing_.names))) {
-    out_.rivals.push_back({pool.form(rival.member), pool.form(rival.instead), rival.odds});
+void StructureSelection::fill_alternatives() {
+  if (active_.terms.empty()) return;
+  for (const int term : active_.terms) selector_.add_candidate(term);
+  const CandidateSet candidates = working_point_.candidate_set(selector_.candidates());
+  for (const Alternative& alternative :
+       find_alternatives(candidates, members_of(candidates, active_.terms))) {
+    out_.alternatives.push_back({candidates.term_index(alternative.member),
+                                 candidates.term_index(alternative.replacement), alternative.odds});
   }
 }
 
-/// Of a form with two columns among fifty: the size at which its evidence would have been enough.
-void Examiner::tell_detectable() {
+/// Of a term with two columns among fifty: the size at which its evidence equals its penalty.
+void StructureSelection::fill_detectable() {
   constexpr double kWidth = 2.0, kTrials = 50.0;
-  const auto rows = static_cast<double>(subject_.linearization().misfit.size());
+  const auto rows = static_cast<double>(model_.linearization().residual.size());
   double explained = 20.0;
   for (int round = 0; round < 50; ++round) {
-    explained = 2.0 * (kNameCost + std::log(kTrials) + cost_of_freedom(kWidth, explained / kWidth));
+    explained =
+        2.0 * (kTermPenalty + std::log(kTrials) + complexity_penalty(kWidth, explained / kWidth));
   }
   out_.detectable = std::sqrt(explained / rows);
 }
 
-Examination Examiner::run(const FirstLook& look) {
-  tell(look.forms.empty() ? 0.1 : 0.4, "looking at what geometry leaves");
-  out_.blocks = make_blocks(subject_.units(), options_.blocks);
-  choose_explanation(look);
-  tell_detectable();
-  const Ground& whole = vantage_.ground(standing_.names);
-  out_.held_out = out_.blocks.count >= kLeastBlocks && whole.freedom >= kLeastFreedom;
+SelectionResult StructureSelection::run(const Shortlist& shortlist) {
+  report_progress(shortlist.terms.empty() ? 0.1 : 0.4, "testing the rigid model for lack of fit");
+  out_.folds = make_folds(model_.observations(), options_.folds);
+  select_explanation(shortlist);
+  fill_detectable();
+  const NuisanceBasis& whole = working_point_.nuisance(active_.terms);
+  out_.held_out = out_.folds.count >= kMinFolds && whole.dof >= kMinDof;
   if (!out_.held_out) {
-    vantage_.settle({});
-    standing_.names.clear();
+    working_point_.fit({});
+    active_.terms.clear();
     return std::move(out_);
   }
-  weigh_noise();
-  tell(0.6, "looking for what is left");
-  BeyondNames beyond(vantage_, explainer_.candidates(), out_.blocks, trust_,
-                     [this] { tell_again(); });
-  standing_ = beyond.look(standing_.names);
-  tell(0.8, "measuring the gain");
-  const std::vector<int> promised = standing_.names;
-  drop_what_foretells_nothing();
-  tell_evidence();
-  tell_structure(beyond.left_by(standing_, standing_.names != promised));
-  tell_rivals();
-  for (Index i = 0; i < trust_.size(); ++i) {
-    if (!(trust_[i] > 0.0)) out_.odd.push_back(static_cast<int>(i));
+  fit_variance_components();
+  report_progress(0.6, "testing for lack of fit");
+  LackOfFitCheck check(working_point_, selector_.candidates(), out_.folds, weights_,
+                       [this] { repeat_progress(); });
+  active_ = check.select(active_.terms);
+  report_progress(0.8, "measuring the gain");
+  const std::vector<int> promised = active_.terms;
+  drop_unpredictive_terms();
+  fill_evidence();
+  add_lack_of_fit(check.remaining(active_, active_.terms != promised));
+  fill_alternatives();
+  for (Index i = 0; i < weights_.size(); ++i) {
+    if (!(weights_[i] > 0.0)) out_.outliers.push_back(static_cast<int>(i));
   }
-  tell(1.0, "done");
+  report_progress(1.0, "done");
   return std::move(out_);
 }
 
 }  // namespace
 
-Examination examine(Subject& subject, const ExaminationOptions& options, const Progress& progress,
-                    const FirstLook& look) {
-  return Examiner(subject, options, progress).run(look);
+SelectionResult select_terms(Model& model, const SelectionOptions& options,
+                             const Progress& progress, const Shortlist& shortlist) {
+  return StructureSelection(model, options, progress).run(shortlist);
 }
 
-FirstLook find_forms(Subject& subject, int num_threads, const Progress& progress) {
-  Vantage vantage(subject, num_threads);
-  vantage.set_trust(Eigen::VectorXd::Ones(subject.units().count()));
-  vantage.settle({});
-  Explainer explainer(vantage, [&progress] {
-    if (progress) progress(0.1, "looking for causes in some of the rows");
+Shortlist shortlist_terms(Model& model, int num_threads, const Progress& progress) {
+  WorkingPoint working_point(model, num_threads);
+  working_point.set_observation_weights(Eigen::VectorXd::Ones(model.observations().count()));
+  working_point.fit({});
+  TermSelector selector(working_point, [&progress] {
+    if (progress) progress(0.1, "looking for causes in a subset of the rows");
   });
-  return explainer.look_at(explainer.best().forms);
+  return selector.shortlist(selector.select().terms);
 }
 
-}  // namespace bathyal
+}  // namespace bathyal::selection

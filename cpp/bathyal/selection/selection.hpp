@@ -12,62 +12,62 @@
 #include "bathyal/selection/term_selection.hpp"
 #include "bathyal/selection/working_point.hpp"
 
-namespace bathyal {
+namespace bathyal::selection {
 
 /// Called with the share of the work that is done, 0 … 1, and what comes next; throws to stop.
 using Progress = std::function<void(double done, const std::string& stage)>;
 
-struct ExaminationOptions {
+struct SelectionOptions {
   int num_threads = 0;
-  int blocks = 10;  ///< that are held out in turn
+  int folds = 10;  ///< of the cross-validation
 };
 
-/// A form that was chosen.
-struct Chosen {
-  int form = 0;
-  double explained = 0.0;  ///< sum of squares that goes without it
-  double f = 0.0;          ///< Wald's statistic per column
-  double width = 0.0;      ///< columns
-  double p = 1.0;          ///< by Fisher's F, times the trials
-  double size = 0.0;       ///< root mean square of what it does beside all else, per row [noise]
-  double held_out_without = 0.0;  ///< mean square per row foretold by the others [noise²]
+/// A selected term and its evidence.
+struct SelectedTerm {
+  int term = 0;
+  double explained = 0.0;         ///< increase of the residual sum of squares without it
+  double f = 0.0;                 ///< Wald's statistic per column
+  double width = 0.0;             ///< columns
+  double p = 1.0;                 ///< by Fisher's F, corrected for multiplicity
+  double size = 0.0;              ///< rms contribution given all other terms, per row [noise]
+  double held_out_without = 0.0;  ///< mean squared prediction error per row without it [noise²]
   double held_out_with = 0.0;
 };
 
-struct RivalForm {
-  int form = 0;     ///< chosen
-  int instead = 0;  ///< form
+struct AlternativeTerm {
+  int term = 0;         ///< selected
+  int replacement = 0;  ///< the term that could take its place
   double odds = 0.0;
 };
 
-/// Findings of one subject: which forms explain what its base model does not.
-struct Examination {
-  bool held_out = false;  ///< there was enough to hold out
-  Blocks blocks;
-  std::vector<Chosen> names;
-  std::vector<Chosen> probes;     ///< structure beside the names
-  std::vector<RivalForm> rivals;  ///< likeliest first, by name
-  std::vector<Dependence> shown;  ///< of the base model alone, likeliest first
-  std::vector<int> odd;           ///< units left out
-  double base_noise = 0.0;        ///< one unit of `shown` [m]
-  std::vector<NoiseFit> noise;    ///< noise forms that were named
-  double base_squares = 0.0;      ///< beside the base model, before anything was named
-  double removed = 0.0;           ///< by the names, noise taken out
-  double left_over = 0.0;         ///< by the probes, noise taken out
-  double freedom = 0.0;           ///< of what remains
-  double detectable = 0.0;        ///< size per row that would have been found [noise]
-  Eigen::VectorXd error_before;   ///< (M,) held out, base model alone [noise]
-  Eigen::VectorXd error_after;    ///< (M,) with the names
-  double luck = 1.0;              ///< probability that the gain is
+/// The terms that explain the residuals of a model.
+struct SelectionResult {
+  bool held_out = false;  ///< there were data enough for cross-validation
+  Folds folds;
+  std::vector<SelectedTerm> terms;
+  std::vector<SelectedTerm> lack_of_fit;      ///< structure that the terms do not explain
+  std::vector<AlternativeTerm> alternatives;  ///< by term, most likely first
+  std::vector<LackOfFit> lack_of_fit_before;  ///< of the base model, most significant first
+  std::vector<int> outliers;                  ///< observations excluded
+  double base_noise = 0.0;                    ///< unit of lack_of_fit_before.size [m]
+  std::vector<VarianceComponentFit> noise;    ///< variance components that were selected
+  double base_squares = 0.0;                  ///< residual sum of squares of the base model
+  double explained = 0.0;                     ///< sum of squares by the terms, less noise
+  double unexplained = 0.0;                   ///< sum of squares by the lack of fit, less noise
+  double dof = 0.0;                           ///< residual
+  double detectable = 0.0;                    ///< smallest size per row that is selected [noise]
+  Eigen::VectorXd error_before;               ///< (M,) held out, base model alone [noise]
+  Eigen::VectorXd error_after;                ///< (M,) with the terms
+  double p_value = 1.0;                       ///< of the held-out gain, by sign flips of folds
 };
 
-/// Shows, names and measures; leaves the subject standing at what it named. The search goes on from
-/// what a look at some of the units has found, where there was one.
-Examination examine(Subject& subject, const ExaminationOptions& options, const Progress& progress,
-                    const FirstLook& look = {});
+/// Selects terms, tests them on held-out folds and reports what they leave unexplained; the model
+/// is fitted with the selected terms. The search starts from `shortlist` where it is not empty.
+SelectionResult select_terms(Model& model, const SelectionOptions& options,
+                             const Progress& progress, const Shortlist& shortlist = {});
 
-/// Forms that explain what the base model of `subject` leaves, before any proof. What is done is
-/// told as the first part of an examination of the whole.
-FirstLook find_forms(Subject& subject, int num_threads, const Progress& progress);
+/// Terms that explain the residuals of the base model, without cross-validation: the start of a
+/// search in more observations. Progress is reported as the first part of that search.
+Shortlist shortlist_terms(Model& model, int num_threads, const Progress& progress);
 
-}  // namespace bathyal
+}  // namespace bathyal::selection

@@ -8,204 +8,213 @@
 #include "bathyal/selection/internal/subset_search.hpp"
 #include "bathyal/selection/outlier_test.hpp"
 
-namespace bathyal {
+namespace bathyal::selection {
 namespace {
 
-constexpr int kMostPasses = 6;         ///< of naming and standing at what was named
-constexpr double kSettledScore = 0.5;  ///< log evidence: less is no better
-constexpr double kFarBehind = 20.0;    ///< the same: four times the units make up for no more
-constexpr int kMostScans = 4;          ///< in the first of them; later ones start where it ended
-constexpr int kPeaks = 4;              ///< of each scan that are looked at closely
+constexpr int kMaxPasses = 6;          ///< of selection and fit
+constexpr double kMinScoreGain = 0.5;  ///< log evidence
+constexpr double kFarBehind = 20.0;    ///< the same: four times the observations recover no more
+constexpr int kMaxScans = 4;           ///< in the first pass; later ones start from its result
+constexpr int kPeaks = 4;              ///< of each scan that are refined
 constexpr int kFinerRounds = 3;
-/// Log evidence: two and a half standard deviations of an order.
-constexpr double kPlainBonus = 3.0;
+/// Log evidence for a preferred setting: two and a half standard deviations of an order.
+constexpr double kPreferredBonus = 3.0;
 
 }  // namespace
 
-/// All library forms that no scan has: those come by their peaks.
-Explainer::Explainer(Vantage& vantage, std::function<void()> still_at_it)
-    : vantage_(vantage), still_at_it_(std::move(still_at_it)) {
+/// All library terms that are in no scan: those enter by their peaks.
+TermSelector::TermSelector(WorkingPoint& working_point, std::function<void()> check_stop)
+    : working_point_(working_point), check_stop_(std::move(check_stop)) {
   std::set<int> scanned;
-  for (const std::vector<int>& family : vantage_.subject().scans()) {
+  for (const std::vector<int>& family : working_point_.model().scans()) {
     scanned.insert(family.begin(), family.end());
   }
-  for (int form = 0; form < static_cast<int>(vantage_.subject().forms().size()); ++form) {
-    if (!vantage_.form(form).probe && !scanned.contains(form)) candidates_.push_back(form);
+  for (int term = 0; term < static_cast<int>(working_point_.model().terms().size()); ++term) {
+    if (!working_point_.term(term).lack_of_fit && !scanned.contains(term))
+      candidates_.push_back(term);
   }
 }
 
-void Explainer::remember(int form) {
-  if (std::find(candidates_.begin(), candidates_.end(), form) == candidates_.end()) {
-    candidates_.push_back(form);
+void TermSelector::add_candidate(int term) {
+  if (std::find(candidates_.begin(), candidates_.end(), term) == candidates_.end()) {
+    candidates_.push_back(term);
   }
 }
 
-/// The best of each scan beside what stands already.
-void Explainer::add_peaks(const Ground& beside) {
-  for (const std::vector<int>& family : vantage_.subject().scans()) {
-    if (vantage_.form(family.front()).probe) continue;
-    still_at_it_();
-    const std::vector<ScannedForm> scanned =
-        scan(vantage_.subject(), family, beside.basis, vantage_.subject().linearization().misfit,
-             beside.freedom, vantage_.num_threads());
-    for (const int form : peaks(scanned, kPeaks)) remember(form);
+/// The peaks of each scan given the active set.
+void TermSelector::add_peaks(const NuisanceBasis& nuisance) {
+  for (const std::vector<int>& family : working_point_.model().scans()) {
+    if (working_point_.term(family.front()).lack_of_fit) continue;
+    check_stop_();
+    const std::vector<ScannedTerm> scanned = scan(working_point_.model(), family, nuisance.basis,
+                                                  working_point_.model().linearization().residual,
+                                                  nuisance.dof, working_point_.num_threads());
+    for (const int term : peaks(scanned, kPeaks)) add_candidate(term);
   }
 }
 
-/// Each form of a scan where it fits best, between the points of its grid. All of them move at
-/// once, each beside the others as they stand; a move that the set does not gain by is not made.
-std::vector<int> Explainer::sharpened(std::vector<int> forms) {
+/// Refines the setting of each scanned term between the points of its grid. All are refined at
+/// once, each given the others at their present settings; a step that does not improve the set is
+/// undone.
+std::vector<int> TermSelector::refined(std::vector<int> terms) {
   std::vector<std::size_t> moving;
-  for (std::size_t i = 0; i < forms.size(); ++i) {
-    if (is_sharp_.insert(forms[i]).second) moving.push_back(i);
+  for (std::size_t i = 0; i < terms.size(); ++i) {
+    if (refined_.insert(terms[i]).second) moving.push_back(i);
   }
   for (int round = 0; round < kFinerRounds && !moving.empty(); ++round) {
-    still_at_it_();
-    std::vector<int> asked = forms;
+    check_stop_();
+    std::vector<int> asked = terms;
     std::vector<std::vector<int>> near;
     for (const std::size_t i : moving) {
-      near.push_back(vantage_.finer(forms[i]));
+      near.push_back(working_point_.refine(terms[i]));
       asked.insert(asked.end(), near.back().begin(), near.back().end());
     }
-    const Pool pool = vantage_.pool_of(asked);
-    std::vector<int> set = members_of(pool, forms);
-    const auto now = pool.judge(set);
+    const CandidateSet candidates = working_point_.candidate_set(asked);
+    std::vector<int> set = members_of(candidates, terms);
+    const auto now = candidates.evaluate(set);
     if (!now) break;
-    const auto worth = [&](double score, int form) {
-      return score + (vantage_.form(form).plain ? kPlainBonus : 0.0);
+    const auto value_of = [&](double score, int term) {
+      return score + (working_point_.term(term).preferred ? kPreferredBonus : 0.0);
     };
     double best = now->score;
-    const Eigen::MatrixXd instead = pool.scores_instead(set);
+    const Eigen::MatrixXd replacement = candidates.exchange_scores(set);
     std::vector<std::size_t> still;
     for (std::size_t k = 0; k < moving.size(); ++k) {
-      int& form = forms[moving[k]];
-      const auto place =
-          std::find_if(set.begin(), set.end(), [&](int m) { return pool.form(m) == form; });
+      int& term = terms[moving[k]];
+      const auto place = std::find_if(set.begin(), set.end(),
+                                      [&](int m) { return candidates.term_index(m) == term; });
       if (place == set.end()) continue;
-      const Eigen::VectorXd scores = instead.row(place - set.begin());
-      int chosen = *place;
-      double most = worth(now->score, form);
-      for (const int m : members_of(pool, near[k])) {
-        if (worth(scores[m], pool.form(m)) > most) {
-          chosen = m;
-          most = worth(scores[m], pool.form(m));
+      const Eigen::VectorXd scores = replacement.row(place - set.begin());
+      int best_member = *place;
+      double most = value_of(now->score, term);
+      for (const int m : members_of(candidates, near[k])) {
+        if (value_of(scores[m], candidates.term_index(m)) > most) {
+          best_member = m;
+          most = value_of(scores[m], candidates.term_index(m));
         }
       }
-      if (chosen != *place) {
-        const int old = std::exchange(*place, chosen);
-        const auto moved = pool.judge(set);
-        if (moved && worth(moved->score, pool.form(chosen)) > worth(best, form)) {
+      if (best_member != *place) {
+        const int old = std::exchange(*place, best_member);
+        const auto moved = candidates.evaluate(set);
+        if (moved &&
+            value_of(moved->score, candidates.term_index(best_member)) > value_of(best, term)) {
           best = moved->score;
-          form = pool.form(chosen);
-          is_sharp_.insert(form);
+          term = candidates.term_index(best_member);
+          refined_.insert(term);
         } else {
           *place = old;
         }
       }
-      if (!near[k].empty() && !vantage_.form(form).plain) still.push_back(moving[k]);
+      if (!near[k].empty() && !working_point_.term(term).preferred) still.push_back(moving[k]);
     }
     moving = still;
   }
-  for (const int form : forms) remember(form);
-  std::sort(forms.begin(), forms.end());
-  return forms;
+  for (const int term : terms) add_candidate(term);
+  std::sort(terms.begin(), terms.end());
+  return terms;
 }
 
-std::vector<int> Explainer::best_forms(std::vector<int> start, int scans) {
-  std::vector<int> forms = std::move(start);
+std::vector<int> TermSelector::best_terms(std::vector<int> start, int scans) {
+  std::vector<int> terms = std::move(start);
   for (int round = 0; round < std::max(scans, 1); ++round) {
-    still_at_it_();
-    const Pool pool = vantage_.pool_of(candidates_);
-    const std::vector<int> set =
-        forms.empty() ? find_best_set(pool) : improve_set(pool, members_of(pool, forms));
-    const bool same = forms == forms_of(pool, set);
-    forms = forms_of(pool, set);
-    if (forms.empty() || (same && round > 0)) break;
+    check_stop_();
+    const CandidateSet candidates = working_point_.candidate_set(candidates_);
+    const std::vector<int> set = terms.empty()
+                                     ? beam_search(candidates)
+                                     : stepwise_search(candidates, members_of(candidates, terms));
+    const bool same = terms == terms_of(candidates, set);
+    terms = terms_of(candidates, set);
+    if (terms.empty() || (same && round > 0)) break;
     if (scans == 0) break;
     const std::size_t known = candidates_.size();
-    add_peaks(vantage_.ground(forms));
+    add_peaks(working_point_.nuisance(terms));
     if (candidates_.size() == known) break;
   }
-  return sharpened(std::move(forms));
+  return refined(std::move(terms));
 }
 
-/// Names, then odd units, one step on from `now`, where the subject stands.
-Explanation Explainer::step_from(const Explanation& now, int scans) {
-  Explanation next{best_forms(now.forms, scans), now.trust};
-  vantage_.settle(next.forms);
-  const Ground& whole = vantage_.ground(next.forms);
-  next.trust =
-      leave_out_odd(vantage_.subject().linearization(), whole.basis, now.trust, whole.freedom);
-  if (next.trust != now.trust) {
-    vantage_.set_trust(next.trust);
-    vantage_.settle(next.forms);
+/// Terms, then outliers: one step on from `now`, with which the model is fitted.
+Selection TermSelector::next_selection(const Selection& now, int scans) {
+  Selection next{best_terms(now.terms, scans), now.weights};
+  working_point_.fit(next.terms);
+  const NuisanceBasis& whole = working_point_.nuisance(next.terms);
+  next.weights =
+      exclude_outliers(working_point_.model().linearization(), whole.basis, now.weights, whole.dof);
+  if (next.weights != now.weights) {
+    working_point_.set_observation_weights(next.weights);
+    working_point_.fit(next.terms);
   }
   return next;
 }
 
-/// Such steps until both stay; the best that was seen, for they may go in rounds.
-Explainer::Seen Explainer::explain(Eigen::VectorXd trust) {
-  Explanation now{{}, std::move(trust)};
-  vantage_.set_trust(now.trust);
-  vantage_.settle({});
-  Seen best;
+/// Such steps until neither changes; returns the best of them, since they may cycle.
+TermSelector::ScoredSelection TermSelector::search(Eigen::VectorXd weights) {
+  Selection now{{}, std::move(weights)};
+  working_point_.set_observation_weights(now.weights);
+  working_point_.fit({});
+  ScoredSelection best;
   int worse = 0;
-  for (int pass = 0; pass < kMostPasses && worse < 2; ++pass) {
-    still_at_it_();
-    const Explanation next = step_from(now, now.forms.empty() ? kMostScans : 1);
-    const double score = vantage_.score_of(next.forms, next.trust);
-    worse = pass == 0 || score > best.score + kSettledScore ? 0 : worse + 1;
-    if (pass == 0 || score > best.score) best = {next, score, vantage_.place()};
-    const bool stays = next.trust == now.trust && (next.forms == now.forms || next.forms.empty());
+  for (int pass = 0; pass < kMaxPasses && worse < 2; ++pass) {
+    check_stop_();
+    const Selection next = next_selection(now, now.terms.empty() ? kMaxScans : 1);
+    const double score = working_point_.score(next.terms, next.weights);
+    worse = pass == 0 || score > best.score + kMinScoreGain ? 0 : worse + 1;
+    if (pass == 0 || score > best.score) best = {next, score, working_point_.save()};
+    const bool stays =
+        next.weights == now.weights && (next.terms == now.terms || next.terms.empty());
     if (stays) break;
     now = next;
   }
   return best;
 }
 
-Explanation Explainer::best() {
-  const Linearization& at = vantage_.subject().linearization();
-  const Ground& base = vantage_.ground();
+Selection TermSelector::select() {
+  const Linearization& at = working_point_.model().linearization();
+  const NuisanceBasis& base = working_point_.nuisance();
   add_peaks(base);
-  const Eigen::VectorXd all = Eigen::VectorXd::Ones(vantage_.subject().units().count());
-  const Eigen::VectorXd without_odd = leave_out_odd(at, base.basis, all, base.freedom);
-  // Gross errors hide causes, and causes look like gross errors: both orders are tried.
-  Seen best = explain(all);
-  if (without_odd != all) {
-    Seen other = explain(without_odd);
+  const Eigen::VectorXd all = Eigen::VectorXd::Ones(working_point_.model().observations().count());
+  const Eigen::VectorXd without_outliers = exclude_outliers(at, base.basis, all, base.dof);
+  // Gross errors mask terms, and terms look like gross errors: both orders are tried.
+  ScoredSelection best = search(all);
+  if (without_outliers != all) {
+    ScoredSelection other = search(without_outliers);
     if (other.score > best.score) best = std::move(other);
   }
-  vantage_.return_to(*best.place);
-  return best.explanation;
+  working_point_.restore(*best.checkpoint);
+  return best.selection;
 }
 
-Explanation Explainer::best_from(const FirstLook& look) {
-  candidates_ = look.candidates;
-  // What a fit does not move (the moment of a slip) is looked at again where there are more units.
-  for (const int form : candidates_) {
-    const Form& about = vantage_.form(form);
-    if (about.moves || about.plain) is_sharp_.insert(form);
+Selection TermSelector::select_from(const Shortlist& from) {
+  candidates_ = from.candidates;
+  // A setting that is not continuous (the moment of a slip) is refined again with more
+  // observations.
+  for (const int term : candidates_) {
+    const Term& about = working_point_.term(term);
+    if (about.continuous || about.preferred) refined_.insert(term);
   }
-  const Explanation found{look.forms, Eigen::VectorXd::Ones(vantage_.subject().units().count())};
-  vantage_.set_trust(found.trust);
-  vantage_.settle(found.forms);
-  return step_from(found, 0);
+  const Selection found{from.terms,
+                        Eigen::VectorXd::Ones(working_point_.model().observations().count())};
+  working_point_.set_observation_weights(found.weights);
+  working_point_.fit(found.terms);
+  return next_selection(found, 0);
 }
 
-FirstLook Explainer::look_at(const std::vector<int>& forms) const {
-  const Pool pool = vantage_.pool_of(candidates_);
-  const std::vector<int> set = members_of(pool, forms);
-  const auto now = pool.judge(set);
-  if (!now) return {forms, candidates_};
-  const Eigen::VectorXd beside = pool.scores_beside(set);
-  const Eigen::MatrixXd instead = pool.scores_instead(set);
-  FirstLook out{forms, forms};
-  for (int m = 0; m < pool.size(); ++m) {
-    const bool stands = std::find(set.begin(), set.end(), m) != set.end();
-    const double best = set.empty() ? beside[m] : std::max(beside[m], instead.col(m).maxCoeff());
-    if (!stands && best > now->score - kFarBehind) out.candidates.push_back(pool.form(m));
+Shortlist TermSelector::shortlist(const std::vector<int>& terms) const {
+  const CandidateSet candidates = working_point_.candidate_set(candidates_);
+  const std::vector<int> set = members_of(candidates, terms);
+  const auto now = candidates.evaluate(set);
+  if (!now) return {terms, candidates_};
+  const Eigen::VectorXd forward = candidates.forward_scores(set);
+  const Eigen::MatrixXd replacement = candidates.exchange_scores(set);
+  Shortlist out{terms, terms};
+  for (int m = 0; m < candidates.size(); ++m) {
+    const bool selected = std::find(set.begin(), set.end(), m) != set.end();
+    const double best =
+        set.empty() ? forward[m] : std::max(forward[m], replacement.col(m).maxCoeff());
+    if (!selected && best > now->score - kFarBehind)
+      out.candidates.push_back(candidates.term_index(m));
   }
   return out;
 }
 
-}  // namespace bathyal
+}  // namespace bathyal::selection

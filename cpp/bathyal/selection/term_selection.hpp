@@ -8,58 +8,60 @@
 
 #include "bathyal/selection/working_point.hpp"
 
-namespace bathyal {
+namespace bathyal::selection {
 
-/// Forms that explain what a base model leaves, and units that do not belong.
-struct Explanation {
-  std::vector<int> forms;
-  Eigen::VectorXd trust;  ///< (units,) 0 of those that are left out
+/// Terms that explain the residuals of a base model, and which observations are outliers.
+struct Selection {
+  std::vector<int> terms;
+  Eigen::VectorXd weights;  ///< (observations,) 0 of those that are excluded
 };
 
-/// What a look at some of the units finds.
-struct FirstLook {
-  std::vector<int> forms;
-  std::vector<int> candidates;  ///< that more units may put in their place, and they themselves
+/// The result of a search in a subset of the observations.
+struct Shortlist {
+  std::vector<int> terms;
+  std::vector<int> candidates;  ///< terms, and what more observations may select instead
 };
 
-/// Looks for explanations among the forms of the library: those of scans by their peaks, looked at
-/// again beside what was found, and where the subject stands when it was fitted.
-class Explainer {
+/// Searches the library's terms: those of scans enter by their peaks, and are scanned again given
+/// the terms found so far, and at the new working point after each fit.
+class TermSelector {
  public:
-  /// `vantage` must outlive it. `still_at_it` is called often; it may throw to stop.
-  Explainer(Vantage& vantage, std::function<void()> still_at_it);
+  /// `working_point` must outlive it. `check_stop` is called often; it may throw to stop.
+  TermSelector(WorkingPoint& working_point, std::function<void()> check_stop);
 
-  /// The best explanation; the subject stands at it. The subject must stand without forms, all
-  /// units trusted.
-  Explanation best();
-  /// The same from what a look at some of the units found: no forms but its own are asked.
-  Explanation best_from(const FirstLook& look);
-  /// `found` looked at again where rows weigh another way; the subject must stand at its forms.
-  Explanation again(const Explanation& found) { return step_from(found, 1); }
-  /// What stands, and what may take a place in it where there are more units.
-  FirstLook look_at(const std::vector<int>& forms) const;
-  /// Library forms that are worth a pool.
+  /// The best selection; the model is fitted with it.
+  /// \pre the model is fitted without terms and with all observations
+  Selection select();
+  /// The same from a shortlist: no other terms are tried.
+  Selection select_from(const Shortlist& from);
+  /// `found` updated for other row weights.
+  /// \pre the model is fitted with its terms
+  Selection reselect(const Selection& found) { return next_selection(found, 1); }
+  /// `terms`, and candidates that more observations may select instead.
+  Shortlist shortlist(const std::vector<int>& terms) const;
+  /// Library terms that enter the candidate set.
   const std::vector<int>& candidates() const { return candidates_; }
-  void remember(int form);
+  void add_candidate(int term);
 
  private:
-  /// An explanation, how good it is, and where the subject stood at it.
-  struct Seen {
-    Explanation explanation;
+  /// A selection, its score, and the model's estimate with it.
+  struct ScoredSelection {
+    Selection selection;
     double score = 0.0;
-    std::shared_ptr<const Subject::Place> place;
+    std::shared_ptr<const Model::Checkpoint> checkpoint;
   };
-  void add_peaks(const Ground& beside);
-  std::vector<int> sharpened(std::vector<int> forms);
-  /// The best set where the subject stands, from `start` on; so many `scans` look again beside it.
-  std::vector<int> best_forms(std::vector<int> start, int scans);
-  Explanation step_from(const Explanation& now, int scans);
-  Seen explain(Eigen::VectorXd trust);
+  void add_peaks(const NuisanceBasis& nuisance);
+  std::vector<int> refined(std::vector<int> terms);
+  /// The best set at the working point, from `start` on, with at most `scans` further scans given
+  /// it.
+  std::vector<int> best_terms(std::vector<int> start, int scans);
+  Selection next_selection(const Selection& now, int scans);
+  ScoredSelection search(Eigen::VectorXd weights);
 
-  Vantage& vantage_;
-  std::function<void()> still_at_it_;
+  WorkingPoint& working_point_;
+  std::function<void()> check_stop_;
   std::vector<int> candidates_;
-  std::set<int> is_sharp_;  ///< forms of scans that were looked at closely
+  std::set<int> refined_;  ///< terms of scans whose setting was refined
 };
 
-}  // namespace bathyal
+}  // namespace bathyal::selection

@@ -11,116 +11,119 @@
 #include "bathyal/selection/internal/grid_scan.hpp"
 #include "bathyal/selection/outlier_test.hpp"
 
-namespace bathyal {
+namespace bathyal::selection {
 
-std::vector<int> everyone(const Pool& pool) {
-  std::vector<int> members(static_cast<std::size_t>(pool.size()));
+std::vector<int> all_members(const CandidateSet& candidates) {
+  std::vector<int> members(static_cast<std::size_t>(candidates.size()));
   std::iota(members.begin(), members.end(), 0);
   return members;
 }
 
-std::vector<int> forms_of(const Pool& pool, const std::vector<int>& members) {
-  std::vector<int> forms;
-  for (const int member : members) forms.push_back(pool.form(member));
-  std::sort(forms.begin(), forms.end());
-  return forms;
+std::vector<int> terms_of(const CandidateSet& candidates, const std::vector<int>& members) {
+  std::vector<int> terms;
+  for (const int member : members) terms.push_back(candidates.term_index(member));
+  std::sort(terms.begin(), terms.end());
+  return terms;
 }
 
-std::vector<int> members_of(const Pool& pool, const std::vector<int>& forms) {
+std::vector<int> members_of(const CandidateSet& candidates, const std::vector<int>& terms) {
   std::vector<int> members;
-  for (int m = 0; m < pool.size(); ++m) {
-    if (std::find(forms.begin(), forms.end(), pool.form(m)) != forms.end()) members.push_back(m);
+  for (int m = 0; m < candidates.size(); ++m) {
+    if (std::find(terms.begin(), terms.end(), candidates.term_index(m)) != terms.end())
+      members.push_back(m);
   }
   return members;
 }
 
-void Vantage::settle(const std::vector<int>& forms) {
-  bare_.reset();
+void WorkingPoint::fit(const std::vector<int>& terms) {
+  before_.reset();
   last_.reset();
-  subject_.settle(forms);
+  model_.fit(terms);
 }
 
-void Vantage::return_to(const Subject::Place& place) {
-  bare_.reset();
+void WorkingPoint::restore(const Model::Checkpoint& checkpoint) {
+  before_.reset();
   last_.reset();
-  subject_.return_to(place);
+  model_.restore(checkpoint);
 }
 
-const Ground& Vantage::ground(const std::vector<int>& forms) const {
-  const Linearization& at = subject_.linearization();
+const NuisanceBasis& WorkingPoint::nuisance(const std::vector<int>& terms) const {
+  const Linearization& at = model_.linearization();
   const auto with = [&](Eigen::MatrixXd basis) {
-    const auto freedom = static_cast<double>(at.misfit.size() - basis.cols()) - at.lost;
-    return Ground{std::move(basis), freedom};
+    const auto dof = static_cast<double>(at.residual.size() - basis.cols()) - at.constrained_dof;
+    return NuisanceBasis{std::move(basis), dof};
   };
-  if (!bare_) bare_ = with(orthonormal(at.base));
-  if (forms.empty()) return *bare_;
-  if (!last_ || last_->first != forms) {
-    Eigen::MatrixXd basis = bare_->basis;
-    append(basis, projected_columns(bare_->basis, {concatenate_columns(subject_.columns(forms))},
+  if (!before_) before_ = with(orthonormal(at.jacobian));
+  if (terms.empty()) return *before_;
+  if (!last_ || last_->first != terms) {
+    Eigen::MatrixXd basis = before_->basis;
+    append(basis, projected_columns(before_->basis, {concatenate_columns(model_.columns(terms))},
                                     num_threads_)
                       .front()
                       .columns);
-    last_.emplace(forms, with(std::move(basis)));
+    last_.emplace(terms, with(std::move(basis)));
   }
   return last_->second;
 }
 
-Pool Vantage::pool_of(const std::vector<int>& forms) const {
-  const Ground& base = ground();
-  return {base.basis,       subject_.linearization().misfit, base.freedom, forms,
-          subject_.forms(), subject_.columns(forms),         num_threads_};
+CandidateSet WorkingPoint::candidate_set(const std::vector<int>& terms) const {
+  const NuisanceBasis& base = nuisance();
+  return {base.basis,     model_.linearization().residual, base.dof,    terms,
+          model_.terms(), model_.columns(terms),           num_threads_};
 }
 
-std::vector<Dependence> Vantage::dependences(const Ground& beside) const {
+std::vector<LackOfFit> WorkingPoint::lack_of_fit(const NuisanceBasis& nuisance) const {
   std::vector<int> asked;
-  for (int form = 0; form < static_cast<int>(subject_.forms().size()); ++form) {
-    if (subject_.forms()[form].probe) asked.push_back(form);
+  for (int term = 0; term < static_cast<int>(model_.terms().size()); ++term) {
+    if (model_.terms()[term].lack_of_fit) asked.push_back(term);
   }
-  const Eigen::VectorXd& misfit = subject_.linearization().misfit;
-  const std::vector<ScannedForm> scanned =
-      scan(subject_, asked, beside.basis, misfit, beside.freedom, num_threads_);
-  const double total = misfit.squaredNorm() - (beside.basis.transpose() * misfit).squaredNorm();
-  const auto rows = static_cast<double>(misfit.size());
-  std::vector<Dependence> out;
-  for (const ScannedForm& form : scanned) {
-    if (form.width == 0.0 || !(beside.freedom > form.width + 1.0)) continue;
-    Dependence d{form.form, form.explained, form.width};
-    const double noise = (total - form.explained) / (beside.freedom - form.width);
+  const Eigen::VectorXd& residual = model_.linearization().residual;
+  const std::vector<ScannedTerm> scanned =
+      scan(model_, asked, nuisance.basis, residual, nuisance.dof, num_threads_);
+  const double total =
+      residual.squaredNorm() - (nuisance.basis.transpose() * residual).squaredNorm();
+  const auto rows = static_cast<double>(residual.size());
+  std::vector<LackOfFit> out;
+  for (const ScannedTerm& term : scanned) {
+    if (term.width == 0.0 || !(nuisance.dof > term.width + 1.0)) continue;
+    LackOfFit d{term.term, term.explained, term.width};
+    const double noise = (total - term.explained) / (nuisance.dof - term.width);
     d.p = std::min(
-        1.0, static_cast<double>(asked.size()) * f_tail(form.explained / form.width / noise,
-                                                        form.width, beside.freedom - form.width));
-    const double beyond = std::max(form.explained - form.width * noise, 0.0);
+        1.0, static_cast<double>(asked.size()) * f_tail(term.explained / term.width / noise,
+                                                        term.width, nuisance.dof - term.width));
+    const double beyond = std::max(term.explained - term.width * noise, 0.0);
     d.size = std::sqrt(beyond / rows);
     d.share = total > 0.0 ? beyond / total : 0.0;
-    d.gain = form.gain - std::log(subject_.forms()[form.form].trials);
+    d.gain = term.gain - std::log(model_.terms()[term.term].multiplicity);
     out.push_back(d);
   }
-  std::stable_sort(out.begin(), out.end(), [](const Dependence& a, const Dependence& b) {
+  std::stable_sort(out.begin(), out.end(), [](const LackOfFit& a, const LackOfFit& b) {
     return std::pair(a.p, -a.share) < std::pair(b.p, -b.share);
   });
   return out;
 }
 
-double Vantage::score_of(const std::vector<int>& forms, const Eigen::VectorXd& trust) const {
-  const Ground& base = ground();
-  const Pool pool = pool_of(forms);
-  const auto fit = pool.judge(everyone(pool));
+double WorkingPoint::score(const std::vector<int>& terms, const Eigen::VectorXd& weights) const {
+  const NuisanceBasis& base = nuisance();
+  const CandidateSet candidates = candidate_set(terms);
+  const auto fit = candidates.evaluate(all_members(candidates));
   if (!fit) return -std::numeric_limits<double>::infinity();
-  // Units left out count as rows that a column of their own explains.
-  double odd = 0.0, cost = 0.0;
-  const Ground& whole = ground(forms);
-  const std::vector<UnitTest> tests =
-      test_units(subject_.linearization(), whole.basis, trust, whole.freedom);
-  for (Index i = 0; i < trust.size(); ++i) {
-    if (trust[i] > 0.0) continue;
-    const UnitTest& test = tests[static_cast<std::size_t>(i)];
-    odd += test.rows;
-    cost += cost_of_freedom(test.rows, test.distance) + std::log(static_cast<double>(trust.size()));
+  // Excluded observations count as rows, each explained by a column of its own.
+  double outlier_rows = 0.0, cost = 0.0;
+  const NuisanceBasis& whole = nuisance(terms);
+  const std::vector<ObservationTest> tests =
+      test_observations(model_.linearization(), whole.basis, weights, whole.dof);
+  for (Index i = 0; i < weights.size(); ++i) {
+    if (weights[i] > 0.0) continue;
+    const ObservationTest& test = tests[static_cast<std::size_t>(i)];
+    outlier_rows += test.rows;
+    cost += complexity_penalty(test.rows, test.distance) +
+            std::log(static_cast<double>(weights.size()));
   }
-  // As judge counts, in metres: noise is another unit from explanation to explanation.
-  const double rows = base.freedom + odd;
-  return fit->score + 0.5 * base.freedom * std::log(fit->left) -
-         0.5 * rows * std::log(fit->left * subject_.noise() * subject_.noise()) - cost;
+  // As CandidateSet::evaluate, in metres: the unit of residuals differs between selections.
+  const double rows = base.dof + outlier_rows;
+  return fit->score + 0.5 * base.dof * std::log(fit->residual_sum) -
+         0.5 * rows * std::log(fit->residual_sum * model_.noise() * model_.noise()) - cost;
 }
 
-}  // namespace bathyal
+}  // namespace bathyal::selection

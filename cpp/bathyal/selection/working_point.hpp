@@ -8,65 +8,67 @@
 #include "bathyal/selection/candidate_set.hpp"
 #include "bathyal/selection/model.hpp"
 
-namespace bathyal {
+namespace bathyal::selection {
 
-/// What the columns of the base model, and of forms beside it, span where a subject stands.
-struct Ground {
+/// The column space of the base model, and of terms fitted with it, at a working point.
+struct NuisanceBasis {
   Eigen::MatrixXd basis;  ///< (M, b) orthonormal
-  double freedom = 0.0;   ///< that they leave
+  double dof = 0.0;       ///< residual degrees of freedom
 };
 
-/// What a probe adds to a model: structure that is there, whether it has a name or not.
-struct Dependence {
-  int form = 0;
+/// Test of one lack-of-fit term: structure in the residuals, whatever its cause.
+struct LackOfFit {
+  int term = 0;
   double explained = 0.0;
   double width = 0.0;
-  double p = 1.0;     ///< all probes counted
+  double p = 1.0;     ///< corrected for all lack-of-fit terms
   double size = 0.0;  ///< per row [noise]
   double share = 0.0;
-  double gain = 0.0;  ///< in log evidence, its trials counted
+  double gain = 0.0;  ///< in log evidence, corrected for multiplicity
 };
 
-/// A subject where it stands, and what is seen from there.
-class Vantage {
+/// A model at its current estimate, with what follows from the linearization there.
+class WorkingPoint {
  public:
-  /// `subject` must outlive it.
-  Vantage(Subject& subject, int num_threads) : subject_(subject), num_threads_(num_threads) {}
+  /// `model` must outlive it.
+  WorkingPoint(Model& model, int num_threads) : model_(model), num_threads_(num_threads) {}
 
-  const Subject& subject() const { return subject_; }
+  const Model& model() const { return model_; }
   int num_threads() const { return num_threads_; }
-  const Form& form(int form) const { return subject_.forms()[form]; }
+  const Term& term(int term) const { return model_.terms()[term]; }
 
-  /// Fits and stands there. What was seen from the last place is forgotten.
-  void settle(const std::vector<int>& forms);
-  std::shared_ptr<const Subject::Place> place() const { return subject_.place(); }
-  void return_to(const Subject::Place& place);
-  /// Counts from the next `settle` on.
-  void set_trust(const Eigen::VectorXd& trust) { subject_.set_trust(trust); }
-  void set_noise_forms(const Eigen::VectorXd& ratios) { subject_.set_noise_forms(ratios); }
-  /// Forms of a scan between `form` and its neighbours, made on demand.
-  std::vector<int> finer(int form) { return subject_.finer(form); }
+  /// Fits the model; all that was derived at the last estimate is discarded.
+  void fit(const std::vector<int>& terms);
+  std::shared_ptr<const Model::Checkpoint> save() const { return model_.save(); }
+  void restore(const Model::Checkpoint& checkpoint);
+  /// Takes effect with the next `fit`.
+  void set_observation_weights(const Eigen::VectorXd& weights) {
+    model_.set_observation_weights(weights);
+  }
+  void set_variance_ratios(const Eigen::VectorXd& ratios) { model_.set_variance_ratios(ratios); }
+  /// Terms of a scan between `term` and its neighbours, made on demand.
+  std::vector<int> refine(int term) { return model_.refine(term); }
 
-  /// Stays until the next call with other forms; that of no forms until the next `settle`.
-  const Ground& ground(const std::vector<int>& forms = {}) const;
-  Pool pool_of(const std::vector<int>& forms) const;
-  /// What each probe adds to what stands, those beyond noise first.
-  std::vector<Dependence> dependences(const Ground& beside) const;
-  /// Log evidence of `forms`, and of units left out where `trust` is 0, comparable from place to
-  /// place; -inf where the forms are not independent.
-  double score_of(const std::vector<int>& forms, const Eigen::VectorXd& trust) const;
+  /// Valid until the next call with other terms; that without terms until the next `fit`.
+  const NuisanceBasis& nuisance(const std::vector<int>& terms = {}) const;
+  CandidateSet candidate_set(const std::vector<int>& terms) const;
+  /// The test of each lack-of-fit term given `nuisance`, most significant first.
+  std::vector<LackOfFit> lack_of_fit(const NuisanceBasis& nuisance) const;
+  /// Log evidence of `terms`, and of excluding observations whose weight is 0, comparable between
+  /// working points; -inf where the terms are collinear.
+  double score(const std::vector<int>& terms, const Eigen::VectorXd& weights) const;
 
  private:
-  Subject& subject_;
+  Model& model_;
   int num_threads_;
-  mutable std::optional<Ground> bare_;
-  mutable std::optional<std::pair<std::vector<int>, Ground>> last_;
+  mutable std::optional<NuisanceBasis> before_;
+  mutable std::optional<std::pair<std::vector<int>, NuisanceBasis>> last_;
 };
 
-/// All members of a pool.
-std::vector<int> everyone(const Pool& pool);
-/// Forms of members, rising; members that are one of `forms`.
-std::vector<int> forms_of(const Pool& pool, const std::vector<int>& members);
-std::vector<int> members_of(const Pool& pool, const std::vector<int>& forms);
+/// All members of a candidate set.
+std::vector<int> all_members(const CandidateSet& candidates);
+/// Term indices of members, ascending; members whose term is one of `terms`.
+std::vector<int> terms_of(const CandidateSet& candidates, const std::vector<int>& members);
+std::vector<int> members_of(const CandidateSet& candidates, const std::vector<int>& terms);
 
-}  // namespace bathyal
+}  // namespace bathyal::selection

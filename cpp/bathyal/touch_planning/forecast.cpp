@@ -45,6 +45,9 @@ void fill_rank(const TouchModel& model, ArmResiduals system, TouchForecast& out)
   for (const int column : model.free) free.push_back(model.parameters.parameters[column]);
   for (const Eigen::VectorXd& direction : readable_directions(rank.null_space())) {
     out.null_space.push_back(describe_direction(direction, free));
+    Index leading = 0;
+    direction.cwiseAbs().maxCoeff(&leading);
+    out.null_space_leading.push_back(free[static_cast<std::size_t>(leading)].description);
   }
   const double mean_log = rank.singular_values.head(rank.rank).array().log().mean();
   out.o1 = rank.rank == 0

@@ -41,6 +41,7 @@ struct TouchForecast {
   int rank = 0;                         ///< of the data by the free ones, without priors
   Eigen::VectorXd singular_values;      ///< (free,) descending, mm at the tip per mm and mrad
   std::vector<std::string> null_space;  ///< descriptions of the undetermined directions
+  std::vector<std::string> null_space_leading;  ///< the parameter of largest share in each of them
   /// Borm and Menq (1989): (Π σ)^(1/r) / √N over the r = rank singular values above zero.
   double o1 = 0.0;
   /// ln det of the free parameters' information, priors included, per mm and mrad.

@@ -9,7 +9,7 @@ import numpy as np
 
 from bathyal import effects
 from bathyal._core import CorrectedArm, Error, FoundEffect, Support
-from bathyal.arm.json import arm_told, listed, read_keys, rigid_arm, write_json
+from bathyal.arm.json import arm_fields, listed, read_keys, rigid_arm, write_json
 from bathyal.io.files import PathLike, known_suffix
 
 KEYS = ("effects", "support")
@@ -35,7 +35,7 @@ def save_corrected_arm(model: CorrectedArm, path: PathLike) -> None:
     path : path
         ``.json``: what `Arm.save` writes of the rigid part, the effects with settings and values,
         and the support, to the last digit. The file appears whole or not at all. An effect of your
-        own is told by its name: `bathyal.effects.register` it before the file is read.
+        own is stored by its name: `bathyal.effects.register` it before the file is read.
 
     Raises
     ------
@@ -45,20 +45,20 @@ def save_corrected_arm(model: CorrectedArm, path: PathLike) -> None:
         Where the file cannot be written.
     """
     known_suffix(path, (".json",), "JSON")
-    told = arm_told(model.arm)
-    told["effects"] = [_effect_told(found) for found in model.effects]
-    told["support"] = _support_told(model.support)
-    write_json(told, path)
+    fields = arm_fields(model.arm)
+    fields["effects"] = [_effect_fields(found) for found in model.effects]
+    fields["support"] = _support_fields(model.support)
+    write_json(fields, path)
 
 
-def corrected_arm(told: dict[str, Any]) -> CorrectedArm:
+def corrected_arm(fields: dict[str, Any]) -> CorrectedArm:
     """The corrected arm of such a file's contents."""
-    arm = rigid_arm({key: value for key, value in told.items() if key not in KEYS})
-    found = [_effect(one) for one in listed(told, "effects")]
-    return CorrectedArm(arm, found, _support(told.get("support")))
+    arm = rigid_arm({key: value for key, value in fields.items() if key not in KEYS})
+    found = [_effect(one) for one in listed(fields, "effects")]
+    return CorrectedArm(arm, found, _support(fields.get("support")))
 
 
-def _effect_told(found: FoundEffect) -> dict[str, Any]:
+def _effect_fields(found: FoundEffect) -> dict[str, Any]:
     parameters = [
         {"name": name, "unit": found.units[name], "scale": found.scales[name], "value": value}
         for name, value in found.parameters.items()
@@ -72,23 +72,23 @@ def _effect_told(found: FoundEffect) -> dict[str, Any]:
     }
 
 
-def _range_told(numbers: Any) -> dict[str, Any]:
+def _range_fields(numbers: Any) -> dict[str, Any]:
     low, high = np.asarray(numbers).tolist()
     return {"low": low, "high": high}
 
 
-def _support_told(support: Support) -> dict[str, Any]:
+def _support_fields(support: Support) -> dict[str, Any]:
     return {
-        "joints": _range_told(support.joints),
+        "joints": _range_fields(support.joints),
         "gaps": [gaps.tolist() for gaps in support.gaps],
-        "gravity_m_s2": _range_told(support.gravity),
-        "covariates": {name: _range_told(r) for name, r in support.covariates.items()},
+        "gravity_m_s2": _range_fields(support.gravity),
+        "covariates": {name: _range_fields(r) for name, r in support.covariates.items()},
         "sessions": support.sessions.tolist(),
     }
 
 
-def _effect(told: Any) -> FoundEffect:
-    parts = read_keys(told, _EFFECT_KEYS, "an effect")
+def _effect(fields: Any) -> FoundEffect:
+    parts = read_keys(fields, _EFFECT_KEYS, "an effect")
     name = parts.get("name")
     if not isinstance(name, str):
         raise Error(f"an effect: expected a name, got {name!r:.60}")
@@ -109,13 +109,13 @@ def _effect(told: Any) -> FoundEffect:
     )
 
 
-def _range(told: Any, what: str) -> Any:
-    parts = read_keys(told, _RANGE_KEYS, what)
+def _range(fields: Any, what: str) -> Any:
+    parts = read_keys(fields, _RANGE_KEYS, what)
     return [parts["low"], parts["high"]]
 
 
-def _support(told: Any) -> Support:
-    parts = read_keys(told, _SUPPORT_KEYS, "support")
+def _support(fields: Any) -> Support:
+    parts = read_keys(fields, _SUPPORT_KEYS, "support")
     covariates = parts.get("covariates", {})
     if not isinstance(covariates, dict):
         raise Error(f"covariates: expected an object, got {covariates!r:.60}")

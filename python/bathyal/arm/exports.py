@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What the drivers of Universal Robots' arms take: calibration file and ROS kinematics.
 
-Both tell six turning joints and no more: the way to the base before the first and what lies behind
-the last are named in comments, for the mounting and the tool.
+Both describe six turning joints and no more: the way to the base before the first and what lies
+behind the last are named in comments, for the mounting and the tool.
 """
 
 from __future__ import annotations
@@ -33,8 +33,8 @@ def write_ros_kinematics(arm: Arm, path: PathLike, *, hash: str = "bathyal") -> 
 
     Each joint's origin in the frame of the joint before it (x, y, z [m]; roll, pitch, yaw [rad] as
     URDF reads them), the first in ``base_link_inertia``, the maker's base frame. So Hayati's beta
-    is told exactly. What lies behind the last joint (a, alpha and beta of the last row, flange and
-    tool) and `base` are no part of the file: comments tell them.
+    is written exactly. What lies behind the last joint (a, alpha and beta of the last row, flange
+    and tool) and `base` are no part of the file: comments give them.
 
     Parameters
     ----------
@@ -74,7 +74,7 @@ def write_ur_calibration(arm: Arm, path: PathLike, nominal: Arm | None) -> None:
     ``delta_theta``, ``delta_a``, ``delta_d`` and ``delta_alpha`` [rad, m] of section ``[mounting]``
     are added to the controller's own table, in which there is no beta: a row that has one becomes
     the common normal's, exactly, whose d between nearly parallel axes may be many metres (in the
-    maker's own calibrations, too). What the table cannot tell is named in comments.
+    maker's own calibrations, too). What the table cannot hold is named in comments.
 
     Parameters
     ----------
@@ -89,7 +89,7 @@ def write_ur_calibration(arm: Arm, path: PathLike, nominal: Arm | None) -> None:
     ------
     ValueError
         For an arm with other joints, a first axis that is not the base's z, or axes so nearly
-        parallel that no table without beta tells them to a nanometre.
+        parallel that no table without beta describes them to a nanometre.
     OSError
         Where the file cannot be written.
     """
@@ -146,7 +146,7 @@ def _plain_rows(arm: Arm, name: str) -> tuple[Floats, Floats]:
         row = int(np.argmin(np.where(sine > _PARALLEL, sine, np.inf)))
         raise argument_error(
             name,
-            "axes that a table without beta tells to a nanometre",
+            "axes that a table without beta describes to a nanometre",
             f"axes {row + 1} and {row + 2} that are parallel but for {sine[row]:.1e} rad",
         )
     behind = np.asarray(table.flange)

@@ -12,7 +12,7 @@ from typing import Any
 from bathyal._core import Arm, CorrectedArm
 from bathyal.arm import corrected_files as corrected_arm_files
 from bathyal.arm.exports import write_ros_kinematics, write_ur_calibration
-from bathyal.arm.json import arm_told, read_json, rigid_arm, write_json
+from bathyal.arm.json import arm_fields, read_json, rigid_arm, write_json
 from bathyal.arm.urdf_reader import arm_from_urdf
 from bathyal.arm.urdf_writer import urdf_of_arm
 from bathyal.errors import argument_error
@@ -60,9 +60,9 @@ def read_arm(path: PathLike, **options: Any) -> Arm | CorrectedArm:
         raise argument_error(name, "only for a .urdf file", "one for .json")
     content = read_document(path)
     with reading(path, "arm"):
-        told = read_json(content)
-        corrected = any(key in told for key in corrected_arm_files.KEYS)
-        return corrected_arm_files.corrected_arm(told) if corrected else rigid_arm(told)
+        fields = read_json(content)
+        corrected = any(key in fields for key in corrected_arm_files.KEYS)
+        return corrected_arm_files.corrected_arm(fields) if corrected else rigid_arm(fields)
 
 
 def find_arm(name: PathLike, **options: Any) -> Arm:
@@ -94,7 +94,7 @@ def find_arm(name: PathLike, **options: Any) -> Arm:
     known = re.sub(r"[ _-]+", "_", text.strip().lower())
     if known in arms.__all__:
         if options:
-            raise argument_error(next(iter(options)), "nothing beside an arm's name", "one")
+            raise argument_error(next(iter(options)), "nothing else with an arm's name", "one")
         arm: Arm = getattr(arms, known)()
         return arm
     if Path(text).suffix.lower() in (".json", ".urdf"):
@@ -137,12 +137,12 @@ def write_arm(arm: Arm, path: PathLike, *, nominal: Arm | None = None) -> None:
         ur_description) or ``.conf`` (Universal Robots' calibration). The file appears whole or not
         at all.
     nominal : Arm, optional
-        For ``.conf``: the maker's arm, to which the file tells the differences.
+        For ``.conf``: the maker's arm, to which the file holds the differences.
 
     Raises
     ------
     ValueError
-        For a suffix that is not written, an arm that the format cannot tell, a `nominal` that is
+        For a suffix that is not written, an arm that the format cannot hold, a `nominal` that is
         missing or not asked for.
     OSError
         Where the file cannot be written.
@@ -165,7 +165,7 @@ def write_arm(arm: Arm, path: PathLike, *, nominal: Arm | None = None) -> None:
 
 
 def _write_json(arm: Arm, path: PathLike) -> None:
-    write_json(arm_told(arm), path)
+    write_json(arm_fields(arm), path)
 
 
 _WRITERS: dict[str, Callable[[Arm, PathLike], object]] = {

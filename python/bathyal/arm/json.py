@@ -72,14 +72,14 @@ _FRAME_KEYS = {"name": "name", "pose": "link_from_frame_m"}
 _UNITS = {"revolute": ("rad", "Nm"), "prismatic": ("m", "N"), "fixed": ("rad", "Nm")}
 
 
-def write_json(told: dict[str, Any], path: PathLike) -> None:
+def write_json(fields: dict[str, Any], path: PathLike) -> None:
     """Write a file's contents; it appears whole or not at all."""
     with replacing(path) as aside:
-        aside.write_text(_laid_out(told) + "\n", encoding="utf-8")
+        aside.write_text(_laid_out(fields) + "\n", encoding="utf-8")
 
 
-def arm_told(arm: Arm) -> dict[str, Any]:
-    """What the file of a rigid arm tells."""
+def arm_fields(arm: Arm) -> dict[str, Any]:
+    """The fields of a rigid arm's file."""
     parts = arm_parts(arm)
     parts["joints"] = [_renamed(joint, _joint_keys(joint["type"])) for joint in parts["joints"]]
     for link in parts["links"]:
@@ -105,11 +105,11 @@ def _laid_out(value: Any, indent: str = "") -> str:
 
 
 def _renamed(parts: dict[str, Any], keys: dict[str, str]) -> dict[str, Any]:
-    return {told: _plain(parts[key]) for key, told in keys.items() if key in parts}
+    return {name: _plain(parts[key]) for key, name in keys.items() if key in parts}
 
 
 def _plain(value: Any) -> Any:
-    """What JSON can tell; no limit is null."""
+    """What JSON can hold; no limit is null."""
     if isinstance(value, np.ndarray):
         return value.tolist()
     if isinstance(value, float) and math.isinf(value):
@@ -121,24 +121,24 @@ def _joint_keys(kind: str) -> dict[str, str]:
     if kind not in _UNITS:
         raise Error(f"joint type: expected {', '.join(_UNITS)}, got {kind!r}")
     unit, effort = _UNITS[kind]
-    keys = {key: told.format(unit) for key, told in _JOINT_KEYS.items()}
+    keys = {key: name.format(unit) for key, name in _JOINT_KEYS.items()}
     return keys | {"effort": f"effort_{effort}"}
 
 
 def read_json(text: bytes) -> dict[str, Any]:
-    """What an arm's file tells, without its format and version, and the run that wrote it."""
-    told = json.loads(text, parse_constant=_refuse_constant)
-    if not isinstance(told, dict) or told.get("format") != FORMAT:
+    """The fields of an arm's file, without its format and version, and the run that wrote it."""
+    fields = json.loads(text, parse_constant=_refuse_constant)
+    if not isinstance(fields, dict) or fields.get("format") != FORMAT:
         raise Error(f'it does not say "format": "{FORMAT}"')
-    refuse_truth_values(told)
-    if told.get("version") != VERSION:
-        raise Error(f"expected version {VERSION}, got {told.get('version')!r}")
-    return {key: value for key, value in told.items() if key not in _FRAMING}
+    refuse_truth_values(fields)
+    if fields.get("version") != VERSION:
+        raise Error(f"expected version {VERSION}, got {fields.get('version')!r}")
+    return {key: value for key, value in fields.items() if key not in _FRAMING}
 
 
-def rigid_arm(told: dict[str, Any]) -> Arm:
+def rigid_arm(fields: dict[str, Any]) -> Arm:
     """The arm of a file's contents."""
-    parts = read_keys(told, _ARM_KEYS, "the arm")
+    parts = read_keys(fields, _ARM_KEYS, "the arm")
     parts["joints"] = [_joint(joint) for joint in listed(parts, "joints")]
     parts["links"] = [read_keys(link, _LINK_KEYS, "a link") for link in listed(parts, "links")]
     for link in parts["links"]:
@@ -148,28 +148,28 @@ def rigid_arm(told: dict[str, Any]) -> Arm:
     return arm_from_parts(parts)
 
 
-def _joint(told: Any) -> dict[str, Any]:
-    kind = told.get("type", "revolute") if isinstance(told, dict) else "revolute"
-    return read_keys(told, _joint_keys(str(kind)), "a joint")
+def _joint(fields: Any) -> dict[str, Any]:
+    kind = fields.get("type", "revolute") if isinstance(fields, dict) else "revolute"
+    return read_keys(fields, _joint_keys(str(kind)), "a joint")
 
 
-def _shape(told: Any) -> Shape:
-    keys = read_keys(told, _SHAPE_KEYS, "a shape")
+def _shape(fields: Any) -> Shape:
+    keys = read_keys(fields, _SHAPE_KEYS, "a shape")
     try:
         return Shape(**keys)
     except TypeError:
-        raise Error(f"a shape: expected text for kind, file and part, got {told!r:.80}") from None
+        raise Error(f"a shape: expected text for kind, file and part, got {fields!r:.80}") from None
 
 
-def read_keys(told: Any, keys: dict[str, str], what: str) -> dict[str, Any]:
+def read_keys(fields: Any, keys: dict[str, str], what: str) -> dict[str, Any]:
     """Back to the engine's keys; null is left out, and so has its default."""
-    if not isinstance(told, dict):
-        raise Error(f"{what}: expected an object, got {told!r:.60}")
-    back = {told_key: key for key, told_key in keys.items()}
-    unknown = [key for key in told if key not in back]
+    if not isinstance(fields, dict):
+        raise Error(f"{what}: expected an object, got {fields!r:.60}")
+    back = {name: key for key, name in keys.items()}
+    unknown = [key for key in fields if key not in back]
     if unknown:
         raise Error(f"{what}: its key {unknown[0]!r} is not known; known are {', '.join(back)}")
-    return {back[key]: value for key, value in told.items() if value is not None}
+    return {back[key]: value for key, value in fields.items() if value is not None}
 
 
 def listed(parts: dict[str, Any], key: str) -> list[Any]:
@@ -180,5 +180,5 @@ def listed(parts: dict[str, Any], key: str) -> list[Any]:
     return value
 
 
-def _refuse_constant(word: str) -> float:
-    raise Error(f"the number {word} is none")
+def _refuse_constant(text: str) -> float:
+    raise Error(f"the number {text} is none")

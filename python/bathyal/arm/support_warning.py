@@ -46,9 +46,9 @@ def warn(
             continue
         name = found.name if found.joint is None else f"{found.name} of joint {found.joint + 1}"
         counts[name] = counts.get(name, 0) + int(missing)
-        untold = [need for need in found.effect.needs if need not in covariates]
-        if untold:
-            reasons.append(f"{name} left out of all rows, for want of {' and '.join(untold)}")
+        absent = [need for need in found.effect.needs if need not in covariates]
+        if absent:
+            reasons.append(f"{name} left out of all rows, for want of {' and '.join(absent)}")
         else:
             reasons.append(f"{name} in {missing} of {len(mask)} rows")
     beyond = _beyond(model, q, covariates)
@@ -58,13 +58,13 @@ def warn(
     text += (
         " There a wave or curve along a joint is held at its average, what is smooth as in the "
         "nearest row that taught it, and what needs a number that is not known is left out; "
-        "in_support() tells the rows."
+        "in_support() gives the rows."
     )
     warnings.warn(SupportWarning(text, counts, beyond, mask), stacklevel=2)
 
 
 def _beyond(model: CorrectedArm, q: Floats, covariates: Mapping[str, Any]) -> list[str]:
-    """Each column that leaves its range, and gaps in which effects are held, in words."""
+    """Each column that leaves its range, and gaps in which effects are held, as text."""
     support = model.support
     columns = [(f"joint {j + 1}", q[:, j], support.joints[:, j]) for j in range(q.shape[1])]
     for name, values in covariates.items():
@@ -75,25 +75,25 @@ def _beyond(model: CorrectedArm, q: Floats, covariates: Mapping[str, Any]) -> li
             continue
         table = np.asarray(values, dtype=float).reshape(-1, ranges.shape[1])
         columns += [(name, table[:, j], ranges[:, j]) for j in range(table.shape[1])]
-    words = []
+    lines = []
     for name, asked, (low, high) in columns:
         known = asked[np.isfinite(asked)]
         if known.size and (known.min() < low or known.max() > high):
-            words.append(
+            lines.append(
                 f"{name}, asked {known.min():.4g} to {known.max():.4g}, taught {low:.4g} to "
                 f"{high:.4g}"
             )
     for j, gaps in enumerate(model.gaps):
         rows = np.count_nonzero((q[:, j] > gaps[:, :1]) & (q[:, j] < gaps[:, 1:]), axis=1)
-        words += [
+        lines += [
             f"joint {j + 1} in a gap from {low:.4g} to {high:.4g} in {n} of {len(q)} rows"
             for (low, high), n in zip(gaps, rows, strict=True)
             if n
         ]
     if len(support.sessions) and "session" in covariates:
         strange = np.setdiff1d(np.asarray(covariates["session"], dtype=float), support.sessions)
-        words += [f"session {number:g}, never seen" for number in strange if np.isfinite(number)]
-    return words
+        lines += [f"session {number:g}, never seen" for number in strange if np.isfinite(number)]
+    return lines
 
 
 warn_of_support_with(warn)

@@ -17,10 +17,10 @@ from bathyal.io.formats.xml.robot import Joint, Link, Robot, read_robot
 Pose = NDArray[np.float64]
 Named = TypeVar("Named", Joint, Link)
 
-# The joints by which `Arm.to_urdf` tells what the user set; read back as such.
+# The joints by which `Arm.to_urdf` writes what the user set; read back as such.
 BASE_JOINT = "world_from_base"
 TOOL_JOINT = "flange_from_tool"
-# URDF has no word for "no limit" but in `continuous`; the largest double stands for it.
+# URDF cannot say "no limit" except by `continuous`; the largest double means it.
 UNLIMITED = float(np.finfo(np.float64).max)
 
 _KINDS = {
@@ -31,7 +31,7 @@ _KINDS = {
     "floating": "",
     "planar": "",
 }
-_MOST_TIPS_TOLD = 12
+_MOST_TIPS_LISTED = 12
 
 
 def arm_from_urdf(
@@ -48,9 +48,9 @@ def arm_from_urdf(
         The link, or the joint whose child link, becomes the flange. Needed where the tree has
         several ends; one that alone has moving joints before it is taken unasked.
     root : str, optional
-        The link that becomes the base; the root of the tree unless told.
+        The link that becomes the base; the root of the tree unless given.
     name : str, optional
-        The robot's unless told.
+        The robot's unless given.
 
     Returns
     -------
@@ -66,11 +66,11 @@ def arm_from_urdf(
     Raises
     ------
     ValueError
-        For a tip or root that is not there, or must be told; the text lists the tips there are.
+        For a tip or root that is not there, or must be given; the text lists the tips there are.
     OSError
         Where there is no such file, or it may not be read.
     Error
-        For a file that is no URDF; loops, links that are missing, told twice or apart; a type of
+        For a file that is no URDF; loops, links that are missing, defined twice or apart; a type of
         joint that is not known; a planar or floating joint on the path; an axis of 0; lower above
         upper; joints that mimic in a circle.
 
@@ -92,10 +92,10 @@ def arm_from_urdf(
     last = tool[0] if tool else (_only_tip(tree, first) if tip is None else _known(tree, tip))
     path_joints = _path(tree, first, last)
     with reading(path, "URDF"):
-        told = _chain(tree, first, path_joints)
-        told["name"] = robot.name if name is None else name
-        told["source"] = f"URDF {shown(Path(path).name)}, from {first} to {last}"
-        arm = arm_from_chain(told)
+        fields = _chain(tree, first, path_joints)
+        fields["name"] = robot.name if name is None else name
+        fields["source"] = f"URDF {shown(Path(path).name)}, from {first} to {last}"
+        arm = arm_from_chain(fields)
         arm.base = base
         if tool:
             arm.tool = tool[1]
@@ -154,7 +154,7 @@ class _Tree:
         return only[0].origin
 
     def take_tool(self) -> tuple[str, Pose] | None:
-        """The flange and flange_from_tool, where `to_urdf` told them; the tool's link goes."""
+        """The flange and flange_from_tool, where `to_urdf` wrote them; the tool's link goes."""
         joint = self.joints.get(TOOL_JOINT)
         if joint is None or joint.type != "fixed" or self.below[joint.child]:
             return None
@@ -166,14 +166,14 @@ def _by_name(things: list[Named], what: str) -> dict[str, Named]:
     named: dict[str, Named] = {}
     for thing in things:
         if thing.name in named:
-            raise Error(f"{what} {thing.name}: it is told twice")
+            raise Error(f"{what} {thing.name}: it is defined twice")
         named[thing.name] = thing
     return named
 
 
 def _listed(names: list[str]) -> str:
-    more = len(names) - _MOST_TIPS_TOLD
-    return ", ".join(names[:_MOST_TIPS_TOLD]) + (f" and {more} more" if more > 0 else "")
+    more = len(names) - _MOST_TIPS_LISTED
+    return ", ".join(names[:_MOST_TIPS_LISTED]) + (f" and {more} more" if more > 0 else "")
 
 
 def _known_link(tree: _Tree, link: str) -> str:
@@ -208,10 +208,10 @@ def _only_tip(tree: _Tree, first: str) -> str:
         tips = [link for link in tips if moving[link]] or tips
     if len(tips) == 1:
         return tips[0]
-    told = _listed(
+    choices = _listed(
         [f"{tip!r} ({moving[tip]} joints)" for tip in sorted(tips, key=lambda link: moving[link])]
     )
-    raise argument_error("tip", f"one of {told}, or any other link", None)
+    raise argument_error("tip", f"one of {choices}, or any other link", None)
 
 
 def _path(tree: _Tree, first: str, last: str) -> list[Joint]:
@@ -240,18 +240,18 @@ def _joint(tree: _Tree, joint: Joint, coordinates: dict[str, int]) -> dict[str, 
     kind = _KINDS[joint.type]
     if not kind:
         raise Error(f"joint {joint.name}: a {joint.type} joint cannot be part of an arm")
-    told: dict[str, Any] = {"name": joint.name, "type": kind, "origin": joint.origin}
+    fields: dict[str, Any] = {"name": joint.name, "type": kind, "origin": joint.origin}
     if kind == "fixed":
-        return told
+        return fields
     leader, multiplier, offset = _leader(tree, joint)
     lower, upper = _limits(joint)
     if leader is not joint:
-        told["follows"] = leader.name
+        fields["follows"] = leader.name
         if multiplier == 0:
             raise Error(f"joint {joint.name}: it mimics {leader.name} with multiplier 0")
         ends = sorted(multiplier * end + offset for end in _limits(leader))
         lower, upper = max(lower, ends[0]), min(upper, ends[1])
-    return told | {
+    return fields | {
         "axis": joint.axis,
         "coordinate": coordinates.setdefault(leader.name, len(coordinates)),
         "multiplier": multiplier,
@@ -304,7 +304,7 @@ def _most(joint: Joint, what: str) -> float:
 
 
 def _link(tree: _Tree, link: str, path: set[str]) -> dict[str, Any]:
-    """A link and what hangs on it beside the path."""
+    """A link and what hangs on it off the path."""
     attached = []
     waiting = [(link, np.eye(4), True)]
     while waiting:
@@ -321,16 +321,16 @@ def _link(tree: _Tree, link: str, path: set[str]) -> dict[str, Any]:
 
 
 def _body(link: Link) -> dict[str, Any]:
-    told: dict[str, Any] = {
+    fields: dict[str, Any] = {
         "name": link.name,
         "collision": link.collision,
         "visual": link.visual,
     }
     if link.inertial is None:
-        return told
+        return fields
     pose = link.inertial.origin
     turn = pose[:3, :3]
-    return told | {
+    return fields | {
         "mass": link.inertial.mass,
         "center_of_mass": pose[:3, 3],
         "inertia": turn @ link.inertial.inertia @ turn.T,

@@ -35,8 +35,8 @@ def urdf_of_arm(arm: Arm, path: PathLike | None = None) -> str:
         (``flange_from_tool``, which is always there and marks the tip), shapes, with the names of
         meshes as they are. Volumes and centres of buoyancy are lost: URDF has no place for them;
         `Arm.save` keeps them. A joint that follows
-        one outside the arm gets that one beside it, on a link without mass. What is unlimited is
-        told as the largest double.
+        one outside the arm gets that one next to it, on a link without mass. What is unlimited is
+        written as the largest double.
 
     Raises
     ------
@@ -138,7 +138,7 @@ class _Writer:
         )
 
     def _add_tip(self, carriers: list[str]) -> None:
-        """Frames, the flange among them where one stands there, and the tool."""
+        """Frames, the flange among them where there is one, and the tool."""
         flange = self._chain["joints"][-1]["origin"]
         at_flange = None
         for carrier, link in zip(carriers, self._chain["links"], strict=False):
@@ -161,7 +161,7 @@ class _Writer:
         element = SubElement(self._robot, "link", name=name)
         if link.get("mass"):
             inertial = SubElement(element, "inertial")
-            SubElement(inertial, "origin", xyz=_words(link["center_of_mass"]), rpy="0 0 0")
+            SubElement(inertial, "origin", xyz=_numbers(link["center_of_mass"]), rpy="0 0 0")
             SubElement(inertial, "mass", value=_text(link["mass"]))
             rows, columns = np.triu_indices(3)
             values = link["inertia"][rows, columns]
@@ -181,11 +181,11 @@ class _Writer:
             kind = "continuous"
         element = SubElement(self._robot, "joint", name=name, type=kind)
         origin = joint["origin"]
-        SubElement(element, "origin", xyz=_words(origin[:3, 3]), rpy=_words(rpy_of(origin)))
+        SubElement(element, "origin", xyz=_numbers(origin[:3, 3]), rpy=_numbers(rpy_of(origin)))
         SubElement(element, "parent", link=parent)
         SubElement(element, "child", link=child)
         if kind != "fixed":
-            SubElement(element, "axis", xyz=_words(joint["axis"]))
+            SubElement(element, "axis", xyz=_numbers(joint["axis"]))
             ends = () if kind == "continuous" else ("lower", "upper")
             SubElement(
                 element, "limit", {key: _text(joint[key]) for key in (*ends, "velocity", "effort")}
@@ -194,13 +194,13 @@ class _Writer:
 
 
 def _add_shape(element: Element, shape: Shape) -> None:
-    SubElement(element, "origin", xyz=_words(shape.pose[:3, 3]), rpy=_words(rpy_of(shape.pose)))
+    SubElement(element, "origin", xyz=_numbers(shape.pose[:3, 3]), rpy=_numbers(rpy_of(shape.pose)))
     solid = SubElement(SubElement(element, "geometry"), shape.kind)
     if shape.kind == "box":
-        solid.set("size", _words(shape.size))
+        solid.set("size", _numbers(shape.size))
     elif shape.kind == "mesh":
         solid.set("filename", str(shape.file))
-        solid.set("scale", _words(shape.scale))
+        solid.set("scale", _numbers(shape.scale))
     else:
         for key in ("radius", "length"):
             if getattr(shape, key) is not None:
@@ -216,7 +216,7 @@ def _unique(name: str, taken: set[str]) -> str:
     return made
 
 
-def _words(numbers: Any) -> str:
+def _numbers(numbers: Any) -> str:
     return " ".join(map(_text, numbers))
 
 

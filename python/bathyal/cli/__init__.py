@@ -20,8 +20,8 @@ from bathyal.cli.touches_plan import plan as plan_of_touches
 from bathyal.cli.triangulate import triangulate
 
 _EXIT_CODES = (
-    "Exit codes: 0 done (warnings are told, they do not fail a job), 1 the job failed or a file is "
-    "broken, 2 wrong usage, 130 interrupted (Ctrl-C), 143 terminated (SIGTERM)."
+    "Exit codes: 0 done (warnings are printed, they do not fail a job), 1 the job failed or a file "
+    "is broken, 2 wrong usage, 130 interrupted (Ctrl-C), 143 terminated (SIGTERM)."
 )
 
 app = typer.Typer(

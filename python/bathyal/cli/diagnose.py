@@ -25,13 +25,15 @@ def diagnose(
     ],
     job: own.Job,
     reading: own.TouchColumns,
-    beside: own.Beside,
+    beside: own.CovariateColumns,
     known: own.Known,
     json: opt.Json = False,
     quiet: opt.Quiet = False,
 ) -> None:
     """Say what the simulation of an arm gets wrong: show it, name the cause, extend the model and
-    measure the gain on data that were not used.
+    measure the gain on held-out data.
+
+    Prints a verdict, a few numbers and the next step.
 
     Writes model.json report.html report.json report.png residuals.csv, all or none, and
     bathyal-manifest.json with their hashes. Whatever the verdict, clean, named, ambiguous,
@@ -47,6 +49,7 @@ def diagnose(
       --covariate pressure=P_bar -o diagnosis
     """
     from bathyal.diagnosis.job import diagnose_files
+    from bathyal.view.brief import short_warnings
 
     talk = Talk(json=json, quiet=quiet)
     nominal = job.nominal()
@@ -54,14 +57,7 @@ def diagnose(
     with talk.progress() as progress:
         found = diagnose_files(data, nominal, tracked=job.tracked, read=read, step=progress)
         files = found.write(job.out, title=job.title(nominal, data), step=progress)
-    facts = {name: value for name, value in found.facts.items() if name != "made by"}
-    rows = {
-        "verdict": facts.pop("verdict"),
-        "found": found.words,
-        "next": " ".join(found.next),
-        **facts,
-        "folder": str(job.out),
-        "files": " ".join(file.name for file in files),
-    }
-    talk.warn(found.warnings)
-    talk.result({**found.summary, "files": [str(file) for file in files]}, rows)
+    talk.warn(short_warnings(found.warnings))
+    talk.brief(
+        {**found.summary, "files": [str(file) for file in files]}, str(found.brief), job.out, files
+    )

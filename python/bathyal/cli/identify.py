@@ -39,11 +39,13 @@ def identify(
     json: opt.Json = False,
     quiet: opt.Quiet = False,
 ) -> None:
-    """Find an arm's true geometry from joint angles alone, by touching fixed points.
+    """Find an arm's true geometry from joint angles at touched points and one known distance.
+
+    Prints a verdict, a few numbers and the next step.
 
     Writes arm.json arm.urdf fit.json parameters.csv residuals.csv report.html report.png, all or
-    none, and bathyal-manifest.json with their hashes. What the touches cannot tell is named; it
-    does not fail the job.
+    none, and bathyal-manifest.json with their hashes. What the touches do not determine is named;
+    it does not fail the job.
 
     [bold]Examples:[/]
 
@@ -56,6 +58,7 @@ def identify(
       bathyal identify tracked.csv --tracked --arm ur10 -o found
     """
     from bathyal.identify.job import identify as make_identification
+    from bathyal.view.brief import short_warnings
 
     talk = Talk(json=json, quiet=quiet)
     nominal = job.nominal()
@@ -76,12 +79,5 @@ def identify(
             step=progress,
         )
     data = {**found.summary, "next": found.next, "files": [str(file) for file in files]}
-    rows = {
-        "found": found.words,
-        "next": " ".join(found.next),
-        **found.facts,
-        "folder": str(job.out),
-        "files": " ".join(file.name for file in files),
-    }
-    talk.warn(found.warnings)
-    talk.result(data, rows)
+    talk.warn(short_warnings(found.warnings))
+    talk.brief(data, str(found.brief), job.out, files)

@@ -38,7 +38,7 @@ class Orientation(str, Enum):
 
 
 class Vertical(str, Enum):
-    """What stands upright where the bottom is cut."""
+    """Which direction is vertical where the bottom is cut."""
 
     gravity = "gravity"
     vehicle = "vehicle"
@@ -76,9 +76,9 @@ Pose = Annotated[
     tuple[float, float, float, float, float, float] | None,
     _option(
         "Aims",
-        "Pose of the vehicle whose frame the aims stand in \\[m, deg]; x forward, y port, z up, so "
-        "a positive pitch is nose down. Without it the aims stand in the survey's frame, or where "
-        "their .json file says.",
+        "Pose of the vehicle in whose frame the aims are given \\[m, deg]; x forward, y port, "
+        "z up, so a positive pitch is nose down. Without it the aims are in the survey's frame, or "
+        "in the one that their .json file names.",
         metavar="X Y Z ROLL PITCH YAW",
     ),
 ]

@@ -6,8 +6,9 @@ from __future__ import annotations
 import io
 import signal
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
+from pathlib import Path
 from typing import Any
 
 import typer
@@ -27,12 +28,13 @@ from typer.core import TyperGroup
 
 from bathyal._core import Error
 from bathyal.cli.signals import Terminated, signals_raise
+from bathyal.io.files import shown
 
 Tell = Callable[[float, str], None]
 
 
 class Commands(TyperGroup):
-    """Turns what went wrong into one line and an exit code; usage errors are typer's own."""
+    """Turns an error into one line and an exit code; usage errors are typer's own."""
 
     def invoke(self, ctx: Any) -> Any:
         err = Console(stderr=True, highlight=False)
@@ -67,7 +69,7 @@ def _one_line(error: Exception) -> str:
 
 
 class Talk:
-    """What is said where: results on stdout, progress and warnings on stderr."""
+    """Prints results on stdout, progress and warnings on stderr."""
 
     def __init__(self, *, json: bool, quiet: bool) -> None:
         _replace_what_cannot_be_printed()
@@ -79,7 +81,7 @@ class Talk:
     @contextmanager
     def progress(self) -> Iterator[Any]:
         """A function `step(name)` for stages; it draws only on a terminal. ``with step(name) as
-        tell:`` gives ``tell(share, words)`` to a stage that knows how far it is."""
+        tell:`` gives ``tell(share, text)`` to a stage that knows how far it is."""
         if self.json or self.quiet or not self.err.is_terminal:
             yield _silent
             return
@@ -92,8 +94,8 @@ class Talk:
         def step(name: str) -> Iterator[Tell]:
             task = bar.add_task(name, total=None)
             try:
-                yield lambda share, words: bar.update(
-                    task, total=1.0, completed=share, description=words or name, refresh=True
+                yield lambda share, text: bar.update(
+                    task, total=1.0, completed=share, description=text or name, refresh=True
                 )
             finally:
                 bar.remove_task(task)
@@ -115,23 +117,35 @@ class Talk:
                 table.add_row(name, escape(value))
             self.out.print(table)
 
+    def brief(self, data: dict[str, Any], text: str, folder: Path, files: Sequence[Path]) -> None:
+        """The first sight of a result and which files hold the rest of it, or JSON."""
+        if self.json:
+            self.result(data, {})
+        elif not self.quiet:
+            verdict, *others = text.splitlines()
+            names = " ".join(shown(file.name) for file in files)
+            self.out.print(f"[bold]{escape(verdict)}[/]", soft_wrap=True)
+            self.out.print(
+                escape("\n".join([*others, f"Written to {shown(folder)}: {names}"])), soft_wrap=True
+            )
+
     def warn(self, warnings: list[str]) -> None:
-        """Warnings are told on stderr also where the rest is quiet."""
+        """Warnings go to stderr, also where the rest is quiet."""
         if not self.json:
             for warning in warnings:
                 self.err.print(f"[yellow]warning:[/] {escape(warning)}", soft_wrap=True)
 
 
 def _replace_what_cannot_be_printed() -> None:
-    """Names of files may hold bytes, and a terminal may know few signs: neither is a reason to end
-    a job that is done."""
+    """Names of files may hold bytes, and a terminal may know few characters: neither is a reason to
+    end a job that is done."""
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(errors="backslashreplace")
 
 
 class _Share(BarColumn):
-    """A bar for the stages that tell how far they are."""
+    """A bar for the stages that report how far they are."""
 
     def render(self, task: Task) -> Any:
         return Text() if task.total is None else super().render(task)
@@ -139,4 +153,4 @@ class _Share(BarColumn):
 
 @contextmanager
 def _silent(_: str) -> Iterator[Tell]:
-    yield lambda share, words: None
+    yield lambda share, text: None

@@ -29,7 +29,7 @@ from bathyal.cli.values import (
 from bathyal.io.files import shown
 
 _READING = "Reading"
-_BESIDE = "What was recorded beside"
+_COVARIATES = "Covariates"
 _KNOWN = "What is known"
 _FIT = "The search"
 _MOST_NAMES = 3  # of tables, in a title
@@ -43,7 +43,7 @@ class Unit(str, Enum):
 
 
 class Parametrization(str, Enum):
-    """What is told apart near parallel axes."""
+    """How nearly parallel axes are parametrised."""
 
     hayati = "hayati"
     dh = "dh"
@@ -120,8 +120,8 @@ class Job:
     def title(self, nominal: bathyal.Arm, tables: list[Path]) -> str:
         """ "UR10e from touches.csv"."""
         names = [shown(table.name) for table in tables]
-        told = ", ".join(names) if len(names) <= _MOST_NAMES else f"{len(names)} tables"
-        return f"{nominal.name or shown(Path(self.arm).stem)} from {told}"
+        files = ", ".join(names) if len(names) <= _MOST_NAMES else f"{len(names)} tables"
+        return f"{nominal.name or shown(Path(self.arm).stem)} from {files}"
 
 
 @dataclass(frozen=True)
@@ -170,25 +170,27 @@ class TouchColumns:
 
 
 @dataclass(frozen=True)
-class Beside:
-    """What was recorded beside the joints: `covariates` of `read_touches` and `read_tracked`."""
+class CovariateColumns:
+    """Covariates, recorded with the joints: `covariates` of `read_touches` and `read_tracked`."""
 
     session: Annotated[
-        str | None, _option(_BESIDE, "Column of the session. [dim]\\[default: session][/]")
+        str | None, _option(_COVARIATES, "Column of the session. [dim]\\[default: session][/]")
     ] = None
     time: Annotated[
-        str | None, _option(_BESIDE, "Column of the time. [dim]\\[default: time][/]")
+        str | None, _option(_COVARIATES, "Column of the time. [dim]\\[default: time][/]")
     ] = None
     temperature: Annotated[
-        str | None, _option(_BESIDE, "Column of the temperature. [dim]\\[default: temperature][/]")
+        str | None,
+        _option(_COVARIATES, "Column of the temperature. [dim]\\[default: temperature][/]"),
     ] = None
     payload: Annotated[
-        str | None, _option(_BESIDE, "Column of the load at the tip. [dim]\\[default: payload][/]")
+        str | None,
+        _option(_COVARIATES, "Column of the load at the tip. [dim]\\[default: payload][/]"),
     ] = None
     direction: Annotated[
         str | None,
         _option(
-            _BESIDE,
+            _COVARIATES,
             "Columns of how each joint was approached, −1, 0 or 1, in the arm's order. "
             "[dim]\\[default: direction_1,direction_2,…][/]",
         ),
@@ -196,7 +198,7 @@ class Beside:
     gravity: Annotated[
         str | None,
         _option(
-            _BESIDE,
+            _COVARIATES,
             "Columns of gravity in the base's frame \\[m/s²]. "
             "[dim]\\[default: gravity_x,gravity_y,gravity_z][/]",
         ),
@@ -204,9 +206,9 @@ class Beside:
     covariate: Annotated[
         list[str] | None,
         _option(
-            _BESIDE,
+            _COVARIATES,
             "Anything else, [b]pressure=P_bar[/b]: structure is looked for against it, too; may "
-            "stand several times.",
+            "be given several times.",
             metavar="NAME=COLUMN",
         ),
     ] = None
@@ -230,13 +232,13 @@ class Beside:
 
 @dataclass(frozen=True)
 class Known:
-    """What is known beside the touches: `Touches`."""
+    """What is known in addition to the touches: `Touches`."""
 
     known_distance: Annotated[
         list[str] | None,
         _option(
             _KNOWN,
-            "Between two touched points, [b]left,right=50mm[/b]; may stand several times.",
+            "Between two touched points, [b]left,right=50mm[/b]; may be given several times.",
             metavar="A,B=LENGTH",
         ),
     ] = None
@@ -253,8 +255,8 @@ class Known:
         list[str] | None,
         _option(
             _KNOWN,
-            "Where a touched point lies in the base's frame, [b]left=500,200,100mm[/b]; may stand "
-            "several times.",
+            "Where a touched point lies in the base's frame, [b]left=500,200,100mm[/b]; may be "
+            "given several times.",
             metavar="A=X,Y,ZUNIT",
         ),
     ] = None
@@ -272,8 +274,8 @@ class Known:
         list[str] | None,
         _option(
             _KNOWN,
-            "A name in the column of points that stands for a plane touched in many places; may "
-            "stand several times.",
+            "A name in the column of points that marks a plane touched in many places; may be "
+            "given several times.",
             metavar="NAME",
         ),
     ] = None
@@ -301,7 +303,7 @@ class Searching:
         float | None,
         _option(
             _FIT,
-            "That tolerance where none is given and nothing tells the arm's size. "
+            "That tolerance where none is given and no data determine the arm's scale. "
             f"{_default_mm(bathyal.identify_arm, 'size_prior')}",
             parser=length,
             metavar="LENGTH",
@@ -314,12 +316,14 @@ class Searching:
     ] = None  # fmt: skip
     prior: Annotated[
         list[str] | None,
-        _option(_FIT, "Of one parameter, [b]a_2=1mm[/b]; may stand several times.",
+        _option(_FIT, "Of one parameter, [b]a_2=1mm[/b]; may be given several times.",
                 metavar="NAME=VALUE"),
     ] = None  # fmt: skip
     fixed: Annotated[
         list[str] | None,
-        _option(_FIT, "A parameter to hold at nominal; may stand several times.", metavar="NAME"),
+        _option(
+            _FIT, "A parameter to hold at nominal; may be given several times.", metavar="NAME"
+        ),
     ] = None
     prune_sigma: Annotated[
         float | None,
@@ -336,7 +340,7 @@ class Searching:
     ] = None
     parametrization: Annotated[
         Parametrization | None,
-        _fit_option("Hayati's beta beside nearly parallel axes, or plain DH.", "parametrization"),
+        _fit_option("Hayati's beta for nearly parallel axes, or plain DH.", "parametrization"),
     ] = None
     criterion: Annotated[
         Criterion | None,
@@ -358,7 +362,7 @@ def _names(text: str | None) -> list[str] | None:
 
 
 def _each(texts: list[str] | None, name: str, parse: Any) -> dict[Any, Any] | None:
-    """What an option that may stand several times says; a mistake is one of usage."""
+    """What an option that may be given several times says; a mistake is one of usage."""
     found: dict[Any, Any] = {}
     for text in texts or []:
         try:

@@ -84,15 +84,15 @@ def plan(
     at: Annotated[
         list[str] | None,
         typer.Option(
-            help="In place of --points: where a point stands, [b]600,-200,100mm[/b]; one each.",
+            help="In place of --points: where a point lies, [b]600,-200,100mm[/b]; one each.",
             metavar="X,Y,ZUNIT",
         ),
     ] = None,
     known_distance: Annotated[
         list[str] | None,
         typer.Option(
-            help="Two points, [b]0,1[/b], whose distance will be measured; may stand several "
-            "times. Touches alone do not tell the arm's size.",
+            help="Two points, [b]0,1[/b], whose distance will be measured; may be given "
+            "several times. Touches alone do not determine the arm's scale.",
             metavar="A,B",
         ),
     ] = None,

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What is written on the command line, and what it becomes inside.
 
-No default stands here: an option that is not given is not handed on, and the engine's own default
-holds. The help reads that default from the engine's signature.
+No default is written here: an option that is not given is not handed on, and the engine's own
+default holds. The help reads that default from the engine's signature.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ def default_note(function: Callable[..., Any], name: str, *, degrees: bool = Fal
 
 
 def given(**options: Any) -> dict[str, Any]:
-    """Keywords to hand on: the options that were given, a choice by its word."""
+    """Keywords to hand on: the options that were given, a choice by its value."""
     return {
         name: value.value if isinstance(value, Enum) else value
         for name, value in options.items()

@@ -68,14 +68,14 @@ def write_diagnosis(
 
         write_png(diagnosis_figure(report, title=title), path)
     else:
-        text = json_text(told(report) | provenance)
+        text = json_text(contents(report) | provenance)
         with replacing(path) as aside:
             aside.write_text(text, encoding="utf-8")
 
 
-def told(report: Diagnosis) -> dict[str, Any]:
-    """Everything as JSON tells it: SI units in the names, numbers with units of their own beside
-    them; what is not finite becomes null."""
+def contents(report: Diagnosis) -> dict[str, Any]:
+    """Everything that report.json holds: SI units in the names, numbers with units of their own
+    next to them; what is not finite becomes null."""
     held = report.held_out
     kinds = report.fit.arm.joint_types
     return {
@@ -123,7 +123,7 @@ def told(report: Diagnosis) -> dict[str, Any]:
 
 def write_residuals(report: Diagnosis, path: PathLike) -> None:
     """Write how far each row is off as .csv: counted from 0; with geometry alone and with the
-    causes, fitted and held out, and what is left by axis [m]; empty where nothing was held out."""
+    causes, fitted and held out, and residuals by axis [m]; empty where nothing was held out."""
     held = report.held_out
     before, after = (
         np.asarray(residuals, float)
@@ -144,8 +144,8 @@ def write_residuals(report: Diagnosis, path: PathLike) -> None:
 
 def _by_row(values: Any, rows: int) -> NDArray[np.float64]:
     """(N,), also where nothing was held out."""
-    told = np.asarray(values, float)
-    return told if told.size else np.full(rows, np.nan)
+    errors = np.asarray(values, float)
+    return errors if errors.size else np.full(rows, np.nan)
 
 
 def _effect(effect: Any) -> dict[str, Any]:

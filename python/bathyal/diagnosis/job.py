@@ -14,13 +14,15 @@ from typing import Any
 
 from bathyal._core import Arm, Diagnosis, Touches, Tracked, diagnose
 from bathyal.arm.files import find_arm
-from bathyal.diagnosis.files import told, write_diagnosis, write_residuals
+from bathyal.diagnosis.files import contents, write_diagnosis, write_residuals
 from bathyal.diagnosis.report.advice import next_steps
-from bathyal.diagnosis.report.text import facts_of, summary
+from bathyal.diagnosis.report.brief import brief_of
+from bathyal.diagnosis.report.text import facts_of
 from bathyal.identify.job import plain_settings, read_data
 from bathyal.io.files import PathLike
 from bathyal.io.provenance import Step, file_facts
 from bathyal.io.result_sets import filling
+from bathyal.view.brief import Brief
 
 _LONG = ("residuals_before_m", "residuals_after_m")  # a number a row: of files, not of a screen
 
@@ -28,7 +30,20 @@ _LONG = ("residuals_before_m", "residuals_after_m")  # a number a row: of files,
 @dataclass(frozen=True)
 class Diagnosed:
     """A diagnosis with everything it was made from; `write` makes the files of
-    `bathyal diagnose`."""
+    `bathyal diagnose`.
+
+    Attributes
+    ----------
+    nominal : Arm
+        The arm before identification.
+    data : Touches or Tracked
+        What was read.
+    report : Diagnosis
+    settings : dict
+        Options that were given.
+    provenance : dict
+        Version, arm and files.
+    """
 
     nominal: Arm
     data: Touches | Tracked
@@ -42,9 +57,9 @@ class Diagnosed:
         return list(self.report.warnings)
 
     @property
-    def words(self) -> str:
-        """The diagnosis as one paragraph."""
-        return summary(self.report, warnings=False)
+    def brief(self) -> Brief:
+        """The diagnosis at first sight."""
+        return brief_of(self.report)
 
     @property
     def next(self) -> list[str]:
@@ -54,7 +69,7 @@ class Diagnosed:
     @property
     def summary(self) -> dict[str, Any]:
         """Numbers for programs, SI units in the names; without those of single rows."""
-        known = {name: value for name, value in told(self.report).items() if name not in _LONG}
+        known = {name: value for name, value in contents(self.report).items() if name not in _LONG}
         held = known["held_out"]
         known["held_out"] = {k: v for k, v in held.items() if k not in ("before_m", "after_m")}
         return known
@@ -77,8 +92,8 @@ class Diagnosed:
             earlier run of the same job wrote and this one does not.
         title : str
         step : callable, optional
-            ``with step("Writing …") as tell:`` is put around each stage, for progress; `tell`
-            takes the share that is done and what is being done.
+            ``with step("Writing …") as report_progress:`` is put around each stage, for
+            progress; `report_progress` takes the share that is done and what is being done.
 
         Returns
         -------
@@ -101,10 +116,10 @@ class Diagnosed:
                 )  # fmt: skip
             with step("Drawing the sheet"):
                 write_diagnosis(self.report, aside / "report.png", title=title)
-            with step("Drawing the page") as tell:
+            with step("Drawing the page") as report_progress:
                 write_diagnosis(
                     self.report, aside / "report.html", title=title, facts=self.facts,
-                    step=tell if callable(tell) else None,
+                    step=report_progress if callable(report_progress) else None,
                 )  # fmt: skip
             names = sorted(file.name for file in aside.iterdir())
         return [Path(folder) / name for name in names]
@@ -151,8 +166,8 @@ def diagnose_files(
     nominal = find_arm(arm) if isinstance(arm, str) else arm
     with step("Reading"):
         data = read_data(files, nominal, tracked=tracked, read=read or {}, sessions=True)
-    with step("Diagnosing") as tell:
-        progress = {"progress": tell} if callable(tell) else {}
+    with step("Diagnosing") as report_progress:
+        progress = {"progress": report_progress} if callable(report_progress) else {}
         report = diagnose(nominal, data, **(options or {}), **progress)
     return Diagnosed(
         nominal=nominal,

@@ -11,6 +11,12 @@ from bathyal.attach import methods_of
 
 @methods_of(Diagnosis)
 class _Diagnosis(Diagnosis):
+    def __str__(self) -> str:
+        """Verdict, numbers with units and the next step, in a few lines."""
+        from bathyal.diagnosis.report.brief import brief_of
+
+        return str(brief_of(self))
+
     def summary(self) -> str:
         """One paragraph that a person can act on."""
         from bathyal.diagnosis.report.text import summary

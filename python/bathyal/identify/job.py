@@ -24,13 +24,15 @@ from bathyal._core import (
 )
 from bathyal.arm.files import find_arm
 from bathyal.errors import argument_error
+from bathyal.identify.report.brief import brief_of
 from bathyal.identify.report.tables import distances, groups, write_parameters, write_residuals
-from bathyal.identify.report.text import next_touches, surely_text
+from bathyal.identify.report.text import next_touches
 from bathyal.identify.touch_files import read_touches, read_tracked
 from bathyal.io.files import PathLike, shown
 from bathyal.io.provenance import Step, file_facts
 from bathyal.io.result_sets import filling
 from bathyal.io.tables import read_table
+from bathyal.view.brief import Brief
 
 _MOST_NAMES = 6
 
@@ -38,7 +40,20 @@ _MOST_NAMES = 6
 @dataclass(frozen=True)
 class Identification:
     """An arm that was identified, with everything it was found from; `write` makes the files of
-    `bathyal identify`."""
+    `bathyal identify`.
+
+    Attributes
+    ----------
+    nominal : Arm
+        The arm before identification.
+    data : Touches or Tracked
+        What was read.
+    fit : ArmFit
+    settings : dict
+        Options that were given.
+    provenance : dict
+        Version, arm and files.
+    """
 
     nominal: Arm
     data: Touches | Tracked
@@ -52,9 +67,9 @@ class Identification:
         return list(self.fit.warnings)
 
     @property
-    def words(self) -> str:
-        """What was found and how surely, as one paragraph."""
-        return f"{self.fit.summary(warnings=False)} {surely_text(self.fit)}"
+    def brief(self) -> Brief:
+        """The identification at first sight."""
+        return brief_of(self.fit, self.data)
 
     @property
     def next(self) -> list[str]:
@@ -90,7 +105,7 @@ class Identification:
                 for group in groups(fit, self.data)
             },
             "distances": [
-                {"points": [d.first, d.second], "told_m": d.told, "found_m": d.found}
+                {"points": [d.first, d.second], "told_m": d.given, "found_m": d.found}
                 for d in distances(fit, self.data)
             ],
             "parameters": len(fit.parameters),
@@ -125,14 +140,14 @@ class Identification:
             points = names if len(where) <= _MOST_NAMES else f"{len(where)} points"
             data = {"touches": f"{len(self.data):,} of {points}"}
         rms = f"{1e3 * fit.rms_before:.3g} → {1e3 * fit.rms_after:.3g} mm (rms, 3-D)"
-        told = {"arm": arm, **data, "scatter": rms}
+        facts = {"arm": arm, **data, "scatter": rms}
         if fit.pairs_before > 0:
-            told["J (all pairs)"] = (
+            facts["J (all pairs)"] = (
                 f"{1e6 * fit.pairs_before:.4g} → {1e6 * fit.pairs_after:.4g} mm²"
             )
         return {
-            **told,
-            "told": f"{fit.rank} of {len(fit.parameters)} combinations",
+            **facts,
+            "determined": f"{fit.rank} of {len(fit.parameters)} combinations",
             "size rests on": fit.scale_source,
             "steps": f"{fit.iterations}" + ("" if fit.converged else ", not converged"),
         }
@@ -171,7 +186,7 @@ class Identification:
         Raises
         ------
         ValueError
-            For `ros` or `ur_calibration` with an arm that those files cannot tell.
+            For `ros` or `ur_calibration` with an arm that those files cannot hold.
         OSError
             Where a file cannot be written.
         """
@@ -193,7 +208,7 @@ class Identification:
             with step("Writing the tables"):
                 write_parameters(fit, aside / "parameters.csv")
                 write_residuals(fit, data, aside / "residuals.csv")
-                text = json_text(self._told())
+                text = json_text(self._contents())
                 (aside / "fit.json").write_text(text, encoding="utf-8")
             with step("Drawing the picture"):
                 write_png(fit_figure(fit, data, title=title), aside / "report.png")
@@ -202,7 +217,7 @@ class Identification:
             names = sorted(file.name for file in aside.iterdir())
         return [Path(folder) / name for name in names]
 
-    def _told(self) -> dict[str, Any]:
+    def _contents(self) -> dict[str, Any]:
         """What fit.json holds."""
         fit = self.fit
         parameters = [
@@ -319,7 +334,7 @@ def read_data(
     Raises
     ------
     ValueError, Error, OSError
-        As `read_touches` and `read_tracked`; for what touches alone need beside tracked poses.
+        As `read_touches` and `read_tracked`; for arguments of touches given with tracked poses.
     """
     if not files:
         raise argument_error("source", "a file", "none")
@@ -328,10 +343,10 @@ def read_data(
         return read_touches(files[0] if len(files) == 1 else _labelled(files), **keywords)
     if len(files) > 1 and not sessions:
         raise argument_error("source", "one file of tracked poses", f"{len(files)} files")
-    beside = sorted(set(read) & {"known_distances", "known_points", "planes", "point",
+    of_touches = sorted(set(read) & {"known_distances", "known_points", "planes", "point",
                                  "distance_std", "point_std"})  # fmt: skip
-    if beside:
-        raise argument_error(beside[0], "nothing beside tracked poses, which tell it all", "one")
+    if of_touches:
+        raise argument_error(of_touches[0], "nothing: tracked poses do not take it", "a value")
     return read_tracked(files if len(files) > 1 else files[0], **keywords)
 
 
@@ -357,7 +372,7 @@ def _labelled(files: Sequence[PathLike]) -> dict[str, PathLike]:
 
 
 def plain_settings(read: Mapping[str, Any]) -> dict[str, Any]:
-    """Settings as JSON tells them: pairs of labels as one text."""
+    """Settings as JSON holds them: pairs of labels as one text."""
     return {
         name: {" ".join(pair): metres for pair, metres in value.items()}
         if name == "known_distances"

@@ -1,17 +1,26 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a plan of touches does in Python: its table, its picture. Attached when the package is
-imported."""
+"""What an identification and a plan of touches do in Python: text, table, picture. Attached
+when the package is imported."""
 
 from __future__ import annotations
 
 import os
 from typing import TYPE_CHECKING
 
-from bathyal._core import TouchPlan
+from bathyal._core import ArmFit, TouchPlan
 from bathyal.attach import methods_of
 
 if TYPE_CHECKING:
     import matplotlib.figure
+
+
+@methods_of(ArmFit)
+class _ArmFit(ArmFit):
+    def __str__(self) -> str:
+        """Verdict, numbers with units and the next step, in a few lines."""
+        from bathyal.identify.report.brief import brief_of
+
+        return str(brief_of(self))
 
 
 @methods_of(TouchPlan)

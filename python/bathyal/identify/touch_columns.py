@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Columns of a table of touches or tracked poses: joints, places, and what was recorded beside."""
+"""Columns of a table of touches or tracked poses: joints, positions, and covariates."""
 
 from __future__ import annotations
 
@@ -60,7 +60,7 @@ def tracked_columns(
 
 
 def beside(table: Table, named: Named) -> dict[str, NDArray[Any]]:
-    """What was recorded beside the joints, and the session."""
+    """Covariates, and the session."""
     columns: dict[str, NDArray[Any]] = {
         f"covariate {name}": values for name, values in _covariates(table, named).items()
     }
@@ -88,12 +88,9 @@ def _joint_values(
     check_unit("unit", unit, {**ANGLES, **LENGTHS})
     if joints is None:
         joints = table.titles if not table.has_header else _numbered_joints(table)
-    try:
-        return np.column_stack([table.numbers(n, {**ANGLES, **LENGTHS}, unit) for n in joints])
-    except Error as error:
-        if "expected a unit" in str(error):
-            raise Error(f'{error}; unit="rad" or unit="deg" says it for all joints') from None
-        raise
+    units = {**ANGLES, **LENGTHS}
+    hint = '; unit="rad" or unit="deg" says it for all joints'
+    return np.column_stack([table.numbers(n, units, unit, hint=hint) for n in joints])
 
 
 def _numbered_joints(table: Table) -> list[str]:

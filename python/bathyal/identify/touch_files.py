@@ -37,10 +37,10 @@ def read_touches(
     path : path, or dict of label to path
         One file with a column that says which point each row touched, or a file a point. Columns
         are parted by semicolon, tab, comma or blanks; a decimal comma is understood; lines that
-        begin with ``#`` are comments. Units stand in the header: ``q1_deg``, ``q2 [rad]``,
+        begin with ``#`` are comments. Units are given in the header: ``q1_deg``, ``q2 [rad]``,
         ``lift_mm``. Columns ``temperature_C``, ``time_s``, ``payload_kg``, ``gravity_x`` …,
-        ``direction_1`` … (one a joint), ``session``, ``tool``, ``station`` and ``weight`` ride
-        along where they stand. A file without a header holds the joints alone.
+        ``direction_1`` … (one a joint), ``session``, ``tool``, ``station`` and ``weight`` are
+        read where they are present. A file without a header holds the joints alone.
     joints : sequence of str, optional
         Columns of the joints in the order of the arm, by name; otherwise ``q1 q2 …`` (or ``j1``,
         ``joint_1``, ``theta1``) by their numbers.
@@ -49,12 +49,12 @@ def read_touches(
     point : str
         Column of the touched point's label.
     planes : sequence of str
-        Labels that stand for a plane touched in many places, not for a point.
+        Labels of a plane touched in many places, not for a point.
     covariates : dict, optional
         Name to column, or to several: ``{"temperature": "T_arm", "direction": ["d1", "d2"]}``.
-        A column of sessions may hold words; they are counted from 0 as they first appear.
+        A column of sessions may hold text; sessions are counted from 0 as they first appear.
     **touches
-        What `Touches` takes beside. ``known_distances={("left", "right"): 0.05}`` and
+        Further arguments of `Touches`. ``known_distances={("left", "right"): 0.05}`` and
         ``known_points={"left": (0.5, 0.2, 0.1)}`` by label.
 
     Returns
@@ -122,7 +122,7 @@ def read_tracked(
     ----------
     path : path, or sequence of path
         A table as `read_touches` takes it, or one for each session: then sessions are counted from
-        0 in the order of the files, and no column may tell them.
+        0 in the order of the files, and no column may give them.
     joints, unit
         As in `read_touches`.
     position : sequence of str
@@ -140,12 +140,12 @@ def read_tracked(
     covariates : dict, optional
         As in `read_touches`: ``{"temperature": "measurement_temperature"}``.
     **tracked
-        What `Tracked` takes beside.
+        Further arguments of `Tracked`.
 
     Returns
     -------
     Tracked
-        With the pose where orientations stand in the file, with the position otherwise.
+        With the pose where the file holds orientations, with the position otherwise.
 
     Raises
     ------
@@ -184,7 +184,7 @@ def read_tracked(
     settings = {"covariates": {}, **settings}
     if len(files) > 1:
         if "session" in settings:
-            raise argument_error("path", "one file where a column tells the sessions",
+            raise argument_error("path", "one file where a column gives the sessions",
                                  f"{len(files)} files")  # fmt: skip
         settings["session"] = np.repeat(np.arange(len(files), dtype=np.int32), [*map(len, tables)])
     settings.update(tracked)

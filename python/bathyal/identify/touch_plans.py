@@ -31,7 +31,7 @@ def write_plan(plan: TouchPlan, path: PathLike) -> None:
     plan : TouchPlan
     path : path
         ``.csv``: comments, then ``point,q1_deg,q2_deg,…``, one row a touch, ``_m`` for sliding
-        joints: what `bathyal.read_touches` reads, once the joints' own readings stand in it. The
+        joints: what `bathyal.read_touches` reads, once the joints' own readings are in it. The
         file appears whole or not at all.
 
     Raises
@@ -112,7 +112,7 @@ def plot_plan(plan: TouchPlan, path: PathLike | None = None) -> Figure:
         loc="upper right", bbox_to_anchor=(0.97, 0.975), frameon=False, fontsize=9, labelcolor=INK
     )
     text = (
-        f"{len(plan)} touches, foretold to leave {1e3 * plan.worst_tip_std:.3g} mm at the worst "
+        f"{len(plan)} touches, predicted to leave {1e3 * plan.worst_tip_std:.3g} mm at the worst "
         f"pose, {1e3 * plan.median_tip_std:.3g} mm at the median one"
     )
     figure.text(0.04, 0.928, text, fontsize=9, color=INK)

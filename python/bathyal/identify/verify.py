@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Whether an arm goes where its model says: predicted positions beside measured ones."""
+"""Whether an arm goes where its model says: predicted positions against measured ones."""
 
 from __future__ import annotations
 
@@ -25,9 +25,9 @@ def verify_arm(
     """Compare where the arm says its tool centre point is with where an instrument saw it.
 
     Both clouds' centroids are removed and the predicted one is turned onto the measured one, so
-    that neither the instrument's frame nor where the arm stands count (Yukhimets, Gubankov 2023,
-    section 4: 13 positions of the flange at constant orientation, seen by a laser tracker). Set
-    ``arm.tool`` first where positions are those of a target on the flange; an orientation that
+    that neither the instrument's frame nor the pose of the arm's base counts (Yukhimets, Gubankov
+    2023, section 4: 13 positions of the flange at constant orientation, seen by a laser tracker).
+    Set ``arm.tool`` first where positions are those of a target on the flange; an orientation that
     never changes makes it immaterial.
 
     Parameters

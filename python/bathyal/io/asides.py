@@ -2,7 +2,7 @@
 """Hidden folders in which files are written before they are put in place.
 
 Whoever makes one holds a lock on it as long as it lives. The lock goes with the process, however
-that ends, so the next one can tell what was left behind from what is still being written.
+that ends, so the next one can distinguish what was abandoned from what is still being written.
 """
 
 from __future__ import annotations
@@ -67,7 +67,7 @@ def _make(folder: Path) -> tuple[Path, int]:
 
 def _lock(descriptor: int) -> None:
     # Some network file systems know no locks on folders: `sweep` then leaves all as it is, and
-    # the hashes in the manifest still tell when two runs were mixed.
+    # the hashes in the manifest still show when two runs were mixed.
     with suppress(OSError):
         fcntl.flock(descriptor, fcntl.LOCK_EX)
 

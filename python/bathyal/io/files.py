@@ -88,13 +88,13 @@ def _aside(target: Path, name: str) -> Iterator[Path]:
 
 @lru_cache(maxsize=64)
 def _sweep_once(folder: Path) -> None:
-    """A job may write many files into a folder of many: it looks for leftovers only once."""
+    """A job may write many files into a folder of many: it looks for abandoned files only once."""
     sweep(folder)
 
 
 @contextmanager
 def reading(path: PathLike, format_name: str) -> Iterator[None]:
-    """Tell whatever goes wrong inside as an `Error` that names the file and the reason.
+    """Report whatever goes wrong inside as an `Error` that names the file and the reason.
 
     Libraries report a broken file by whatever it broke in them (``struct.error``, ``KeyError``,
     ``OSError``…); the caller gets one kind, with the library's own error chained to it.
@@ -122,7 +122,7 @@ def opened(path: PathLike) -> Iterator[tuple[BinaryIO, int]]:
     Raises
     ------
     OSError
-        Where there is no such file, or it may not be read: the operating system's own words.
+        Where there is no such file, or it may not be read: the operating system's own error.
     Error
         Where the file is empty, is a pipe or a device, has more than BATHYAL_MOST_BYTES, or lies in
         a folder of results and is not the file that its manifest lists.

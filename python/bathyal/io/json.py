@@ -14,9 +14,9 @@ import numpy as np
 
 
 def json_text(value: Any, encoding: str = "utf-8") -> str:
-    """JSON in which an object stands on lines of its own and a list on one; NaN and infinities are
-    null. What `encoding` cannot hold is escaped, as are the bytes of a file's name that are not
-    UTF-8: Python reads them back as they were."""
+    """JSON in which an object is written on lines of its own and a list on one; NaN and
+    infinities are null. What `encoding` cannot hold is escaped, as are the bytes of a file's name
+    that are not UTF-8: Python reads them back as they were."""
     text = _lines(_plain(value), "") + "\n"
     return text.encode(encoding, "bathyal_json").decode(encoding)
 

@@ -75,7 +75,7 @@ def write_manifest(folder: Path, sets: Sequence[ResultSet]) -> None:
 
 
 def check_file(path: str | os.PathLike[str], stream: BinaryIO) -> None:
-    """Refuse a file that a manifest beside it lists and that is not the one listed.
+    """Refuse a file that a manifest next to it lists and that is not the one listed.
 
     Files that no manifest lists are not looked at. The stream is left at its beginning.
     """
@@ -125,7 +125,7 @@ def without(sets: Sequence[ResultSet], names: Sequence[str]) -> list[ResultSet]:
 
 
 def sha256_of(stream: BinaryIO) -> str:
-    """The SHA-256 of what is left in a stream."""
+    """The SHA-256 of the rest of a stream."""
     digest = hashlib.sha256()
     while block := stream.read(1 << 20):
         digest.update(block)

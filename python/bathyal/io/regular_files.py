@@ -35,7 +35,7 @@ def open_regular(path: str | os.PathLike[str]) -> Iterator[tuple[BinaryIO, int]]
     Raises
     ------
     OSError
-        Where there is no such file, or it may not be read: the operating system's own words.
+        Where there is no such file, or it may not be read: the operating system's own error.
     Error
         Where the file is a pipe or a device, or has more than BATHYAL_MOST_BYTES.
     """

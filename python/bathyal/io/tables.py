@@ -79,12 +79,13 @@ class Table:
         return [row[place] for row in self.cells]
 
     def numbers(
-        self, name: str, units: dict[str, float], default: str | None
+        self, name: str, units: dict[str, float], default: str | None, *, hint: str = ""
     ) -> NDArray[np.float64]:
         """A column in SI units.
 
-        `units` are those that may stand in its title, with their factors; `default` is taken where
-        none does, and None makes that an error. Not-a-number cells are the caller's business.
+        `units` are those that its title may name, with their factors; `default` is taken where
+        none does, and None makes that an error, to which `hint` is added. Not-a-number cells are
+        the caller's business.
         """
         place = self.place(name)
         title = self.titles[place]
@@ -92,7 +93,7 @@ class Table:
         if unit is None or (units and unit not in units):
             raise Error(
                 f"{self.file}: `{title}`: expected a unit among {', '.join(units)} in the header, "
-                f"such as {split_unit(title)[0]}_{next(iter(units))}, got {unit or 'none'}"
+                f"such as {split_unit(title)[0]}_{next(iter(units))}, got {unit or 'none'}{hint}"
             )
         column = [row[place].replace(",", ".") for row in self.cells]
         try:
@@ -107,7 +108,7 @@ class Table:
 
 
 def split_unit(title: str) -> tuple[str, str]:
-    """Name and unit of a title, in small letters; the unit is empty where none stands."""
+    """Name and unit of a title, in small letters; the unit is empty where there is none."""
     title = title.strip().lower()
     if match := _BRACKETED.match(title):
         return match["name"], match["unit"].strip()

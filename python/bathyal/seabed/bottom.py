@@ -34,15 +34,24 @@ EITHER_SUFFIXES = (".ply", ".vtp")
 
 @dataclass(frozen=True)
 class Bottom:
-    """What a path is planned on, and how it came about.
+    """What a path is planned on, and how it was made.
 
+    Attributes
+    ----------
     surface : Scene or Plane
+        What rays and sections meet, in the frame of the survey [m], z up.
     mesh : TriangleMesh or None
         None where the bottom is a plane.
     soundings : int
         How many the bottom rests on; 0 for a mesh that was given.
-    settings, provenance : dict
-        Options that were given, and what was read and dropped.
+    crs, vertical_datum : str
+        Reference systems of x, y and of z; empty if unknown.
+    settings : dict
+        Options that were given.
+    provenance : dict
+        What was read and dropped.
+    warnings : list of str
+        What a person should know before a path is planned on it.
     """
 
     surface: Scene | Plane
@@ -82,11 +91,11 @@ def make_bottom(
     """
     step = step or nullcontext
     read, clean, mesh = dict(read or {}), dict(clean or {}), dict(mesh or {})
-    told: list[str] = []
+    lines: list[str] = []
     provenance: dict[str, Any] = {"input": file_facts(source)}
-    with step("Reading the bottom"), noting(told):
+    with step("Reading the bottom"), noting(lines):
         what = read_either(source, as_mesh, read)
-    told[:] = [line.replace(str(source), shown(Path(source).name)) for line in told]
+    lines[:] = [line.replace(str(source), shown(Path(source).name)) for line in lines]
     soundings = 0
     surface: Scene | Plane
     seabed: TriangleMesh | None = None
@@ -95,14 +104,14 @@ def make_bottom(
         seabed = what
     else:
         with step("Cleaning the soundings"):
-            cloud = _cleaned(what, clean, provenance, told)
+            cloud = _cleaned(what, clean, provenance, lines)
         soundings = len(cloud)
         if as_plane:
             _refuse(mesh, "for a mesh only", "it for a plane")
             with step("Fitting the plane"):
-                surface = _fitted(cloud, provenance, told)
+                surface = _fitted(cloud, provenance, lines)
         else:
-            with step("Triangulating"), noting(told):
+            with step("Triangulating"), noting(lines):
                 seabed = triangulate(cloud, **mesh)
     if seabed is not None:
         with step("Building the scene"):
@@ -115,7 +124,7 @@ def make_bottom(
         vertical_datum=what.vertical_datum,
         settings={"read": read, "clean": clean, "triangulate": mesh, "plane": as_plane},
         provenance=provenance,
-        warnings=told,
+        warnings=lines,
     )
 
 
@@ -128,24 +137,24 @@ def _cleaned(
     what: PointCloud | TriangleMesh,
     options: Mapping[str, Any],
     provenance: dict[str, Any],
-    told: list[str],
+    lines: list[str],
 ) -> PointCloud:
     if isinstance(what, TriangleMesh):
         what = PointCloud(what.vertices, crs=what.crs, vertical_datum=what.vertical_datum)
     cleaned = clean_cloud(what, **options)
     provenance["cleaning"] = cleaned.report.as_dict()
-    told += _told_by_cleaning(cleaned.report.as_dict())
+    lines += _dropped_by_cleaning(cleaned.report.as_dict())
     return cleaned.cloud
 
 
-def _fitted(cloud: PointCloud, provenance: dict[str, Any], told: list[str]) -> Plane:
+def _fitted(cloud: PointCloud, provenance: dict[str, Any], lines: list[str]) -> Plane:
     fit = fit_plane(cloud)
     provenance["plane"] = {
         "normal": fit.normal, "offset_m": fit.offset, "rms_m": fit.rms, "flat": fit.flat,
         "relief_m": fit.relief, "inliers": fit.inlier_count, "tilt_std_rad": fit.tilt_std,
     }  # fmt: skip
     if not fit.flat:
-        told.append(
+        lines.append(
             f"the bottom is not flat: parts of it lie up to {fit.relief:.3g} m off the plane "
             f"(rms {fit.rms:.3g} m); plan on a mesh"
         )
@@ -163,7 +172,7 @@ def read_either(
         try:
             return _mesh_with_datum(source, read)
         except (Error, ValueError):
-            return read_cloud(source, **read)  # tells in its turn what is broken
+            return read_cloud(source, **read)  # its error says what is broken
     return read_cloud(source, **read)
 
 
@@ -185,9 +194,9 @@ def _mesh_with_datum(source: PathLike, read: Mapping[str, Any]) -> TriangleMesh:
     )
 
 
-def _told_by_cleaning(report: Mapping[str, int]) -> list[str]:
-    """Every sounding that was dropped is said; so are depths that contradict each other."""
-    told = [
+def _dropped_by_cleaning(report: Mapping[str, int]) -> list[str]:
+    """Counts of soundings that were dropped, by reason, and of depths that contradict others."""
+    lines = [
         f"{report[name]:,} of {report['before']:,} soundings dropped: {why}"
         for name, why in (
             ("not_finite", "not a number"),
@@ -200,14 +209,14 @@ def _told_by_cleaning(report: Mapping[str, int]) -> list[str]:
         if report[name]
     ]
     if report["same_place"] > report["same_place_dropped"]:
-        told.append(f"{report['same_place']:,} soundings share their place with another depth")
-    return told
+        lines.append(f"{report['same_place']:,} soundings share their place with another depth")
+    return lines
 
 
 @contextmanager
-def noting(told: list[str]) -> Iterator[None]:
+def noting(lines: list[str]) -> Iterator[None]:
     """Python's warnings become lines of the plan's own."""
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
         yield
-    told += [str(warning.message) for warning in caught]
+    lines += [str(warning.message) for warning in caught]

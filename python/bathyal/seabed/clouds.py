@@ -58,8 +58,8 @@ def read_cloud(
         scaled as z is. To be said where the file, or its reference system, names a unit other
         than the metre.
     z : {"up", "down"}, optional
-        Which way z grows in the file. Up by default, but a file that calls it a depth must be
-        told: "down" turns the sign, "up" says that its depths are negative already.
+        Which way z grows in the file. Up by default, but a file that calls it a depth needs
+        this argument: "down" turns the sign, "up" says that its depths are negative already.
     band : int, optional
         For GeoTIFF: the band of heights, counted from 1; the first by default.
     crs, vertical_datum : str, optional

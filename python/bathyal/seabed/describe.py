@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a file holds, in numbers for programs and in words for people."""
+"""What a file holds, in numbers for programs and in text for people."""
 
 from __future__ import annotations
 
@@ -64,8 +64,8 @@ def _add_lie(data: dict[str, Any], rows: dict[str, str], cloud: PointCloud) -> N
     data["plane"] = {"normal": fit.normal, "offset_m": fit.offset, "rms_m": fit.rms,
                      "relief_m": fit.relief, "flat": fit.flat}  # fmt: skip
     tilt = np.degrees(np.arccos(np.clip(fit.normal[2], -1, 1)))
-    word = "flat enough for --plane" if fit.flat else "not flat: plan on a mesh"
-    rows["plane"] = f"tilt {tilt:.2f}°, relief {fit.relief:.3g} m about it: {word}"
+    verdict = "flat enough for --plane" if fit.flat else "not flat: plan on a mesh"
+    rows["plane"] = f"tilt {tilt:.2f}°, relief {fit.relief:.3g} m about it: {verdict}"
 
 
 def _describe_mesh(mesh: TriangleMesh) -> Described:

@@ -39,7 +39,7 @@ def read_aims(
     ----------
     path : path
         Text: a header with the columns ``px py pz`` and ``dx dy dz``, or ``pan tilt`` in place of
-        the direction, in any order; other columns are left alone. Units stand in the header:
+        the direction, in any order; other columns are left alone. Units are given in the header:
         ``px_m``, ``px_mm``, ``px [cm]``, ``pan_deg``, ``tilt (rad)``. A length without a unit is
         in metres, an angle must have one. Pan turns from x towards y, tilt rises above the x-y
         plane: −90° looks straight down. Columns are parted by comma, semicolon, tab or spaces;
@@ -47,10 +47,10 @@ def read_aims(
 
         JSON: a list of rows ``[px, py, pz, dx, dy, dz]`` or of
         ``{"point": [x, y, z], "direction": [x, y, z]}``, or an object that holds such a list as
-        ``aims`` and beside it, as it likes, ``unit`` ("m", "cm", "mm", "km"), ``frame`` ("world" or
+        ``aims`` and, optionally, ``unit`` ("m", "cm", "mm", "km"), ``frame`` ("world" or
         "vehicle") and ``world_from_vehicle`` (four rows of four, [m]).
     world_from_vehicle : (4, 4) array, optional
-        Pose of the vehicle [m]. Text aims stand in the vehicle's frame when it is given and in the
+        Pose of the vehicle [m]. Text aims are in the vehicle's frame when it is given and in the
         world's otherwise; it takes the place of a pose in a JSON file. Aims whose file says
         ``"frame": "world"`` are not moved.
 
@@ -88,7 +88,7 @@ class Axes:
 
 
 def read_axes(path: PathLike, *, world_from_vehicle: ArrayLike | None = None) -> Axes:
-    """As `read_aims`, with the pose beside the axes."""
+    """As `read_aims`, with the pose next to the axes."""
     file = Path(path)
     pose = None if world_from_vehicle is None else _pose("world_from_vehicle", world_from_vehicle)
     if file.suffix.lower() not in {".csv", ".txt", ".tsv", ".json"}:
@@ -206,7 +206,7 @@ def _from_json(file: Path, text: str, pose: NDArray[np.float64] | None) -> Axes:
         raise Error(f'{file}: `frame`: expected "world" or "vehicle", got {frame!r}')
     if frame == "vehicle" and pose is None:
         raise Error(
-            f'{file}: `world_from_vehicle`: expected the vehicle\'s pose beside "frame": '
+            f'{file}: `world_from_vehicle`: expected the vehicle\'s pose with "frame": '
             '"vehicle", got none'
         )
     rows = settings.get("aims")

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 _AXES = ("x", "y", "z")
 
-# Every array of a path: its name, its unit as it stands in a column's name, its parts.
+# Every array of a path: its name, its unit as it is written in a column's name, its parts.
 _COLUMNS: tuple[tuple[str, str, tuple[str, ...]], ...] = (
     ("position", "m", _AXES),
     ("quaternion", "", (*_AXES, "w")),

@@ -25,7 +25,22 @@ from bathyal.toolpath.aims import read_axes
 
 @dataclass(frozen=True)
 class Plan:
-    """A tool path with everything it was made from; `write` makes the files of `bathyal plan`."""
+    """A tool path with everything it was made from; `write` makes the files of `bathyal plan`.
+
+    Attributes
+    ----------
+    bottom : Bottom
+        What the path was planned on.
+    aims : (N, 6) array
+        Camera axes: position [m] and direction of each, in the frame of the survey.
+    path : ToolPath
+    settings : dict
+        Options that were given.
+    provenance : dict
+        What was read.
+    seconds : dict of str to float
+        Time that each stage took [s].
+    """
 
     bottom: Bottom
     aims: NDArray[np.float64]
@@ -50,7 +65,7 @@ class Plan:
             "triangles": 0 if mesh is None else len(mesh.triangles),
             "aims": len(status),
             "targets": int(found.sum()),
-            "status": {str(word): int((status == word).sum()) for word in np.unique(status)},
+            "status": {str(name): int((status == name).sum()) for name in np.unique(status)},
             "samples": len(path.position),
             "length_m": float(path.arc_length[-1]),
             "duration_s": float(path.time[-1]),
@@ -61,7 +76,7 @@ class Plan:
 
     @property
     def facts(self) -> dict[str, str]:
-        """The summary in words, for pictures and people."""
+        """The summary as text, for pictures and people."""
         count = self.summary
         if self.bottom.mesh is None:
             bottom = {"bottom": "a plane", "soundings": f"{count['soundings']:,}"}
@@ -103,7 +118,7 @@ class Plan:
 
         step = step or nullcontext
         datum = {"crs": self.bottom.crs, "vertical_datum": self.bottom.vertical_datum}
-        told: dict[str, Any] = {"facts": self.facts, "warnings": self.warnings, "title": title}
+        texts: dict[str, Any] = {"facts": self.facts, "warnings": self.warnings, "title": title}
         with filling(folder, "plan") as aside:
             with step("Writing the path"):
                 for suffix in ("csv", "vtp"):
@@ -117,12 +132,12 @@ class Plan:
                     write_mesh(self.bottom.mesh, aside / "seabed.vtp")
             with step("Drawing the picture"):
                 figure = plan_figure(
-                    self.bottom.surface, self.aims, self.path, crs=self.bottom.crs, **told
+                    self.bottom.surface, self.aims, self.path, crs=self.bottom.crs, **texts
                 )
                 write_png(figure, aside / "plan.png")
             with step("Drawing the page"):
                 view = show_plan(self.bottom.surface, self.aims, self.path)
-                write_html(view, aside / "plan.html", **told)
+                write_html(view, aside / "plan.html", **texts)
             names = sorted(file.name for file in aside.iterdir())
         return [Path(folder) / name for name in names]
 

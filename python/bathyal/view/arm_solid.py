@@ -38,7 +38,7 @@ class Part:
 
 @dataclass(frozen=True)
 class Posture:
-    """Where an arm stands, in the world [m].
+    """An arm's pose, in the world [m].
 
     `strokes` are polylines, one a link, the foot first; `axes` (m, 2, 3) a point on each moving
     joint's axis and its direction.
@@ -64,7 +64,7 @@ def resting_pose(arm: Arm) -> Floats:
 def posture(arm: Arm, q: ArrayLike) -> Posture:
     """The arm at one pose `q` (n,).
 
-    A link runs from its joint's axis to the next one's: along its own frames where those stand on
+    A link runs from its joint's axis to the next one's: along its own frames where those lie on
     the axes, as a URDF's do, else along the axis and the common normal, as the table's.
     """
     parts = arm_parts(arm)

@@ -22,7 +22,7 @@ from bathyal.view.window import map_window
 if TYPE_CHECKING:
     from bathyal._core import Plane, Scene, ToolPath
 
-# A4 turned on its side, and where things stand on it as shares of the page: left, bottom, width,
+# A4 turned on its side, and where things lie on it as shares of the page: left, bottom, width,
 # height.
 _SIZE_IN = (11.69, 8.27)
 _DPI = 160
@@ -56,7 +56,7 @@ def plan_figure(
         What `plan_toolpath` returned for them.
     title : str
     facts : mapping of str to str, optional
-        Lines for the box beside the map.
+        Lines for the box next to the map.
     warnings : sequence of str, optional
         Those of the path unless given.
     crs : str
@@ -82,8 +82,8 @@ def plan_figure(
         map_figure.draw_locator(locator, surface, window)
         top -= height + 0.045
     top = _write_facts(figure, facts or {}, top)
-    told = list(path.warnings if warnings is None else warnings)
-    top = _write_warnings(figure, told, top - _LINE)
+    lines = list(path.warnings if warnings is None else warnings)
+    top = _write_warnings(figure, lines, top - _LINE)
     handles, labels = plan.get_legend_handles_labels()
     figure.legend(
         handles, labels, loc="lower left", bbox_to_anchor=(_SIDE[0] - 0.008, _SIDE[1] - 0.01),
@@ -103,7 +103,7 @@ def write_png(figure: Figure, path: str | os.PathLike[str]) -> None:
 
 
 def _write_facts(figure: Figure, facts: Mapping[str, str], top: float) -> float:
-    """Names to the left, values to the right; returns where the next line stands."""
+    """Names to the left, values to the right; returns where the next line goes."""
     style: dict[str, Any] = {"va": "top", "fontsize": 8.5, "color": INK}
     for name, value in facts.items():
         wrapped = textwrap.wrap(value, 26) or [""]

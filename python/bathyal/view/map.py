@@ -28,7 +28,7 @@ _DEPTH_MAP = LinearSegmentedColormap.from_list("bathyal_depth", DEPTH)
 _CASED = [withStroke(linewidth=3.2, foreground=INK)]
 _HALO = [withStroke(linewidth=2.5, foreground=PALE)]
 _APPROACH_ARROWS = 32
-MAX_NUMBERS = 40  # targets with their number beside them
+MAX_NUMBERS = 40  # targets with their number next to them
 
 
 def draw(
@@ -76,7 +76,7 @@ def draw_locator(axes: Axes, surface: Scene | Plane, window: Window) -> None:
 
 
 class _ArrowHandler(HandlerBase):
-    """Arrows stand in a legend as arrows: matplotlib draws them as rectangles."""
+    """Arrows appear in a legend as arrows: matplotlib draws them as rectangles."""
 
     def create_artists(
         self, legend: Any, handle: Any, x: float, y: float, width: float, height: float,
@@ -145,7 +145,7 @@ def _label_axes(axes: Axes, crs: str) -> None:
 
 
 def tick_offset(low: float, high: float) -> float:
-    """What is left out of the tick labels: whole metres, so that far coordinates stay readable."""
+    """What the tick labels omit: whole metres, so that far coordinates stay readable."""
     size = high - low
     if max(abs(low), abs(high)) < 1000 or abs(low) < 5 * size:
         return 0.0

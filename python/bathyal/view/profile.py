@@ -146,7 +146,7 @@ def _draw_normals(axes: Axes, stations: Stations) -> None:
 
 
 def _draw_targets(axes: Axes, path: ToolPath, stations: Stations) -> None:
-    """The targets stand where segments meet: their numbers are those of the map."""
+    """The targets lie where segments meet: their numbers are those of the map."""
     known = np.flatnonzero(np.isfinite(path.targets.point).all(axis=1))
     height = path.targets.point[known, 2]
     x = [stations.at_target(row) for row in known.tolist()]

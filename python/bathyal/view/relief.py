@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 Floats = NDArray[np.float64]
 
-# The light stands in the north-west, as on maps, half way up.
+# The light comes from the north-west, as on maps, half way up.
 _LIGHT = np.array([-0.5, 0.5, np.sqrt(0.5)])
 
 
@@ -142,7 +142,7 @@ def shade(relief: Relief, stretch: float) -> Floats:
 
 
 def _gradient(relief: Relief) -> tuple[Floats, Floats]:
-    """dz/dx and dz/dy: central, one-sided beside a hole, NaN where neither side has a bottom."""
+    """dz/dx and dz/dy: central, one-sided at a hole, NaN where neither side has a bottom."""
     return (_slope(relief.height, relief.pixel), _slope(relief.height.T, relief.pixel).T)
 
 

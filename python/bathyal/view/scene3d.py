@@ -168,7 +168,7 @@ def _aspect(size: Floats, stretch: float) -> dict[str, float]:
 
 
 def _eye(aspect: dict[str, float]) -> dict[str, float]:
-    """Where plotly's camera stands so that it sees the whole box, from the south-west above.
+    """Where plotly's camera is placed so that it sees the whole box, from the south-west above.
 
     It looks at the box's middle with an angle of 45° from bottom to top; the page is at least a
     third wider than high.
@@ -207,12 +207,12 @@ def _with_room(
     low: Floats, high: Floats, path: ToolPath, aims: NDArray[Any]
 ) -> tuple[Floats, Floats]:
     """Corners that hold the arrows too, and the camera axes as far as half the picture's size up
-    and a fifth of it beside."""
+    and a fifth of it to each side."""
     size = float(np.max(high - low))
     tips = np.asarray(path.position) + np.asarray(path.approach) * ARROW * size
     seen = np.vstack([aims[:, :3], axis_ends(aims, path)]) if len(aims) else tips
-    beside = np.abs(seen - (low + high) / 2)[:, :2] - (high - low)[:2] / 2
-    inside = seen[np.all(beside <= size / 5, axis=1)]
+    outside = np.abs(seen - (low + high) / 2)[:, :2] - (high - low)[:2] / 2
+    inside = seen[np.all(outside <= size / 5, axis=1)]
     inside = np.column_stack([inside[:, :2], np.minimum(inside[:, 2], high[2] + size / 2)])
     return _box(np.vstack([low, high, tips, inside]))
 

@@ -46,7 +46,7 @@ class Stations:
     segments: NDArray[np.int32]
 
     def at_target(self, row: int) -> float:
-        """The distance at which target `row` stands [m]: its segment's begin, or the end."""
+        """The distance at which target `row` lies [m]: its segment's begin, or the end."""
         segment = int(np.searchsorted(self.segments, row))
         return float(self.begin[segment] if segment < len(self.begin) else self.end[-1])
 

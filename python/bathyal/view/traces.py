@@ -18,7 +18,7 @@ Floats = NDArray[np.float64]
 ARROW = 0.035  # length of an approach arrow, as a share of the picture's size
 _APPROACH_ARROWS = 120
 # Path and targets are drawn so far above the bottom, as a share of the picture's size: on it, half
-# of them would be hidden in it. What hovering tells is where they are.
+# of them would be hidden in it. Hovering shows where they are.
 _LIFT = 0.004
 
 
@@ -136,7 +136,7 @@ def _target_trace(path: ToolPath, origin: Floats, size: float) -> go.Scatter3d:
     targets = path.targets
     rows = np.flatnonzero(np.isfinite(targets.point).all(axis=1))
     x, y, z = local(targets.point[rows] + targets.normal[rows] * _LIFT * size, origin)
-    told = [
+    labels = [
         f"A{row}: {targets.status[row]}<br>"
         + "({:.3f}, {:.3f}, {:.3f}) m".format(*targets.point[row])
         + f"<br>range {targets.range[row]:.2f} m, "
@@ -146,7 +146,7 @@ def _target_trace(path: ToolPath, origin: Floats, size: float) -> go.Scatter3d:
     return go.Scatter3d(
         x=x, y=y, z=z, mode="markers+text", name="target A<sub>i</sub>",
         text=[str(row) for row in rows], textposition="top center",
-        textfont={"size": 14, "color": INK}, hovertext=told, hoverinfo="text",
+        textfont={"size": 14, "color": INK}, hovertext=labels, hoverinfo="text",
         marker={"size": 6, "color": "white", "line": {"color": INK, "width": 2}},
     )  # fmt: skip
 

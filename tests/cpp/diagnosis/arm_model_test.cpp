@@ -12,7 +12,7 @@
 #include "bathyal/base/random.hpp"
 #include "bathyal/compensation/corrected_arm.hpp"
 
-namespace bathyal {
+namespace bathyal::diagnosis {
 namespace {
 
 Arm three_joints() {
@@ -23,7 +23,7 @@ Arm three_joints() {
   return arm_from_dh(table);
 }
 
-/// Poses in which joint 1 moves by a third of a turn only, and has an error of two waves.
+/// Poses in which joint 1 turns by a third of a turn only, with an error of two waves.
 Tracked little_moved(double size) {
   const Arm arm = three_joints();
   Tracked out;
@@ -43,57 +43,59 @@ Tracked little_moved(double size) {
   return out;
 }
 
-/// The largest value that a curve of twelve waves along joint 1 is fitted with.
+/// The largest value of a fitted curve of twelve waves along joint 1.
 double largest_value(double size) {
   const Arm arm = three_joints();
   const IdentifyOptions options;
   const Measurement measurement = to_measurement(arm, little_moved(size));
-  ArmSubject subject(arm, measurement, {}, options, library_effects());
-  for (int form = 0; form < static_cast<int>(subject.forms().size()); ++form) {
-    const Form& about = subject.forms()[form];
+  ArmModel arm_model(arm, measurement, {}, options, library_effects());
+  for (int term = 0; term < static_cast<int>(arm_model.terms().size()); ++term) {
+    const selection::Term& about = arm_model.terms()[term];
     if (about.effect != "joint_map" || about.joint != 0) continue;
-    const EffectVariant& variant = subject.variant(form);
+    const EffectVariant& variant = arm_model.variant(term);
     if (variant.parameters.size() < 20) continue;
-    subject.settle({form});
-    return subject.found().front().values.cwiseAbs().maxCoeff();
+    arm_model.fit({term});
+    return arm_model.found().front().values.cwiseAbs().maxCoeff();
   }
   ADD_FAILURE() << "no curve of twelve waves";
   return 0.0;
 }
 
-TEST(ArmSubject, NumbersThatTheDataHardlyTellAreHeldToTheSizeOfTheOthers) {
-  // Plausible are 2e-2 rad, and by themselves such waves over a third of a turn run up to that.
+TEST(ArmModel, HardlyDeterminedValuesShrinkToTheScaleOfTheOthers) {
+  // 2e-2 rad are plausible; without shrinkage, such waves over a third of a turn reach that.
   EXPECT_LT(largest_value(1e-3), 4e-3);
   EXPECT_LT(largest_value(1e-4), 1e-3);
 }
 
-int wave_of_joint_1(const ArmSubject& subject) {
-  for (int form = 0; form < static_cast<int>(subject.forms().size()); ++form) {
-    if (subject.forms()[form].effect == "joint_harmonic" && subject.forms()[form].joint == 0) {
-      return form;
+int wave_of_joint_1(const ArmModel& arm_model) {
+  for (int term = 0; term < static_cast<int>(arm_model.terms().size()); ++term) {
+    if (arm_model.terms()[term].effect == "joint_harmonic" && arm_model.terms()[term].joint == 0) {
+      return term;
     }
   }
   return -1;
 }
 
-TEST(ArmSubject, StandsAgainWhereItStood) {
+TEST(ArmModel, RestoresACheckpoint) {
   const Arm arm = three_joints();
   const IdentifyOptions options;
   const Measurement measurement = to_measurement(arm, little_moved(1e-3));
-  ArmSubject subject(arm, measurement, {}, options, library_effects());
-  const int form = wave_of_joint_1(subject);
-  ASSERT_GE(form, 0);
-  subject.settle({form});
-  const Linearization there = subject.linearization();
-  const Eigen::VectorXd values = subject.found().front().values;
-  const auto place = subject.place();
-  subject.set_trust(Eigen::VectorXd::Constant(measurement.rows(), 0.5));
-  subject.settle({form, form + 3});
-  ASSERT_EQ(subject.found().size(), 2u);
-  subject.return_to(*place);
-  EXPECT_LT((subject.found().front().values - values).norm(), 1e-12);
-  EXPECT_LT((subject.linearization().misfit - there.misfit).norm(), 1e-8 * there.misfit.norm());
-  EXPECT_LT((subject.linearization().base - there.base).norm(), 1e-8 * there.base.norm());
+  ArmModel arm_model(arm, measurement, {}, options, library_effects());
+  const int term = wave_of_joint_1(arm_model);
+  ASSERT_GE(term, 0);
+  arm_model.fit({term});
+  const selection::Linearization there = arm_model.linearization();
+  const Eigen::VectorXd values = arm_model.found().front().values;
+  const auto checkpoint = arm_model.save();
+  arm_model.set_observation_weights(Eigen::VectorXd::Constant(measurement.rows(), 0.5));
+  arm_model.fit({term, term + 3});
+  ASSERT_EQ(arm_model.found().size(), 2u);
+  arm_model.restore(*checkpoint);
+  EXPECT_LT((arm_model.found().front().values - values).norm(), 1e-12);
+  EXPECT_LT((arm_model.linearization().residual - there.residual).norm(),
+            1e-8 * there.residual.norm());
+  EXPECT_LT((arm_model.linearization().jacobian - there.jacobian).norm(),
+            1e-8 * there.jacobian.norm());
 }
 
 /// The same poses, of an arm whose joints 2 and 3 give way under 20 kg behind each of them.
@@ -115,58 +117,57 @@ Tracked elastic() {
   return out;
 }
 
-/// Torques follow the geometry: those that were fitted must be those that whoever has the fitted
-/// arm computes.
-TEST(ArmSubject, EffectsAreThoseOfTheArmThatWasFittedWithThem) {
+/// Torques depend on the geometry: the fitted ones must be those that the fitted arm gives.
+TEST(ArmModel, EffectsAreEvaluatedAtTheFittedArm) {
   const Arm arm = three_joints();
   const IdentifyOptions options;
   const Measurement measurement = to_measurement(arm, elastic());
-  ArmSubject subject(arm, measurement, {}, options, library_effects());
-  std::vector<int> forms;
-  for (int form = 0; form < static_cast<int>(subject.forms().size()); ++form) {
-    const Form& about = subject.forms()[form];
-    if (about.effect == "joint_compliance" && about.joint > 0) forms.push_back(form);
+  ArmModel arm_model(arm, measurement, {}, options, library_effects());
+  std::vector<int> terms;
+  for (int term = 0; term < static_cast<int>(arm_model.terms().size()); ++term) {
+    const selection::Term& about = arm_model.terms()[term];
+    if (about.effect == "joint_compliance" && about.joint > 0) terms.push_back(term);
   }
-  ASSERT_EQ(forms.size(), 2u);
-  subject.settle(forms);
-  const CorrectedArm model(subject.arm(), subject.found(), support_of(measurement.q, {}));
+  ASSERT_EQ(terms.size(), 2u);
+  arm_model.fit(terms);
+  const CorrectedArm model(arm_model.arm(), arm_model.found(), support_of(measurement.q, {}));
   const std::vector<double> poses =
       model.forward({measurement.q.data(), measurement.q.rows(), measurement.q.cols()}).poses;
-  Eigen::Matrix3Xd left(3, measurement.rows());
+  Eigen::Matrix3Xd residuals(3, measurement.rows());
   for (Index i = 0; i < measurement.rows(); ++i) {
-    for (Index axis = 0; axis < 3; ++axis) left(axis, i) = poses[16 * i + 4 * axis + 3];
+    for (Index axis = 0; axis < 3; ++axis) residuals(axis, i) = poses[16 * i + 4 * axis + 3];
   }
-  left -= measurement.position;
-  EXPECT_LT((left - subject.deviations()).cwiseAbs().maxCoeff(), 1e-12);
-  EXPECT_LT(std::sqrt(left.squaredNorm() / static_cast<double>(left.size())), 1.05e-5);
-  // Where it stood before it comes back to, by the arm that it had there.
-  const auto place = subject.place();
-  const Eigen::Matrix3Xd there = subject.deviations();
-  subject.settle({});
-  subject.return_to(*place);
-  EXPECT_EQ(subject.deviations(), there);
+  residuals -= measurement.position;
+  EXPECT_LT((residuals - arm_model.deviations()).cwiseAbs().maxCoeff(), 1e-12);
+  EXPECT_LT(std::sqrt(residuals.squaredNorm() / static_cast<double>(residuals.size())), 1.05e-5);
+  // A checkpoint restores the arm at which effects were evaluated, too.
+  const auto checkpoint = arm_model.save();
+  const Eigen::Matrix3Xd there = arm_model.deviations();
+  arm_model.fit({});
+  arm_model.restore(*checkpoint);
+  EXPECT_EQ(arm_model.deviations(), there);
 }
 
-/// Rows of a subject, seen alone or among all: an effect that looks at neighbours in time (clocks
-/// out of step) does the same in both.
-TEST(ArmSubject, SomeRowsSeeWhatTheRecordSees) {
+/// An effect that depends on neighbours in time (clocks out of step) is the same in a subset of
+/// rows as in the whole record.
+TEST(ArmModel, ASubsetEvaluatesEffectsAsTheWholeRecord) {
   const Arm arm = three_joints();
   const IdentifyOptions options;
   const Tracked tracked = little_moved(1e-3);
   const Measurement measurement = to_measurement(arm, tracked);
   RowMatrix time(measurement.rows(), 1);
   for (Index i = 0; i < measurement.rows(); ++i) time(i, 0) = 0.5 * static_cast<double>(i);
-  ArmSubject whole(arm, measurement, {{"time", time}}, options, library_effects());
+  ArmModel whole(arm, measurement, {{"time", time}}, options, library_effects());
   std::vector<int> rows;
   for (int i = 0; i < measurement.rows(); i += 2) rows.push_back(i);
-  const ArmSubject some(whole, rows);
-  ASSERT_EQ(some.forms().size(), whole.forms().size());
+  const ArmModel subset(whole, rows);
+  ASSERT_EQ(subset.terms().size(), whole.terms().size());
   int asked = 0;
-  for (int form = 0; form < static_cast<int>(whole.forms().size()); ++form) {
-    const std::string& effect = whole.forms()[form].effect;
+  for (int term = 0; term < static_cast<int>(whole.terms().size()); ++term) {
+    const std::string& effect = whole.terms()[term].effect;
     if (effect != "clock_shift" && effect != "tool_slip" && effect != "joint_map") continue;
-    const Eigen::MatrixXd all = whole.columns(std::vector<int>{form}).front();
-    const Eigen::MatrixXd part = some.columns(std::vector<int>{form}).front();
+    const Eigen::MatrixXd all = whole.columns(std::vector<int>{term}).front();
+    const Eigen::MatrixXd part = subset.columns(std::vector<int>{term}).front();
     ASSERT_EQ(part.cols(), all.cols());
     // In units of each one's noise, at geometries that differ a little.
     for (Index c = 0; c < all.cols(); ++c) {
@@ -174,7 +175,7 @@ TEST(ArmSubject, SomeRowsSeeWhatTheRecordSees) {
       for (Index i = 0; i < same.size() / 3; ++i) {
         same.segment<3>(3 * i) = all.col(c).segment<3>(3 * rows[i]);
       }
-      same *= whole.noise() / some.noise();
+      same *= whole.noise() / subset.noise();
       EXPECT_LT((part.col(c) - same).norm(), 0.05 * same.norm() + 1e-9) << effect << " " << c;
     }
     ++asked;
@@ -182,7 +183,7 @@ TEST(ArmSubject, SomeRowsSeeWhatTheRecordSees) {
   EXPECT_GT(asked, 3);
 }
 
-TEST(ArmSubject, RowsStandInTheOrderOfTheirTimes) {
+TEST(ArmModel, RowsAreOrderedByTime) {
   const Arm arm = three_joints();
   const IdentifyOptions options;
   const Measurement measurement = to_measurement(arm, little_moved(1e-3));
@@ -190,56 +191,56 @@ TEST(ArmSubject, RowsStandInTheOrderOfTheirTimes) {
   for (Index i = 0; i < measurement.rows(); ++i) {
     time(i, 0) = static_cast<double>((7 * i + 3) % measurement.rows());
   }
-  const ArmSubject subject(arm, measurement, {{"time", time}}, options, {});
+  const ArmModel arm_model(arm, measurement, {{"time", time}}, options, {});
   for (Index i = 0; i < measurement.rows(); ++i) {
-    ASSERT_EQ(subject.units().order[i], static_cast<int>(time(i, 0)));
+    ASSERT_EQ(arm_model.observations().order[i], static_cast<int>(time(i, 0)));
   }
 }
 
-/// Mean squares of rows along what rounded joints do, and across it, in units of noise.
-std::pair<double, double> along_and_across(const ArmSubject& subject,
+/// Mean squares of rows along the errors of rounded joints, and across them [noise²].
+std::pair<double, double> along_and_across(const ArmModel& arm_model,
                                            const Eigen::MatrixXd& loads) {
-  const Linearization& at = subject.linearization();
+  const selection::Linearization& at = arm_model.linearization();
   double along = 0.0, across = 0.0;
   const Index poses = loads.rows() / 3;
   for (Index i = 0; i < poses; ++i) {
     const Eigen::JacobiSVD<Eigen::MatrixXd> own(loads.middleRows<3>(3 * i), Eigen::ComputeFullU);
-    const Eigen::Vector3d row = at.misfit.segment<3>(3 * i);
+    const Eigen::Vector3d row = at.residual.segment<3>(3 * i);
     along += std::pow(own.matrixU().col(0).dot(row), 2) / static_cast<double>(poses);
     across += std::pow(own.matrixU().col(2).dot(row), 2) / static_cast<double>(poses);
   }
   return {along, across};
 }
 
-TEST(ArmSubject, ErrorsOfRoundedJointsWeighAlikeInAllDirections) {
+TEST(ArmModel, RoundedJointsAreWhitened) {
   const Arm arm = three_joints();
   const IdentifyOptions options;
   constexpr double kStep = 2e-3;
   Tracked tracked = little_moved(0.0);
   tracked.q = (tracked.q / kStep).array().round() * kStep;
   const Measurement measurement = to_measurement(arm, tracked);
-  ArmSubject subject(arm, measurement, {}, options, library_effects());
-  ASSERT_EQ(subject.noise_forms().back().effect, "quantisation");
-  const Eigen::MatrixXd& loads = subject.noise_forms().back().loads;
-  subject.settle({});
-  const auto [along, across] = along_and_across(subject, loads);
+  ArmModel arm_model(arm, measurement, {}, options, library_effects());
+  ASSERT_EQ(arm_model.variance_components().back().effect, "quantisation");
+  const Eigen::MatrixXd& loads = arm_model.variance_components().back().loads;
+  arm_model.fit({});
+  const auto [along, across] = along_and_across(arm_model, loads);
   EXPECT_GT(along, 4.0 * across);
 
   Eigen::VectorXd ratios = Eigen::VectorXd::Zero(2);
   ratios[1] = std::pow(kStep / 1e-4, 2);
-  subject.set_noise_forms(ratios);
-  subject.settle({});
-  const auto [along_then, across_then] = along_and_across(subject, loads);
+  arm_model.set_variance_ratios(ratios);
+  arm_model.fit({});
+  const auto [along_then, across_then] = along_and_across(arm_model, loads);
   EXPECT_NEAR(along_then, 1.0, 0.35);
   EXPECT_NEAR(across_then, 1.0, 0.35);
-  EXPECT_NEAR(subject.noise(), 1e-4, 1.5e-5);
-  // What was whitened is told as it was measured.
-  const Eigen::Matrix3Xd metres = subject.in_metres(subject.linearization().misfit);
-  EXPECT_LT((metres + subject.deviations()).norm(), 1e-6 * metres.norm());
+  EXPECT_NEAR(arm_model.noise(), 1e-4, 1.5e-5);
+  // Whitened residuals are converted back to metres.
+  const Eigen::Matrix3Xd metres = arm_model.in_metres(arm_model.linearization().residual);
+  EXPECT_LT((metres + arm_model.deviations()).norm(), 1e-6 * metres.norm());
   const double rms = std::sqrt(metres.squaredNorm() / static_cast<double>(metres.size()));
-  EXPECT_NEAR(subject.mean_noise(), rms, 0.1 * rms);
-  EXPECT_LT(subject.mean_unit(), 0.7 * rms);
+  EXPECT_NEAR(arm_model.mean_noise(), rms, 0.1 * rms);
+  EXPECT_LT(arm_model.mean_unit(), 0.7 * rms);
 }
 
 }  // namespace
-}  // namespace bathyal
+}  // namespace bathyal::diagnosis

@@ -27,7 +27,7 @@ Arm six_joints() {
   return arm_from_dh(table);
 }
 
-/// Poses, and where the tip of an arm with an error in joint 1 was seen.
+/// Poses, and measured tips of an arm with an error in joint 1.
 Tracked wavy(double size, double noise, Index rows) {
   const Arm arm = six_joints();
   Tracked out;
@@ -64,9 +64,9 @@ TEST(Diagnose, NamesAnEccentricEncoder) {
   EXPECT_GT(found.held_out.rms_before, 3.0 * found.held_out.rms_after);
 }
 
-TEST(Diagnose, TellsErrorsApartWhereNoOtherRowReaches) {
+TEST(Diagnose, ReportsExtrapolatedRowsSeparately) {
   const Tracked measured = wavy(1e-3, 1e-4, 150);
-  std::set<Index> ends;  // rows that end the range of a joint: no other block reaches them
+  std::set<Index> ends;  // rows at an end of a joint's range: outside those of all other folds
   for (Index j = 0; j < 6; ++j) {
     Index row = 0;
     measured.q.col(j).minCoeff(&row);
@@ -92,7 +92,7 @@ TEST(Diagnose, GivesTheSameBytesOnAnyNumberOfThreads) {
   EXPECT_EQ(one.effects[0].parameters[1].value, two.effects[0].parameters[1].value);
 }
 
-TEST(Diagnose, CallsSessionsAsTheRecordDoes) {
+TEST(Diagnose, NamesSessionsAsInTheRecord) {
   Tracked data = wavy(0.0, 1e-4, 120);
   RowMatrix session(120, 1);
   for (Index i = 0; i < 120; ++i) {
@@ -103,8 +103,8 @@ TEST(Diagnose, CallsSessionsAsTheRecordDoes) {
   const Diagnosis found = diagnose(six_joints(), data);
   ASSERT_EQ(found.effects.size(), 1u);
   EXPECT_EQ(found.effects[0].name, "base_shift");
-  EXPECT_NE(found.effects[0].words.find("from session 20261121 on"), std::string::npos)
-      << found.effects[0].words;
+  EXPECT_NE(found.effects[0].description.find("from session 20261121 on"), std::string::npos)
+      << found.effects[0].description;
   ASSERT_GE(found.held_out.parts.size(), 2u);
   EXPECT_EQ(found.held_out.parts[0].name, "session 7");
   EXPECT_EQ(found.held_out.parts[1].name, "session 20261121");
@@ -123,11 +123,12 @@ TEST(Diagnose, SizesAreMetresWhereNoiseGrowsWithTheRange) {
                                  [&](const NamedEffect& e) { return e.name == name; });
     return at == found.effects.end() ? NamedEffect{} : *at;
   };
-  const double left = std::sqrt(found.residuals_after.squaredNorm() / 900.0);
+  const double after = std::sqrt(found.residuals_after.squaredNorm() / 900.0);
   const double before = std::sqrt(found.residuals_before.squaredNorm() / 900.0);
   ASSERT_EQ(named("range_noise").parameters.size(), 1u);
-  EXPECT_NEAR(found.noise, left, 0.3 * left);
-  EXPECT_NEAR(named("joint_harmonic").size, std::sqrt(before * before - left * left), 0.3 * before);
+  EXPECT_NEAR(found.noise, after, 0.3 * after);
+  EXPECT_NEAR(named("joint_harmonic").size, std::sqrt(before * before - after * after),
+              0.3 * before);
   EXPECT_GT(named("joint_harmonic").gain, 0.5);
 }
 
@@ -153,8 +154,8 @@ TEST(Diagnose, FarFromTheOriginNothingChanges) {
   base.translation() = far;
   arm.set_base(base);
   const Diagnosis near = diagnose(six_joints(), data);
-  // A double counts in steps of 1e-10 m out there; the search may stop a hundredth of the noise
-  // from where it stopped before.
+  // A double has a resolution of 1e-10 m there; the search may converge to within a hundredth of
+  // the noise.
   for (const Diagnosis& found : {diagnose(six_joints(), moved), diagnose(arm, moved)}) {
     ASSERT_EQ(found.verdict, near.verdict);
     ASSERT_EQ(found.effects.size(), near.effects.size());
@@ -168,7 +169,7 @@ TEST(Diagnose, FarFromTheOriginNothingChanges) {
   }
 }
 
-TEST(Diagnose, CountsCopiesOfARowOnce) {
+TEST(Diagnose, CountsDuplicateRowsOnce) {
   const Tracked data = wavy(1e-3, 1e-4, 60);
   Tracked twice = data;
   twice.q.conservativeResize(120, Eigen::NoChange);

@@ -8,7 +8,7 @@
 #include "bathyal/arm/dh.hpp"
 #include "bathyal/base/random.hpp"
 
-namespace bathyal {
+namespace bathyal::diagnosis {
 namespace {
 
 Arm two_joints() {
@@ -30,21 +30,21 @@ RowMatrix joints(double step) {
   return q;
 }
 
-TEST(LoggedStep, IsFoundWhateverItIs) {
+TEST(QuantisationStep, IsFound) {
   for (const double step : {2e-5, 1.7e-4, 3.1415926535897931 / 8192.0, 0.02}) {
-    EXPECT_NEAR(logged_step(joints(step), two_joints()) / step, 1.0, 1e-9) << step;
+    EXPECT_NEAR(quantisation_step(joints(step), two_joints()) / step, 1.0, 1e-9) << step;
   }
 }
 
-TEST(LoggedStep, ValuesWithoutStepHaveNone) {
-  EXPECT_EQ(logged_step(joints(0.0), two_joints()), 0.0);
+TEST(QuantisationStep, IsZeroWithoutOne) {
+  EXPECT_EQ(quantisation_step(joints(0.0), two_joints()), 0.0);
 }
 
-TEST(LoggedStep, OneValueOffTheGridIsEnough) {
+TEST(QuantisationStep, IsZeroWithOneValueOffTheGrid) {
   RowMatrix q = joints(1e-3);
   q(7, 1) += 4.3e-4;
-  EXPECT_NE(logged_step(q, two_joints()), 1e-3);
+  EXPECT_NE(quantisation_step(q, two_joints()), 1e-3);
 }
 
 }  // namespace
-}  // namespace bathyal
+}  // namespace bathyal::diagnosis

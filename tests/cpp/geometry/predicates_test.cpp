@@ -138,6 +138,64 @@ TEST(Predicates, ChangeSignWithTheOrderOfPoints) {
   EXPECT_GT(near, 15000);
 }
 
+TEST(Predicates, Orient3dAgreesWithWholeNumbersWhereTiesAreCommon) {
+  struct Whole3 {
+    std::int64_t x, y, z;
+  };
+  for (const Place& place : kPlaces) {
+    for (const std::int64_t span : {2, 10, 1000, 1000000}) {
+      RandomStream random(9, static_cast<std::uint64_t>(span));
+      int ties = 0;
+      for (int i = 0; i < 5000; ++i) {
+        std::array<Whole3, 4> w;
+        for (Whole3& p : w) p = {draw(random, span), draw(random, span), draw(random, span)};
+        const Whole3 &a = w[0], &b = w[1], &c = w[2];
+        Whole3& d = w[3];
+        if (i % 3 == 1) d = {a.x + b.x - c.x, a.y + b.y - c.y, a.z + b.z - c.z};
+        if (i % 3 == 2) d = {2 * a.x - b.x, 2 * a.y - b.y, 2 * a.z - b.z + draw(random, 1)};
+        std::array<Point3, 4> p;
+        std::transform(w.begin(), w.end(), p.begin(), [&](const Whole3& q) {
+          const Point2 xy = at(place, {q.x, q.y});
+          return Point3{xy.x, xy.y, at(place, {q.z, q.z}).x};
+        });
+        // Cofactors along another row than the code under test takes.
+        const auto minor = [](const Whole3& u, const Whole3& v) {
+          return Int128{u.y} * v.z - Int128{u.z} * v.y;
+        };
+        const auto from_d = [&](const Whole3& q) {
+          return Whole3{q.x - d.x, q.y - d.y, q.z - d.z};
+        };
+        const Whole3 u = from_d(a), v = from_d(b), t = from_d(c);
+        const int expected = sign_of(u.x * minor(v, t) + v.x * minor(t, u) + t.x * minor(u, v));
+        ASSERT_EQ(orient3d(p[0], p[1], p[2], p[3]), expected);
+        ASSERT_EQ(orient3d(p[1], p[0], p[2], p[3]), -expected);
+        ties += expected == 0;
+      }
+      EXPECT_GE(ties, 1600);
+    }
+  }
+}
+
+TEST(Predicates, Orient3dSeesTheLastBitOverTheWholeRange) {
+  EXPECT_EQ(orient3d({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}), -1);
+  const double tiny = 0x1.0p-1074, huge = 1e75;
+  EXPECT_EQ(orient3d({0, 0, 0}, {huge, 0, huge}, {0, huge, huge}, {1, 1, 2}), 0);
+  EXPECT_EQ(orient3d({0, 0, 0}, {huge, 0, huge}, {0, huge, huge}, {1, 1, std::nextafter(2, 3)}),
+            -1);
+  EXPECT_EQ(orient3d({0, 0, 0}, {huge, 0, huge}, {0, huge, huge}, {tiny, tiny, 3 * tiny}), -1);
+  EXPECT_EQ(orient3d({0, 0, 0}, {huge, 0, huge}, {0, huge, huge}, {tiny, tiny, tiny}), 1);
+  EXPECT_EQ(orient3d({0, 0, 0}, {tiny, 0, 0}, {0, tiny, 0}, {0, 0, tiny}), -1);
+  for (const double offset : {0.1, 620152.873, 1e7}) {
+    const auto at_height = [&](double x, double y, double z) {
+      return Point3{offset + x, offset + y, z};
+    };
+    const Point3 a = at_height(0, 0, 0.3), b = at_height(4, 0, 0.3), c = at_height(0, 4, 0.3);
+    EXPECT_EQ(orient3d(a, b, c, at_height(1, 1, 0.3)), 0);
+    EXPECT_EQ(orient3d(a, b, c, at_height(1, 1, std::nextafter(0.3, 1.0))), -1);
+    EXPECT_EQ(orient3d(a, b, c, at_height(1, 1, std::nextafter(0.3, 0.0))), 1);
+  }
+}
+
 /// Of the two diagonals of a square exactly one is Delaunay, in any order of the arguments.
 TEST(Predicates, PerturbedTiesHaveOneAnswer) {
   const std::array<Point2, 4> square{Point2{0, 0}, {1, 0}, {1, 1}, {0, 1}};

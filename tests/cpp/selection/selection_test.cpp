@@ -9,67 +9,69 @@
 
 #include "bathyal/base/random.hpp"
 
-namespace bathyal {
+namespace bathyal::selection {
 namespace {
 
-constexpr Index kRows = 200, kOfBlock = 20;
+constexpr Index kRows = 200, kRowsPerFold = 20;
 
-/// A linear model of one base column, with noise of 1: nothing of an arm.
-class LinearSubject final : public Subject {
+/// A linear model of one base column, with noise of 1.
+class LinearModel final : public Model {
  public:
-  LinearSubject() {
-    units_.order.resize(kRows);
-    std::iota(units_.order.begin(), units_.order.end(), 0);
-    units_.twin = units_.order;
-    units_.session.assign(kRows, 0);
-    units_.point.assign(kRows, -1);
+  LinearModel() {
+    observations_.order.resize(kRows);
+    std::iota(observations_.order.begin(), observations_.order.end(), 0);
+    observations_.replicate = observations_.order;
+    observations_.session.assign(kRows, 0);
+    observations_.group.assign(kRows, -1);
     RandomStream random(7);
-    at_.misfit.resize(kRows);
-    for (double& value : at_.misfit) value = random.normal();
-    at_.base = Eigen::VectorXd::Ones(kRows);
-    at_.unit = units_.order;
+    at_.residual.resize(kRows);
+    for (double& value : at_.residual) value = random.normal();
+    at_.jacobian = Eigen::VectorXd::Ones(kRows);
+    at_.observation = observations_.order;
     at_.noise_rows = kRows;
   }
 
-  /// A form whose parameters do `columns`.
-  void add(const std::string& effect, const Eigen::MatrixXd& columns, bool probe = false) {
-    forms_.push_back({effect, -1, effect, effect, 1.0});
-    forms_.back().probe = probe;
+  /// A term with the derivatives `columns`.
+  void add(const std::string& effect, const Eigen::MatrixXd& columns, bool lack_of_fit = false) {
+    terms_.push_back({effect, -1, effect, effect, 1.0});
+    terms_.back().lack_of_fit = lack_of_fit;
     columns_.push_back(columns);
   }
-  Eigen::VectorXd& data() { return at_.misfit; }
-  void set_base(const Eigen::VectorXd& column) { at_.base = column; }
+  Eigen::VectorXd& data() { return at_.residual; }
+  void set_base(const Eigen::VectorXd& column) { at_.jacobian = column; }
 
-  const Units& units() const override { return units_; }
-  const std::vector<Form>& forms() const override { return forms_; }
+  const Observations& observations() const override { return observations_; }
+  const std::vector<Term>& terms() const override { return terms_; }
   const std::vector<std::vector<int>>& scans() const override { return scans_; }
-  const std::vector<NoiseForm>& noise_forms() const override { return noise_forms_; }
-  std::vector<int> finer(int) override { return {}; }
-  std::vector<Eigen::MatrixXd> columns(std::span<const int> forms) const override {
+  const std::vector<VarianceComponent>& variance_components() const override {
+    return variance_components_;
+  }
+  std::vector<int> refine(int) override { return {}; }
+  std::vector<Eigen::MatrixXd> columns(std::span<const int> terms) const override {
     std::vector<Eigen::MatrixXd> out;
-    for (const int form : forms) out.push_back(columns_[static_cast<std::size_t>(form)]);
+    for (const int term : terms) out.push_back(columns_[static_cast<std::size_t>(term)]);
     return out;
   }
   const Linearization& linearization() const override { return at_; }
-  void settle(const std::vector<int>&) override {}
-  std::shared_ptr<const Place> place() const override { return std::make_shared<Place>(); }
-  void return_to(const Place&) override {}
-  void set_trust(const Eigen::VectorXd&) override {}
-  void set_noise_forms(const Eigen::VectorXd&) override {}
+  void fit(const std::vector<int>&) override {}
+  std::shared_ptr<const Checkpoint> save() const override { return std::make_shared<Checkpoint>(); }
+  void restore(const Checkpoint&) override {}
+  void set_observation_weights(const Eigen::VectorXd&) override {}
+  void set_variance_ratios(const Eigen::VectorXd&) override {}
   double noise() const override { return 1e-3; }
 
  private:
-  Units units_;
+  Observations observations_;
   Linearization at_;
-  std::vector<Form> forms_;
+  std::vector<Term> terms_;
   std::vector<Eigen::MatrixXd> columns_;
   std::vector<std::vector<int>> scans_;
-  std::vector<NoiseForm> noise_forms_;
+  std::vector<VarianceComponent> variance_components_;
 };
 
-Eigen::VectorXd in_block(Index block, double size) {
+Eigen::VectorXd in_fold(Index fold, double size) {
   Eigen::VectorXd column = Eigen::VectorXd::Zero(kRows);
-  column.segment(block * kOfBlock, kOfBlock).setConstant(size);
+  column.segment(fold * kRowsPerFold, kRowsPerFold).setConstant(size);
   return column;
 }
 
@@ -80,93 +82,93 @@ Eigen::VectorXd swing(std::uint64_t seed, double size) {
   return column;
 }
 
-using Words = std::vector<std::string>;
+using Names = std::vector<std::string>;
 
-Words words_of(const LinearSubject& subject, const std::vector<Chosen>& chosen) {
-  Words words;
-  for (const Chosen& one : chosen) words.push_back(subject.forms()[one.form].effect);
-  return words;
+Names effects_of(const LinearModel& model, const std::vector<SelectedTerm>& chosen) {
+  Names effects;
+  for (const SelectedTerm& one : chosen) effects.push_back(model.terms()[one.term].effect);
+  return effects;
 }
 
-TEST(Examine, WhatARefutedNameStoodForIsLeftOver) {
-  LinearSubject subject;
+TEST(SelectTerms, StructureOfARefutedTermIsUnexplained) {
+  LinearModel model;
   Eigen::VectorXd base = Eigen::VectorXd::Ones(kRows);
-  base.segment(5 * kOfBlock, kOfBlock).setZero();
-  subject.set_base(base);
-  // No other block knows of it: what is held out there cannot be foretold.
-  subject.add("bump", in_block(5, 10.0));
-  subject.add("somewhere", in_block(5, 10.0), true);
-  subject.data() += in_block(5, 8.0);
-  const Examination found = examine(subject, {1, 10}, {});
-  EXPECT_TRUE(found.names.empty());
-  EXPECT_EQ(words_of(subject, found.probes), Words{"somewhere"});
-  EXPECT_GT(found.left_over, 0.9 * 20 * 64.0);
+  base.segment(5 * kRowsPerFold, kRowsPerFold).setZero();
+  model.set_base(base);
+  // No other fold determines it: what is held out there cannot be predicted.
+  model.add("bump", in_fold(5, 10.0));
+  model.add("somewhere", in_fold(5, 10.0), true);
+  model.data() += in_fold(5, 8.0);
+  const SelectionResult found = select_terms(model, {1, 10}, {});
+  EXPECT_TRUE(found.terms.empty());
+  EXPECT_EQ(effects_of(model, found.lack_of_fit), Names{"somewhere"});
+  EXPECT_GT(found.unexplained, 0.9 * 20 * 64.0);
 }
 
-TEST(Examine, ANameThatForetellsBadlyGoesByItself) {
-  LinearSubject subject;
+TEST(SelectTerms, ATermThatPredictsBadlyIsDroppedAlone) {
+  LinearModel model;
   const Eigen::VectorXd one = swing(1, 20.0), other = swing(2, 20.0);
-  subject.add("one", one);
-  subject.add("other", other);
-  // What block 0 tells of it is little, and wrong for block 5: it is foretold far off there, as is
-  // to be expected, and outweighs in squares what the other two gain.
-  const Eigen::VectorXd faint = in_block(0, 0.7), strong = in_block(5, 220.0);
-  subject.add("spoiler", faint + strong);
-  subject.data() += 0.2 * one + 0.2 * other + 0.1 * strong - 2.0 * faint;
-  const Examination found = examine(subject, {1, 10}, {});
-  EXPECT_EQ(words_of(subject, found.names), (Words{"one", "other"}));
+  model.add("one", one);
+  model.add("other", other);
+  // Fold 0 determines it badly, and wrong for fold 5: the prediction there is far off, as its
+  // variance says, and raises PRESS by more than the other two terms lower it.
+  const Eigen::VectorXd faint = in_fold(0, 0.7), strong = in_fold(5, 220.0);
+  model.add("spoiler", faint + strong);
+  model.data() += 0.2 * one + 0.2 * other + 0.1 * strong - 2.0 * faint;
+  const SelectionResult found = select_terms(model, {1, 10}, {});
+  EXPECT_EQ(effects_of(model, found.terms), (Names{"one", "other"}));
 }
 
-/// What is there, by a probe; and a name that is the nearest thing to it, beside `others` that are
-/// there as well.
-Examination nearest_thing_beside(LinearSubject& subject, int others) {
+/// A truth that only a lack-of-fit term describes, a term that approximates it, and `others` that
+/// are true.
+SelectionResult with_approximation(LinearModel& model, int others) {
   const Eigen::VectorXd truth = swing(1, 20.0);
-  subject.add("nearest", truth + swing(2, 8.0));
-  subject.add("truth", truth, true);
-  subject.data() += 0.1 * truth;
+  model.add("nearest", truth + swing(2, 8.0));
+  model.add("truth", truth, true);
+  model.data() += 0.1 * truth;
   for (int i = 0; i < others; ++i) {
     const Eigen::VectorXd other = swing(10 + static_cast<std::uint64_t>(i), 20.0);
-    subject.add("other " + std::to_string(i), other);
-    subject.data() += 0.1 * other;
+    model.add("other " + std::to_string(i), other);
+    model.data() += 0.1 * other;
   }
-  return examine(subject, {1, 10}, {});
+  return select_terms(model, {1, 10}, {});
 }
 
-TEST(Examine, ANameGivesWayToStructureThatItWasOnlyNearTo) {
-  LinearSubject subject;
-  const Examination found = nearest_thing_beside(subject, 2);
-  EXPECT_EQ(words_of(subject, found.names), (Words{"other 0", "other 1"}));
-  EXPECT_EQ(words_of(subject, found.probes), Words{"truth"});
+TEST(SelectTerms, LackOfFitReplacesATermThatOnlyApproximatesIt) {
+  LinearModel model;
+  const SelectionResult found = with_approximation(model, 2);
+  EXPECT_EQ(effects_of(model, found.terms), (Names{"other 0", "other 1"}));
+  EXPECT_EQ(effects_of(model, found.lack_of_fit), Names{"truth"});
 }
 
-TEST(Examine, AmongManyNamesStructureIsToldBeside) {
-  LinearSubject subject;
-  const Examination found = nearest_thing_beside(subject, 6);
-  EXPECT_EQ(found.names.size(), 7u);
-  EXPECT_EQ(words_of(subject, found.names).front(), "nearest");
-  ASSERT_EQ(words_of(subject, found.probes), Words{"truth"});
-  EXPECT_LT(found.probes[0].p, kBeyondNoise);
-  EXPECT_GT(found.left_over, 0.0);
+TEST(SelectTerms, AmongManyTermsLackOfFitIsReportedInAddition) {
+  LinearModel model;
+  const SelectionResult found = with_approximation(model, 6);
+  EXPECT_EQ(found.terms.size(), 7u);
+  EXPECT_EQ(effects_of(model, found.terms).front(), "nearest");
+  ASSERT_EQ(effects_of(model, found.lack_of_fit), Names{"truth"});
+  EXPECT_LT(found.lack_of_fit[0].p, kBeyondNoise);
+  EXPECT_GT(found.unexplained, 0.0);
 }
 
-TEST(Examine, StructureThatForetellsNothingTakesNoNamesPlace) {
-  LinearSubject subject;
+TEST(SelectTerms, LackOfFitThatPredictsNothingReplacesNoTerm) {
+  LinearModel model;
   const Eigen::VectorXd name = swing(1, 20.0);
-  subject.add("name", name);
-  // In each block another strength of the name: what it holds, and what no block tells of another.
-  Eigen::MatrixXd by_block = Eigen::MatrixXd::Zero(kRows, kRows / kOfBlock);
-  for (Index b = 0; b < by_block.cols(); ++b) {
-    const auto rows = Eigen::seqN(b * kOfBlock, kOfBlock);
-    by_block(rows, b) = name(rows);
-    subject.data()(rows) += (b % 2 == 0 ? 0.17 : 0.11) * name(rows);
+  model.add("name", name);
+  // The term's value differs between folds: significant, and unpredictable from the other folds.
+  Eigen::MatrixXd by_fold = Eigen::MatrixXd::Zero(kRows, kRows / kRowsPerFold);
+  for (Index b = 0; b < by_fold.cols(); ++b) {
+    const auto rows = Eigen::seqN(b * kRowsPerFold, kRowsPerFold);
+    by_fold(rows, b) = name(rows);
+    model.data()(rows) += (b % 2 == 0 ? 0.17 : 0.11) * name(rows);
   }
-  subject.add("by block", by_block, true);
-  const Examination found = examine(subject, {1, 10}, {});
-  EXPECT_EQ(words_of(subject, found.names), Words{"name"});
-  ASSERT_EQ(words_of(subject, found.probes), Words{"by block"});
-  EXPECT_EQ(found.probes[0].width, kRows / kOfBlock - 1);
-  EXPECT_LT(found.probes[0].p, kBeyondNoise);
+  model.add("by block", by_fold, true);
+  const SelectionResult found = select_terms(model, {1, 10}, {});
+  EXPECT_EQ(effects_of(model, found.terms), Names{"name"});
+  ASSERT_EQ(effects_of(model, found.lack_of_fit), Names{"by block"});
+  EXPECT_EQ(found.lack_of_fit[0].width, kRows / kRowsPerFold - 1);
+  EXPECT_LT(found.lack_of_fit[0].p, kBeyondNoise);
 }
 
 }  // namespace
-}  // namespace bathyal
+}  // namespace bathyal::selection

@@ -21,6 +21,8 @@ TEST(ForecastTouches, AKnownDistanceImprovesThePredictedTip) {
   const TouchForecast alone = forecast_touches(arm, touches, options);
   EXPECT_EQ(alone.tip_std.size(), 50U);
   EXPECT_EQ(alone.null_space.size(), 1U) << "the scale";
+  ASSERT_EQ(alone.null_space_leading.size(), 1U);
+  EXPECT_EQ(alone.null_space[0].find(alone.null_space_leading[0] + " "), 0U);
   EXPECT_EQ(alone.rank, alone.free - 1);
   touches.known_distances = {{0, 1, (three_points()[0] - three_points()[1]).norm()}};
   const TouchForecast with = forecast_touches(arm, touches, options);
@@ -56,6 +58,19 @@ TEST(Candidates, TouchTheirPointAboveTheFloor) {
   EXPECT_EQ(allowed_rows(arm, q, options), q);
   options.floor = 1.0;
   EXPECT_EQ(allowed_rows(arm, q, options).rows(), 0);
+}
+
+TEST(PlanWarnings, NameTheLeadingParameterOfEachUndeterminedDirection) {
+  TouchPlan plan(probing());
+  plan.point = {0, 0, 0};
+  plan.forecast.null_space = {"theta of row 1 +1, d of row 2 -0.5", "a of row 3 -1"};
+  plan.forecast.null_space_leading = {"theta of row 1", "a of row 3"};
+  PlanTouchesOptions options;
+  options.points = Eigen::Matrix3Xd::Zero(3, 1);
+  const auto texts = warnings_of(plan.arm, plan, 3, options, {});
+  EXPECT_TRUE(std::any_of(texts.begin(), texts.end(), [](const std::string& text) {
+    return text.find("the priors determine theta of row 1, a of row 3, each") != std::string::npos;
+  }));
 }
 
 TEST(PlanWarnings, SayWhatDeterminesTheScaleAndWhichDistanceToMeasure) {

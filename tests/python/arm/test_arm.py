@@ -64,7 +64,7 @@ def test_one_pose_and_many_have_their_shapes() -> None:
     assert arm.forward(q[::2, :].copy(order="F")).shape == (2, 4, 4)
 
 
-def test_the_last_link_stands_where_flange_and_tool_begin() -> None:
+def test_the_last_link_ends_where_flange_and_tool_begin() -> None:
     arm = random_arm(5, 5)
     links = arm.forward(np.zeros(arm.size), links=True)
     last = links[-1] @ np.linalg.inv(arm.links[-1].frame)

@@ -138,7 +138,7 @@ BROKEN = {
 
 
 @pytest.mark.parametrize("case", BROKEN)
-def test_broken_json_is_told_by_name_and_reason(case: str, tmp_path: Path) -> None:
+def test_broken_json_is_reported_by_name_and_reason(case: str, tmp_path: Path) -> None:
     text, reason = BROKEN[case]
     path = tmp_path / "arm.json"
     path.write_bytes(text if isinstance(text, bytes) else text.encode())
@@ -217,13 +217,13 @@ def test_ros_kinematics_move_as_the_arm(make: Any, tmp_path: Path) -> None:
     path = tmp_path / "kinematics.yaml"
     arm.write(path)
     text = path.read_text(encoding="utf-8")
-    told = yaml.safe_load(text)["kinematics"]
-    assert list(told) == [
+    content = yaml.safe_load(text)["kinematics"]
+    assert list(content) == [
         "shoulder", "upper_arm", "forearm", "wrist_1", "wrist_2", "wrist_3", "hash"
     ]  # fmt: skip
     for q in np.random.default_rng(1).uniform(-3, 3, (5, 6)):
         pose = beyond(text, "before base_link_inertia")
-        for link, angle in zip(list(told.values())[:6], q, strict=True):
+        for link, angle in zip(list(content.values())[:6], q, strict=True):
             origin = np.eye(4)
             origin[:3, :3] = rpy_matrix(link["roll"], link["pitch"], link["yaw"])
             origin[:3, 3] = link["x"], link["y"], link["z"]
@@ -234,9 +234,9 @@ def test_ros_kinematics_move_as_the_arm(make: Any, tmp_path: Path) -> None:
 
 def test_ros_kinematics_of_the_drawing_are_the_makers(tmp_path: Path) -> None:
     write_ros_kinematics(bathyal.arms.ur10e(), tmp_path / "k.yaml", hash="calib_1")
-    told = yaml.safe_load((tmp_path / "k.yaml").read_text())["kinematics"]
-    assert told["hash"] == "calib_1"
-    numbers = {link: list(values.values()) for link, values in told.items() if link != "hash"}
+    content = yaml.safe_load((tmp_path / "k.yaml").read_text())["kinematics"]
+    assert content["hash"] == "calib_1"
+    numbers = {link: list(values.values()) for link, values in content.items() if link != "hash"}
     expected = {
         "shoulder": [0, 0, 0.1807, 0, 0, 0],
         "upper_arm": [0, 0, 0, RIGHT, 0, 0],
@@ -328,11 +328,11 @@ def test_true_is_no_number_of_an_effect_either(tmp_path: Path) -> None:
     path = tmp_path / "model.json"
     arm = bathyal.Arm.from_dh(a=[0.5], alpha=[0], d=[0], theta=[0])
     arm.save(path)
-    told = json.loads(path.read_text())
-    told["effects"] = [{"name": "joint_scale", "joint": 0, "parameters": [
+    content = json.loads(path.read_text())
+    content["effects"] = [{"name": "joint_scale", "joint": 0, "parameters": [
         {"name": "scale", "unit": "", "scale": 1e-3, "value": True}]}]  # fmt: skip
-    told["support"] = {"joints": {"low": [0], "high": [1]}, "gravity_m_s2": {"low": [0, 0, 0],
+    content["support"] = {"joints": {"low": [0], "high": [1]}, "gravity_m_s2": {"low": [0, 0, 0],
                        "high": [0, 0, 0]}, "sessions": []}  # fmt: skip
-    path.write_text(json.dumps(told))
+    path.write_text(json.dumps(content))
     with pytest.raises(bathyal.Error, match=r"`effects\[0\]\.parameters\[0\]\.value`: expected"):
         bathyal.read_arm(path)

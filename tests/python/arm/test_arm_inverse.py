@@ -26,7 +26,7 @@ def test_inverse_of_forward_is_identity(make) -> None:  # type: ignore[no-untype
 
 @given(seed=st.integers(0, 2**32 - 1), joints=st.integers(2, 9))
 @settings(max_examples=40, deadline=None)
-def test_from_a_start_beside_it_random_arms_come_back(seed: int, joints: int) -> None:
+def test_from_a_start_near_it_random_arms_come_back(seed: int, joints: int) -> None:
     arm = random_arm(seed, joints)
     q = poses_of(arm, 5, seed)
     poses = arm.forward(q)

@@ -106,8 +106,8 @@ def test_followers_are_honoured_everywhere(tmp_path: Path) -> None:
     step = 1e-6
     columns = arm.jacobian(q)
     for k in range(2):
-        beside = [arm.forward(q + sign * step * np.eye(2)[k])[:, :3, 3] for sign in (1, -1)]
-        slope = (beside[0] - beside[1]) / (2 * step)
+        around = [arm.forward(q + sign * step * np.eye(2)[k])[:, :3, 3] for sign in (1, -1)]
+        slope = (around[0] - around[1]) / (2 * step)
         np.testing.assert_allclose(columns[:, :3, k], slope, atol=1e-8)
     wrench = np.array([1.0, 2.0, 3.0, 0.1, 0.2, 0.3])
     expected = np.einsum("nij,i->nj", columns, wrench)

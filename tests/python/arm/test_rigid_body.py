@@ -89,8 +89,8 @@ def test_a_urdf_with_an_inertia_that_no_body_has_is_refused(tmp_path: Path) -> N
 def test_a_json_with_a_mass_that_no_body_has_is_refused(tmp_path: Path) -> None:
     path = tmp_path / "arm.json"
     bathyal.arms.reach_alpha_5().save(path)
-    told = json.loads(path.read_text())
-    told["links"][1] |= {"mass_kg": 1.0, "inertia_kg_m2": np.diag([1, 1, 3]).tolist()}
-    path.write_text(json.dumps(told))
+    content = json.loads(path.read_text())
+    content["links"][1] |= {"mass_kg": 1.0, "inertia_kg_m2": np.diag([1, 1, 3]).tolist()}
+    path.write_text(json.dumps(content))
     with pytest.raises(bathyal.Error, match="inertia`: expected principal moments"):
         bathyal.read_arm(path)

@@ -78,7 +78,7 @@ def test_real_files_move_as_in_pinocchio(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", REAL)
-def test_links_of_real_files_stand_as_in_pinocchio(name: str) -> None:
+def test_links_of_real_files_lie_as_in_pinocchio(name: str) -> None:
     arm, path, _ = real_arm(name)
     q = poses(arm, 1)[0]
     for link, pose in zip(arm.link_names, arm.forward(q, links=True), strict=True):
@@ -98,9 +98,9 @@ def test_masses_of_real_files_weigh_as_in_pinocchio(name: str) -> None:
             at[model.joints[model.getJointId(joint_name)].idx_q] = value
         gravity = pin.computeGeneralizedGravity(model, data, at)
         expected = np.zeros(arm.size)
-        for told in arm_parts(arm)["joints"]:
-            index = model.joints[model.getJointId(told["name"])].idx_v
-            expected[told["coordinate"]] += told["multiplier"] * gravity[index]
+        for part in arm_parts(arm)["joints"]:
+            index = model.joints[model.getJointId(part["name"])].idx_v
+            expected[part["coordinate"]] += part["multiplier"] * gravity[index]
         np.testing.assert_allclose(
             arm.statics(q, gravity=(0, 0, -9.81)), expected, rtol=1e-9, atol=1e-9
         )
@@ -187,7 +187,7 @@ vectors = st.tuples(*[st.floats(-1, 1)] * 3)
 
 @settings(max_examples=60, deadline=None)
 @given(
-    told=st.lists(
+    drawn=st.lists(
         st.tuples(
             vectors,
             st.tuples(*[st.sampled_from([0.0, np.pi / 2, -np.pi / 2, np.pi, 0.7, 1e-4])] * 3),
@@ -197,13 +197,13 @@ vectors = st.tuples(*[st.floats(-1, 1)] * 3)
         ),
         min_size=1,
         max_size=8,
-    ).filter(lambda told: any(kind != "fixed" for *_, kind in told))
+    ).filter(lambda drawn: any(kind != "fixed" for *_, kind in drawn))
 )
-def test_any_chain_moves_as_in_pinocchio_and_loads_again(told: list, tmp_path_factory) -> None:
+def test_any_chain_moves_as_in_pinocchio_and_loads_again(drawn: list, tmp_path_factory) -> None:
     folder = tmp_path_factory.mktemp("chain")
-    names = [f"l{k}" for k in range(len(told) + 1)]
+    names = [f"l{k}" for k in range(len(drawn) + 1)]
     joints = []
-    for k, (xyz, rpy, axis, kind) in enumerate(told):
+    for k, (xyz, rpy, axis, kind) in enumerate(drawn):
         words = [" ".join(map(str, numbers)) for numbers in (xyz, rpy, axis)]
         more = f'<axis xyz="{words[2]}"/>{LIMIT}'
         joints.append(
@@ -245,7 +245,7 @@ def test_continuous_joints_have_no_limits(tmp_path: Path) -> None:
     assert 'type="continuous"' in arm.to_urdf()
 
 
-def test_sliding_without_limits_is_told_and_read_again(tmp_path: Path) -> None:
+def test_sliding_without_limits_is_written_and_read_again(tmp_path: Path) -> None:
     arm = bathyal.Arm.from_dh(
         a=[0.1], alpha=[0.2], d=[0.3], theta=[0.4], joint_types=["prismatic"], lower=[0.0]
     )
@@ -254,7 +254,7 @@ def test_sliding_without_limits_is_told_and_read_again(tmp_path: Path) -> None:
     assert again.velocity[0] == math.inf
 
 
-def test_a_lone_limit_has_zero_beside_it(tmp_path: Path) -> None:
+def test_a_lone_limit_is_paired_with_zero(tmp_path: Path) -> None:
     text = two_joints().replace('lower="-2" ', "")
     assert read_text(tmp_path, text).lower.tolist() == [0, 0]
 

@@ -45,10 +45,10 @@ BROKEN = {
         robot(links("a", "b"), joint("j", "a", "b", more='<parent link="b"/>')),
         "joint j: it has 2 elements parent",
     ),
-    "link_twice": (robot(links("a", "a")), "link a: it is told twice"),
+    "link_twice": (robot(links("a", "a")), "link a: it is defined twice"),
     "joint_twice": (
         robot(links("a", "b", "c"), joint("j", "a", "b"), joint("j", "b", "c")),
-        "joint j: it is told twice",
+        "joint j: it is defined twice",
     ),
     "loop": (
         robot(links("a", "b"), joint("j", "a", "b"), joint("k", "b", "a")),
@@ -154,7 +154,7 @@ BROKEN = {
 
 
 @pytest.mark.parametrize("case", BROKEN)
-def test_broken_file_is_told_by_name_and_reason(case: str, tmp_path: Path) -> None:
+def test_broken_file_is_reported_by_name_and_reason(case: str, tmp_path: Path) -> None:
     text, reason = BROKEN[case]
     with pytest.raises(bathyal.Error) as caught:
         read_text(tmp_path, text)

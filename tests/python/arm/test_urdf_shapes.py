@@ -34,7 +34,7 @@ def shaped(collision: str | list[str], visual: str = "", *more: str) -> str:
     )
 
 
-def test_shapes_keep_their_numbers_and_stand_in_the_link_that_carries_them(tmp_path: Path) -> None:
+def test_shapes_keep_their_numbers_and_go_to_the_link_that_carries_them(tmp_path: Path) -> None:
     arm = read_text(tmp_path, shaped(PLACE + BOX, MESH.format("hand.stl")), tip="hand")
     assert [len(link.collision) for link in arm.links] == [0, 1]
     (box,), (mesh,) = arm.links[1].collision, arm.links[1].visual

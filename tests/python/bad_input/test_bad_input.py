@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The harness that runs cases of bad input sees what goes wrong, and there are enough cases.
 
-What people hand in by mistake stands in `test_bad_*.py`. What is valid, however odd, works and is
+What people hand in by mistake is in `test_bad_*.py`. What is valid, however unusual, works and is
 checked; the rest is refused with an error that names the argument or the file. A signal, a silent
 wrong answer, a raw error of some library or a minute's wait fails.
 """

@@ -25,7 +25,7 @@ def ten_thousand_aims() -> None:
     assert np.isfinite(path.position).all()
 
 
-def missing_targets_are_told() -> None:
+def missing_targets_are_reported() -> None:
     targets = bathyal.find_targets(scene(), [*TWO, down(100, 100)])
     assert targets.status.tolist() == ["hit", "hit", "miss"]
     assert np.isnan(targets.point[2]).all()
@@ -53,7 +53,7 @@ CASES: list[Case] = [
         "find_targets: no aims",
         lambda: same(len(bathyal.find_targets(scene(), np.zeros((0, 6)))), 0),
     ),
-    works("find_targets: one that misses", missing_targets_are_told),
+    works("find_targets: one that misses", missing_targets_are_reported),
     refused("plan: no aims", "aims", lambda: bathyal.plan_toolpath(scene(), np.zeros((0, 6)))),
     refused(
         "plan: nothing hit",

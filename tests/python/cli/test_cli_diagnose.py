@@ -14,7 +14,7 @@ from rich.console import Console
 import bathyal
 from bathyal import cli
 from bathyal.cli.talk import Talk
-from bathyal.cli.touch_options import Beside
+from bathyal.cli.touch_options import CovariateColumns
 from bathyal.io.manifest import NAME
 from tests.support import diagnosis_cases as cases
 from tests.support.command import run
@@ -23,7 +23,7 @@ FILES = ["model.json", "report.html", "report.json", "report.png", "residuals.cs
 
 
 def write_tracked(data, path, rows=slice(None), titles=(), columns=()):
-    """A logger's table: degrees, millimetres, what was recorded beside."""
+    """A logger's table: degrees, millimetres, covariates."""
     time, temperature = (data.covariates[name].ravel() for name in ("time", "temperature"))
     names = [*(f"q{k}_deg" for k in range(1, 7)), "x_mm", "y_mm", "z_mm", "time_s", "T_arm_C",
              "session", *titles]  # fmt: skip
@@ -66,7 +66,7 @@ def undrawn(monkeypatch):
     monkeypatch.setattr("bathyal.view.figure.write_png", lambda *_: None)
 
 
-def test_everything_is_written_and_told(table, tmp_path, capsys, asked):
+def test_everything_is_written_and_reported(table, tmp_path, capsys, asked):
     code, text, err = run(
         capsys, "diagnose", table, "--tracked", "--arm", "ur10", "-o", tmp_path / "out", "--json",
         "--temperature", "T_arm_C",
@@ -118,13 +118,17 @@ def test_the_engine_finds_what_was_hidden_and_says_so(table, tmp_path, capsys):
         assert len(stream.readlines()) == 241
 
 
-def test_people_are_told_the_verdict_first(table, tmp_path, capsys, asked, undrawn, monkeypatch):
+def test_people_see_the_verdict_first(table, tmp_path, capsys, asked, undrawn, monkeypatch):
     monkeypatch.setenv("COLUMNS", "160")
     code, out, err = run(capsys, "diagnose", table, "--tracked", "--arm", "ur10", "-o", tmp_path)
     assert code == 0, err
-    assert out.split()[:2] == ["verdict", "Named"]
+    assert out.startswith("Named: a harmonic of order 2 along joint 3.\n")
     assert "warning: The arm's masses are not known" in err
-    for words in ("a harmonic of order 2", "Use the corrected arm", "report.json"):
+    for words in (
+        "100 % of the variance above noise",
+        "Next: check the corrected arm",
+        "report.json",
+    ):
         assert words in " ".join(out.split())
     code, out, err = run(
         capsys, "diagnose", table, "--tracked", "--arm", "ur10", "-o", tmp_path, "--quiet"
@@ -155,7 +159,7 @@ def test_a_table_for_each_session(tmp_path, capsys, asked, undrawn):
     assert session.tolist() == [0] * 100 + [1] * 140
     code, _, err = run(capsys, "diagnose", *files, *options, "--session", "run")
     assert code == 1
-    assert "expected one file where a column tells the sessions, got 2 files" in err
+    assert "expected one file where a column gives the sessions, got 2 files" in err
 
 
 def test_columns_by_name(tmp_path, capsys, asked, undrawn):
@@ -190,8 +194,8 @@ def test_touches_ride_with_covariates(tmp_path, capsys, asked, undrawn):
 
     path = touch_table(tmp_path, simulated())
     title, *lines = path.read_text().splitlines()
-    beside = [f"{line},{20 + k},{'ab'[k % 2]}" for k, line in enumerate(lines)]
-    path.write_text("\n".join([f"{title},temperature_C,shift", *beside]))
+    extended = [f"{line},{20 + k},{'ab'[k % 2]}" for k, line in enumerate(lines)]
+    path.write_text("\n".join([f"{title},temperature_C,shift", *extended]))
     code, _, err = run(
         capsys, "diagnose", path, "--arm", "ur10e", "-o", tmp_path / "out", "--session", "shift",
         "--known-distance", "left,right=350mm",
@@ -307,7 +311,7 @@ def test_help_has_examples(capsys):
 
 
 def test_options_name_each_covariate_once():
-    assert Beside().keywords() == {}
-    assert Beside(time="clock", direction="a, b", covariate=["p = P_bar"]).keywords() == {
+    assert CovariateColumns().keywords() == {}
+    assert CovariateColumns(time="clock", direction="a, b", covariate=["p = P_bar"]).keywords() == {
         "covariates": {"time": "clock", "direction": ["a", "b"], "p": "P_bar"}
     }

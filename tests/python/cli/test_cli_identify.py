@@ -78,19 +78,19 @@ def test_identify_twice_gives_the_same_bytes(found, job, tmp_path, capsys):
         assert (out / name).read_bytes() == (tmp_path / "b" / name).read_bytes(), name
 
 
-def test_people_are_told_what_was_found_and_what_to_touch_next(job, tmp_path, capsys, monkeypatch):
+def test_people_see_what_was_found_and_what_to_touch_next(job, tmp_path, capsys, monkeypatch):
     monkeypatch.setenv("COLUMNS", "200")
     code, out, err = run(capsys, "identify", job, "--arm", "UR10e", "--out", tmp_path)
     assert code == 0, err
-    for word in ("scatter", "20 of 27", "prior on lengths (1 mm)", "left, right, top",
-                 "Measure one distance", "left to right", "report.png"):  # fmt: skip
+    for word in ("error falls", "20 of 27", "prior on lengths (1 mm)", "left, right, top",
+                 "measure one distance", "left to right", "report.png"):  # fmt: skip
         assert word in out, word
     code, out, _ = run(capsys, "identify", job, "--arm", "ur10e", "--out", tmp_path, "--quiet")
     assert (code, out) == (0, "")
 
 
-def test_warnings_are_told_first_and_do_not_fail(job, tmp_path, capsys, monkeypatch):
-    """Whatever the fit warns of stands on stderr, in the page and in the summary."""
+def test_warnings_are_printed_first_and_do_not_fail(job, tmp_path, capsys, monkeypatch):
+    """Whatever the fit warns of is on stderr, in the page and in the summary."""
     from bathyal.identify import job as identify_report
 
     class Warned:
@@ -121,7 +121,7 @@ def test_warnings_are_told_first_and_do_not_fail(job, tmp_path, capsys, monkeypa
     page = (tmp_path / "report.html").read_text(encoding="utf-8")
     assert page.count("The &lt;lights&gt; are off.") == 1
     assert page.index("lights") < page.index("What was found")
-    assert "Look into what the warnings say" in page
+    assert "Resolve the warnings" in page
 
 
 def test_exports_on_request(job, tmp_path, capsys):
@@ -287,7 +287,7 @@ def test_angles_need_their_unit():
         values.angle("2mm")
 
 
-def test_what_is_known_is_told_by_name():
+def test_what_is_known_is_given_by_name():
     known = Known(
         known_distance=["left, right=50mm", "a,b = 0.2 m"], known_point=["pin=500,-200,10.5mm"],
         plane=["deck"],

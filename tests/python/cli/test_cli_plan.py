@@ -68,7 +68,7 @@ def test_plan_twice_gives_the_same_bytes(job, tmp_path, capsys):
         assert (tmp_path / "a" / name).read_bytes() == (tmp_path / "b" / name).read_bytes(), name
 
 
-def test_warnings_are_told_and_do_not_fail(job, tmp_path, capsys):
+def test_warnings_are_printed_and_do_not_fail(job, tmp_path, capsys):
     code, out, err = run(
         capsys, "plan", job / "survey.xyz", "--aims", job / "aims.csv", "-o", tmp_path, "--quiet",
         "--max-edge", 1.2,
@@ -78,7 +78,7 @@ def test_warnings_are_told_and_do_not_fail(job, tmp_path, capsys):
     assert err.count("warning:") >= 2
 
 
-def test_people_are_told_what_was_done(job, tmp_path, capsys):
+def test_people_see_what_was_done(job, tmp_path, capsys):
     _, out, _ = run(capsys, "plan", job / "survey.xyz", "--aims", job / "aims.csv", "-o", tmp_path)
     for word in ("soundings", "triangles", "3 of 4 aims", "path length", "duration", "plan.png"):
         assert word in out

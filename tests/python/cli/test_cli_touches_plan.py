@@ -39,19 +39,19 @@ def test_json_and_every_option(tmp_path, capsys):
         "-o", tmp_path / "plan.csv", "--json",
     )  # fmt: skip
     assert code == 0, err
-    told = json.loads(text)
-    np.testing.assert_allclose(told["points_m"], [[0.7, 0.2, 0.1], [0.8, -0.2, 0.3]], atol=1e-12)
-    assert told["touches"] == sum(told["touches_by_point"]) == 10
+    summary = json.loads(text)
+    np.testing.assert_allclose(summary["points_m"], [[0.7, 0.2, 0.1], [0.8, -0.2, 0.3]], atol=1e-12)
+    assert summary["touches"] == sum(summary["touches_by_point"]) == 10
     tool = np.eye(4)
     tool[2, 3] = 0.15
     arm.tool = tool
     same = bathyal.plan_touches(
-        arm, 10, points=told["points_m"], known_distances=[(0, 1)], criterion="d_optimal",
+        arm, 10, points=summary["points_m"], known_distances=[(0, 1)], criterion="d_optimal",
         noise=2e-4, length_prior=2e-3, angle_prior=np.radians(0.1), seed=4, floor=-0.5,
     )  # fmt: skip
-    assert told["worst_tip_std_m"] == pytest.approx(same.worst_tip_std)
-    assert told["value"] == pytest.approx(same.forecast.log_det)
-    assert told["warnings"] == same.warnings
+    assert summary["worst_tip_std_m"] == pytest.approx(same.worst_tip_std)
+    assert summary["value"] == pytest.approx(same.forecast.log_det)
+    assert summary["warnings"] == same.warnings
 
 
 def test_quiet_says_warnings_only(tmp_path, capsys):

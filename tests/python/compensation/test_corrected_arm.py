@@ -35,8 +35,8 @@ def test_forward_puts_the_effects_in_the_chain() -> None:
             base[:3, :3] += np.sin(angle) * cross + (1 - np.cos(angle)) * cross @ cross
             base[:3, 3] = 1e-3
             pose = base @ pose
-        told = {name: values[row] for name, values in COVARIATES.items()}
-        np.testing.assert_allclose(arm.forward(Q[row], covariates=told), pose, atol=1e-14)
+        covariates = {name: values[row] for name, values in COVARIATES.items()}
+        np.testing.assert_allclose(arm.forward(Q[row], covariates=covariates), pose, atol=1e-14)
 
 
 def test_shapes_are_those_of_any_arm() -> None:
@@ -111,7 +111,7 @@ def test_verify_arm_tells_it_its_covariates() -> None:
 
 
 @pytest.mark.parametrize(
-    ("told", "text"),
+    ("covariates", "text"),
     [
         ({"payload": 1.0}, "`covariates`: expected temperature, which thermal needs, got payload"),
         (ALL | {"temperature": [1.0, 2.0, 3.0]}, "`covariates temperature`: expected 2 rows"),
@@ -122,9 +122,9 @@ def test_verify_arm_tells_it_its_covariates() -> None:
         ([1.0], "`covariates`: expected a dict"),
     ],
 )
-def test_covariates_that_do_not_fit_are_refused(told: Any, text: str) -> None:
+def test_covariates_that_do_not_fit_are_refused(covariates: Any, text: str) -> None:
     with pytest.raises(ValueError, match=text):
-        model().forward(Q[:2], covariates=told)
+        model().forward(Q[:2], covariates=covariates)
 
 
 @pytest.mark.parametrize(
@@ -211,9 +211,9 @@ def test_identification_takes_touches_too() -> None:
 # Files ------------------------------------------------------------------------------------------
 
 
-def told(tmp_path: Path) -> dict[str, Any]:
-    model().save(tmp_path / "told.json")
-    contents: dict[str, Any] = json.loads((tmp_path / "told.json").read_text())
+def contents_of(tmp_path: Path) -> dict[str, Any]:
+    model().save(tmp_path / "arm.json")
+    contents: dict[str, Any] = json.loads((tmp_path / "arm.json").read_text())
     return contents
 
 
@@ -288,13 +288,13 @@ BREAKS: dict[str, Any] = {
 @pytest.mark.parametrize("name", BREAKS)
 def test_broken_files_are_refused(name: str, tmp_path: Path) -> None:
     path = tmp_path / "broken.json"
-    path.write_text(json.dumps(BREAKS[name](told(tmp_path))))
+    path.write_text(json.dumps(BREAKS[name](contents_of(tmp_path))))
     with pytest.raises(bathyal.Error, match=r"broken\.json"):
         bathyal.read_arm(path)
 
 
 def test_truncated_files_and_numbers_that_are_none_are_refused(tmp_path: Path) -> None:
-    text = json.dumps(told(tmp_path))
+    text = json.dumps(contents_of(tmp_path))
     path = tmp_path / "broken.json"
     for broken in (text[:-9], text.replace("20.0", "NaN"), text.replace("20.0", "1e999")):
         assert broken != text

@@ -16,9 +16,9 @@ def test_beyond_the_support_it_says_so_and_falls_back() -> None:
     arm = model()
     q = Q[:4].copy()
     q[1, 2] = 1.5
-    told = ALL | {"temperature": [25, 25, 45, np.nan], "session": [1, 1, 1, 7]}
+    covariates = ALL | {"temperature": [25, 25, 45, np.nan], "session": [1, 1, 1, 7]}
     with pytest.warns(bathyal.SupportWarning) as caught:
-        poses = arm.forward(q, covariates=told)
+        poses = arm.forward(q, covariates=covariates)
     assert len(caught) == 1
     warning = caught[0].message
     assert isinstance(warning, bathyal.SupportWarning)
@@ -33,9 +33,9 @@ def test_beyond_the_support_it_says_so_and_falls_back() -> None:
     assert caught[0].filename == __file__
     expected = [[1, 1, 1, 1], [0, 1, 1, 1], [1, 0, 1, 1], [1, 0, 0, 1]]
     assert warning.in_support.astype(int).tolist() == expected
-    assert arm.in_support(q, covariates=told).astype(int).tolist() == expected
+    assert arm.in_support(q, covariates=covariates).astype(int).tolist() == expected
     # The wave at its average, the temperature at the highest that was taught.
-    row = {name: np.ravel(v)[1] if np.ndim(v) else v for name, v in told.items()}
+    row = {name: np.ravel(v)[1] if np.ndim(v) else v for name, v in covariates.items()}
     places = np.linspace(*np.quantile(Q[:, 2], [0, 1]), 10001)
     average = np.mean(1e-3 * np.cos(2 * places) + 5e-4 * np.sin(2 * places))
     held = model(effects()[1:]).forward(q[1] + average * np.eye(6)[2], covariates=row)
@@ -79,7 +79,7 @@ def test_a_gap_is_beyond_the_support() -> None:
     assert len(slow.gaps[2]) == 0
 
 
-def test_a_gap_of_another_joint_is_not_told() -> None:
+def test_a_gap_of_another_joint_is_not_reported() -> None:
     support = Support([[-2.0] * 6, [2.0] * 6], gaps=[[[-1.0, 1.0]]] * 6)
     arm = bathyal.CorrectedArm(bathyal.arms.ur10e(), [harmonic(2, 9.0), harmonic(4, 2.0)], support)
     assert [len(gaps) for gaps in arm.gaps] == [0, 0, 1, 0, 0, 0]

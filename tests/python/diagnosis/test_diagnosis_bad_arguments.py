@@ -95,7 +95,7 @@ def mine(function: Callable[..., Any], **more: Any) -> dict[str, Any]:
 
 
 @pytest.mark.parametrize("case", OWN)
-def test_effects_that_fail_are_told_by_their_name(case: str) -> None:
+def test_effects_that_fail_are_reported_by_their_name(case: str) -> None:
     function, kind, message = OWN[case]
     with pytest.raises(kind, match=message) as caught:
         diagnosed(options=mine(function))
@@ -123,7 +123,7 @@ def test_effects_that_do_nothing_or_too_much_change_nothing() -> None:
         ({"parameters": {}}, "one parameter or more"),
     ],
 )
-def test_effects_that_are_told_amiss_are_refused(more: dict[str, Any], message: str) -> None:
+def test_effects_that_are_defined_wrongly_are_refused(more: dict[str, Any], message: str) -> None:
     refuses(lambda: diagnosed(options=mine(lambda d, j: d.q[:, 0], **more)), message)
 
 
@@ -146,31 +146,31 @@ def test_whatever_progress_raises_comes_back(error: type[BaseException], share: 
 def alarm() -> Any:
     """A true signal that comes while the engine works, as Ctrl-C does; set off by progress."""
     before = signal.signal(signal.SIGALRM, signal.default_int_handler)
-    told: list[float] = []
+    calls: list[float] = []
 
     def progress(done: float, stage: str) -> None:
-        if not told:
+        if not calls:
             signal.setitimer(signal.ITIMER_REAL, 1e-3)
-        told.append(done)
+        calls.append(done)
 
-    yield progress, told
+    yield progress, calls
     signal.setitimer(signal.ITIMER_REAL, 0.0)
     signal.signal(signal.SIGALRM, before)
 
 
 def test_a_signal_stops_the_engine_before_its_stage_is_over(alarm: Any) -> None:
-    progress, told = alarm
+    progress, calls = alarm
     with pytest.raises(KeyboardInterrupt):
         diagnosed(options={"progress": progress})
-    assert max(told) < 0.5
+    assert max(calls) < 0.5
 
 
 def test_progress_is_asked_often_within_the_search_so_that_it_can_be_stopped() -> None:
-    told: list[tuple[float, str]] = []
-    diagnosed(options={"progress": lambda done, stage: told.append((done, stage))})
-    assert told == sorted(told, key=lambda one: one[0])
-    assert told.count((0.2, "looking for causes")) > 5
-    assert told[-1] == (1.0, "done")
+    calls: list[tuple[float, str]] = []
+    diagnosed(options={"progress": lambda done, stage: calls.append((done, stage))})
+    assert calls == sorted(calls, key=lambda one: one[0])
+    assert calls.count((0.2, "looking for causes")) > 5
+    assert calls[-1] == (1.0, "done")
 
 
 def test_an_interrupted_command_leaves_nothing(

@@ -31,7 +31,7 @@ from tests.support.diagnosis_record import (
 )
 from tests.support.touch_cases import drawn, touched
 
-# What is recorded beside --------------------------------------------------------------------------
+# Covariates --------------------------------------------------------------------------------------
 
 SAME = "is the same in all rows"
 TOLD: dict[str, tuple[dict[str, Any], list[str]]] = {
@@ -48,7 +48,7 @@ TOLD: dict[str, tuple[dict[str, Any], list[str]]] = {
     ),
     "never": ({"temperature": np.full(N, NAN)}, ["missing in 90 of 90 rows"]),
     "some_other": ({"pressure": some(np.sin(TIME))}, ["`pressure` is missing in 30 of 90 rows"]),
-    "some_time": ({"time": some(TIME)}, ["rows were taken in the order in which they stand"]),
+    "some_time": ({"time": some(TIME)}, ["rows were taken in the order of the record"]),
     "some_load": ({"payload": some(TIME % 40)}, ["the arm was taken to carry nothing"]),
     "some_gravity": ({"gravity": some(np.tile([0, 0, -9.8], (N, 1)))}, ["9.80665"]),
     "some_sessions": ({"session": some(TIME > 500)}, ["all rows were taken as one session"]),
@@ -71,7 +71,7 @@ TOLD: dict[str, tuple[dict[str, Any], list[str]]] = {
 
 
 @pytest.mark.parametrize("case", TOLD)
-def test_odd_covariates_are_told_and_the_cause_is_found_all_the_same(case: str) -> None:
+def test_unusual_covariates_are_reported_and_the_cause_is_found_all_the_same(case: str) -> None:
     covariates, texts = TOLD[case]
     covariates = {name: np.asarray(values, float) for name, values in covariates.items()}
     report = diagnosed(covariates=covariates)
@@ -95,7 +95,7 @@ def test_sessions_of_three_rows_share_the_blocks() -> None:
     assert "base_shift was not tried with 174 numbers" in report.warnings[0]
 
 
-def test_an_effect_that_needs_what_is_not_there_is_told() -> None:
+def test_an_effect_that_needs_what_is_not_there_is_reported() -> None:
     effect = Effect("swell", lambda data, j: data.q[:, j], parameters={"rate": "rad"},
                     joints="each", needs=["tide"])  # fmt: skip
     report = diagnosed(options={"effects": [*bathyal.effects.list(), effect]})
@@ -202,14 +202,14 @@ def test_exact_data_are_clean() -> None:
 
 
 @pytest.mark.parametrize("noise", [1.0, 1e3])
-def test_noise_that_drowns_the_arm_is_no_cause_and_is_told(noise: float) -> None:
+def test_noise_that_drowns_the_arm_is_no_cause_and_is_reported(noise: float) -> None:
     report = diagnosed(*record(noise=noise))
     assert (report.verdict, report.effects) == ("clean", [])
     assert "Arm and data look like different machines" in report.warnings[0]
 
 
 @pytest.mark.parametrize("factor", [1e3, [1.0, 1.0, -1.0]], ids=["millimetres", "mirrored"])
-def test_data_of_another_machine_are_told(factor: Any) -> None:
+def test_data_of_another_machine_are_reported(factor: Any) -> None:
     report = diagnosed(position=P * factor)
     assert report.verdict == "unknown"
     assert "Arm and data look like different machines" in report.warnings[0]
@@ -266,7 +266,7 @@ def test_covariates_that_are_none_are_refused(case: str) -> None:
     refuses(lambda: diagnosed(covariates=covariates), message)
 
 
-def test_sessions_are_told_once_and_in_whole_numbers() -> None:
+def test_sessions_are_given_once_and_in_whole_numbers() -> None:
     refuses(
         lambda: diagnosed(session=np.zeros(N), covariates={"session": np.zeros(N)}),
         "`session`: expected the sessions once",

@@ -9,7 +9,7 @@ import json
 import numpy as np
 import pytest
 
-from bathyal.diagnosis.files import told, write_diagnosis, write_residuals
+from bathyal.diagnosis.files import contents, write_diagnosis, write_residuals
 from tests.support import diagnosis_cases as cases
 
 ALL = pytest.mark.parametrize("name", cases.CASES)
@@ -33,7 +33,7 @@ def test_json_keeps_its_names_and_goes_round(name, tmp_path):
     assert json.loads(json.dumps(kept, allow_nan=False)) == kept
     assert np.shape(kept["residuals_before_m"]) == (len(report.data), 3)
     assert np.array_equal(kept["residuals_after_m"], report.residuals_after)
-    assert sorted(told(report)) == KEYS
+    assert sorted(contents(report)) == KEYS
     for effect, own in zip(kept["effects"], report.effects, strict=True):
         assert sorted(effect) == [
             "gain", "held_out_after_m", "held_out_before_m", "joint", "name", "p_value",

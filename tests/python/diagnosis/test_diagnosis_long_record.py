@@ -30,7 +30,7 @@ def diagnosed(num_threads: int) -> Any:
     return bathyal.diagnose(ARM, measured(), num_threads=num_threads)
 
 
-def test_its_causes_are_found_and_told_by_all_rows() -> None:
+def test_its_causes_are_found_and_estimated_from_all_rows() -> None:
     report = diagnosed(2)
     assert report.verdict == "named"
     found = {(e.name, e.joint): e for e in report.effects}

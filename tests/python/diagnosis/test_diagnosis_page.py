@@ -135,7 +135,7 @@ def test_odd_numbers_are_drawn_and_written(size, tmp_path):
 
 
 def test_touches_have_positions_of_their_own(tmp_path):
-    """Measured positions are those that the identified arm foretells."""
+    """Measured positions are those that the identified arm predicts."""
     from tests.support.touch_jobs import simulated
 
     made = simulated()
@@ -158,11 +158,10 @@ def _with(report, **changes):
 def test_a_crowd_of_dependences_is_cut_and_counted(tmp_path):
     report = cases.named()
     report.shown = [
-        cases.structure(f"joint {k}", f"The residual bends along joint {k}", 1e-4, 0.1, 1e-4)
-        for k in range(40)
+        cases.on_joint(k, f"The residual bends along joint {k}", 1e-4, 0.1, 1e-4) for k in range(40)
     ]
     write_page(report, tmp_path / "report.html")
     text = (tmp_path / "report.html").read_text(encoding="utf-8")
-    assert "25 more stand in report.json." in text
+    assert "25 more are listed in report.json." in text
     assert "The residual bends along joint 14" in text
     assert "The residual bends along joint 15" not in text

@@ -37,13 +37,15 @@ def test_residuals_along_a_joint_show_its_error():
 
 
 def test_bins_hold_every_row_once():
-    quantity = tables.Quantity("time", "time", "s", np.array([3.0, 1, 2, 2, 9, 5, 5, 7] * 30))
+    quantity = tables.Quantity(
+        "time", "time", "s", np.array([3.0, 1, 2, 2, 9, 5, 5, 7] * 30), "time"
+    )
     values = np.arange(240.0)[:, None] * [1, -1, 0]
     some = tables.binned(quantity, values)
     assert some.by_value
     assert some.place.tolist() == [1, 2, 3, 5, 7, 9]
     assert some.mean[1, 0] == pytest.approx(values[quantity.values == 2, 0].mean())
-    many = tables.Quantity("time", "time", "s", np.random.default_rng(0).uniform(size=240))
+    many = tables.Quantity("time", "time", "s", np.random.default_rng(0).uniform(size=240), "time")
     bins = tables.binned(many, values)
     assert len(bins.place) == 20
     assert bins.mean.mean(axis=0) == pytest.approx(values.mean(axis=0))
@@ -81,15 +83,21 @@ def test_curves_of_maps_scales_and_couplings():
 
 def test_what_is_beyond_noise_is_marked_where_it_belongs():
     known = {one.key: one for one in tables.quantities(cases.named())}
-    swings = cases.structure("time, period 12.1 s", "", 1e-4, 0.5, 1e-9)
-    both = cases.structure("joints 2 and 3", "", 1e-4, 0.5, 1e-9)
+    swings = cases.vibration(12.1, "", 1e-4, 0.5, 1e-9)
+    both = cases.on_pair(2, 3, "", 1e-4, 0.5, 1e-9)
     assert [key for key, one in known.items() if tables.concerns(swings, one)] == ["time"]
     assert [key for key, one in known.items() if tables.concerns(both, one)] == []
     assert tables.pair_of(both, [*known.values()]) == (known["joint 2"], known["joint 3"])
-    place = cases.structure("position", "", 1e-4, 0.5, 1e-9)
+    place = cases.structure("position", "position", "", 1e-4, 0.5, 1e-9)
     assert [key for key, one in known.items() if tables.concerns(place, one)] == ["x", "y", "z"]
-    wave = cases.structure("joint_harmonic", "a wave of order 2 along joint 4 (w)", 1e-4, 0.5, 1e-9)
-    assert [key for key, one in known.items() if tables.concerns(wave, one)] == ["joint 4"]
+    single = cases.on_joint(4, "", 1e-4, 0.5, 1e-9)
+    assert [key for key, one in known.items() if tables.concerns(single, one)] == ["joint 4"]
+    assert tables.pair_of(single, [*known.values()]) is None
+    warm = cases.structure("covariate", "", "", 1e-4, 0.5, 1e-9, covariate="temperature")
+    assert [key for key, one in known.items() if tables.concerns(warm, one)] == ["temperature"]
+    for kind in ("none", "approach"):
+        other = cases.structure(kind, "", "", 1e-4, 0.5, 1e-9, coordinates=[3])
+        assert not [key for key, one in known.items() if tables.concerns(other, one)]
     titles = [axes.get_title(loc="left") for axes in show_figure(cases.named()).axes]
     assert titles[2] == "● 0.200 mm, p < 0.001"
     assert titles[8] == "noise, p = 0.004"
@@ -109,9 +117,9 @@ def test_a_sheet_has_room_for_its_pictures_whatever_there_is_to_say():
     assert min(tops) > 0
 
 
-def test_a_cause_of_many_numbers_is_told_without_them():
+def test_a_cause_of_many_numbers_is_described_without_them():
     report = cases.many(6)
-    assert "told by 6 numbers" in effect_text(report.effects[5])
+    assert "with 6 parameters" in effect_text(report.effects[5])
 
 
 def test_sheet_has_a_panel_for_each_step():
@@ -125,10 +133,10 @@ def test_sheet_has_a_panel_for_each_step():
 def test_gaps_are_cut_out_of_the_range() -> None:
     report = cases.named()
     report.model.gaps = (*cases.Arm.gaps[:2], np.array([[0.1, 0.8]]), *cases.Arm.gaps[3:])
-    told = [one.gaps for one in tables.supports(report)]
-    assert told[1] == ()
-    assert len(told[2]) == 1
-    np.testing.assert_allclose(told[2][0], np.degrees([0.1, 0.8]))
+    gaps = [one.gaps for one in tables.supports(report)]
+    assert gaps[1] == ()
+    assert len(gaps[2]) == 1
+    np.testing.assert_allclose(gaps[2][0], np.degrees([0.1, 0.8]))
     figure = support_figure(report)
     bars = figure.axes[0].patches
     figure_before = support_figure(cases.named())

@@ -41,7 +41,7 @@ def test_gears_of_the_ur10_are_found() -> None:
     assert {0, 1, 2} <= joints
 
 
-def test_the_ur10s_model_foretells_poses_that_were_not_used() -> None:
+def test_the_ur10s_model_predicts_poses_that_were_not_used() -> None:
     report = _report_of_ur10()
     every = ur10("C")
     unused = np.arange(len(every.q)) % 8 == 4
@@ -84,7 +84,7 @@ def test_the_panda_with_a_probe_is_better_with_what_is_named() -> None:
     assert report.held_out.rms_after < 0.175e-3
 
 
-def test_one_name_that_foretells_badly_does_not_take_all_others_along() -> None:
+def test_one_name_that_predicts_badly_does_not_take_all_others_along() -> None:
     every = ur10("A")
     report = bathyal.diagnose(
         bathyal.arms.ur10(), bathyal.Tracked(every.q[::30], every.position[::30])
@@ -94,7 +94,7 @@ def test_one_name_that_foretells_badly_does_not_take_all_others_along() -> None:
     assert report.held_out.p_value < 0.01
 
 
-def test_structure_whose_names_foretell_nothing_is_unknown() -> None:
+def test_structure_whose_names_predict_nothing_is_unknown() -> None:
     report = bathyal.diagnose(bathyal.arms.gen3_lite(), sockets("dinova_1"))
     assert min(shown.p_value for shown in report.shown) < 1e-9
     assert report.verdict == "unknown"

@@ -27,7 +27,7 @@ ALL = pytest.mark.parametrize("name", cases.CASES)
      (3e-6, "3.00 µm"), (-1.5e-3, "−1.50 mm"), (1.25, "1.25 m"), (1e-12, "under 1 nm"),
      (0.0, "0 mm"), (math.nan, "?")],
 )  # fmt: skip
-def test_lengths_are_told_in_the_unit_that_suits(metres, text):
+def test_lengths_are_shown_in_the_unit_that_suits(metres, text):
     assert numbers.length_text(metres) == text
 
 
@@ -53,7 +53,7 @@ def test_estimates_carry_their_interval_and_no_more_figures(name, value, unit, s
     st.sampled_from(["rad", "m", "1/K", "", "rad/(N m)", "odd"]),
 )  # fmt: skip
 @settings(max_examples=200, deadline=None)
-def test_any_estimate_is_told_within_its_interval(value, std, unit):
+def test_any_estimate_is_shown_within_its_interval(value, std, unit):
     text = numbers.estimate_text("x", cases.estimate(value, unit, std))
     assert "nan" not in text
     found = [float(n.replace("−", "-")) for n in re.findall(r"−?\d+(?:\.\d+)?(?:e[+−]?\d+)?", text)]
@@ -75,47 +75,46 @@ def test_a_named_cause_comes_with_its_evidence():
     for words in (
         "Named: a harmonic of order 2 along joint 3 with amplitude 0.0286°, cosine 0.01719° (0.016",
         "(moves the tip by 0.200 mm per axis)",
-        "the error falls from 0.194 mm to 0.051 mm (3-D rms)",
-        "with a floor of 0.052 mm by noise", "100 % of the variance above noise is gone",
-        "that this is luck has p < 0.001", "Nothing beyond noise is left over",
+        "the error falls from 0.194 mm to 0.051 mm (3-D rms; noise alone 0.052 mm)",
+        "100 % of the variance above noise is explained (p < 0.001)",
+        "Nothing beyond noise remains unexplained",
         "4.8 to 1 against it", "Warning: The arm's masses are not known",
     ):  # fmt: skip
         assert words in text
     assert "Warning" not in summary(cases.named(), warnings=False)
 
 
-def test_what_is_left_over_is_told():
+def test_what_is_unexplained_is_reported():
     report = cases.named()
-    report.leftover = cases.structure(
-        "joint 5", "The residual bends along joint 5", 3e-5, 0.1, 1e-4
-    )
-    assert "Left over: The residual bends along joint 5 (0.030 mm per axis, p < 0.001)." in summary(
-        report
-    )
+    report.leftover = cases.on_joint(5, "The residual bends along joint 5", 3e-5, 0.1, 1e-4)
+    text = "Unexplained: The residual bends along joint 5 (0.030 mm per axis, p < 0.001)."
+    assert text in summary(report)
 
 
 def test_clean_says_what_would_have_been_seen():
     text = summary(cases.clean())
-    assert text.startswith("Clean: 240 poses show nothing beyond noise")
-    assert "the most suspect, against joint 1, has p = 0.1." in text
-    assert "What moves the tip by 0.012 mm or more per axis would have been seen" in text
+    assert text.startswith("Clean: geometry explains 240 poses to within noise")
+    assert "the strongest dependence, on joint 1, has p = 0.1." in text
+    assert (
+        "An effect that moves the tip by 0.012 mm or more per axis would have been detected" in text
+    )
     assert "noise is 0.030 mm per axis, by exact repeats of 12 poses" in text
     report = cases.clean()
     report.shown = []
-    assert "no structure that was looked for has a chance below 0.002" in summary(report)
+    assert "no dependence has a p-value below 0.002" in summary(report)
 
 
 def test_ambiguous_lists_all_and_asks_for_poses():
     report = cases.ambiguous()
     text = summary(report)
     assert text.startswith(
-        "Ambiguous, these data cannot tell apart: the tool slipped after 120 rows, the base moved "
-        "between sessions 1 and 2 (as likely) or the base drifts (9 to 1 against it). Beside them "
-        "stands: a harmonic of order 2 along joint 3 with amplitude"
+        "Ambiguous, these data cannot distinguish: the tool slipped after 120 rows, the base moved "
+        "between sessions 1 and 2 (as likely) or the base drifts (9 to 1 against it). Certain "
+        "is: a harmonic of order 2 along joint 3 with amplitude"
     )
     assert "Measure the 5 poses of report.next_poses" in next_steps(report)[0]
     report.next_poses = np.empty((0, 6))
-    assert "No pose would tell them apart" in next_steps(report)[0]
+    assert "No pose distinguishes them" in next_steps(report)[0]
 
 
 def test_what_is_sure_leads_where_it_does_more_than_what_is_open():
@@ -123,15 +122,15 @@ def test_what_is_sure_leads_where_it_does_more_than_what_is_open():
     report.effects[0].size = 2 * report.effects[1].size
     text = summary(report)
     assert text.startswith(
-        "Ambiguous, but in the main this stands: a harmonic of order 2 along joint 3 with amplitude"
+        "Ambiguous, but mainly: a harmonic of order 2 along joint 3 with amplitude"
     )
-    assert "Among lesser causes these data cannot tell apart: the tool slipped after 120" in text
+    assert "Among lesser causes these data cannot distinguish: the tool slipped after 120" in text
     assert headline(report) == (
-        "Ambiguous: in the main a harmonic of order 2 along joint 3. A lesser choice is open."
+        "Ambiguous: mainly a harmonic of order 2 along joint 3. A lesser choice is open."
     )
 
 
-def test_groups_of_causes_that_cannot_be_told_apart_stay_apart():
+def test_groups_of_causes_that_cannot_be_distinguished_stay_apart():
     report = cases.ambiguous()
     report.ambiguous += [
         cases.cause("joint_harmonic", 2, report.effects[0].words),
@@ -142,18 +141,18 @@ def test_groups_of_causes_that_cannot_be_told_apart_stay_apart():
         "the base drifts; and a harmonic of order 2 along joint 3 or joint 3 moved along by "
         "joint 2."
     )
-    assert "Beside them" not in summary(report)
+    assert "Certain is" not in summary(report)
 
 
-def test_a_crowd_of_rivals_does_not_flood_the_page():
+def test_a_crowd_of_alternatives_does_not_flood_the_page():
     report = cases.ambiguous()
-    report.ambiguous += [cases.cause("x", None, f"rival {k}", 0.2) for k in range(60)]
+    report.ambiguous += [cases.cause("x", None, f"alternative {k}", 0.2) for k in range(60)]
     assert headline(report).endswith(", the base drifts or any of 60 others.")
     assert len(summary(report)) < 2000
     assert len(groups_of(report)[0]) == 63
 
 
-def test_causes_of_the_noise_are_told_by_their_likelihood(tmp_path):
+def test_causes_of_the_noise_are_described_by_their_likelihood(tmp_path):
     report = cases.named()
     report.effects.append(
         cases.effect(
@@ -174,7 +173,7 @@ def test_unknown_says_what_it_looks_like_and_pretends_no_name():
     text = summary(report)
     assert "The residual swings with time, period 12.1 s (0.160 mm per axis, 80 %" in text
     assert "A part of it may be: a harmonic" in text
-    assert "It goes with time" in text
+    assert "The residuals depend on time" in text
     report.effects = []
     assert "A part of it" not in summary(report)
 
@@ -186,7 +185,7 @@ def test_none_says_why():
     assert "nan" not in text
 
 
-def test_what_was_not_recorded_is_told():
+def test_what_was_not_recorded_is_reported():
     report = cases.clean()
     assert "Record payload and direction as well" in next_steps(report)[-1]
     data = report.data

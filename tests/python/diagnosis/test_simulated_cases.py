@@ -16,14 +16,14 @@ from tests.simulated_cases.effect_shapes import (
     Action,
     base_columns,
     basis,
-    beside,
     cantilever,
     column,
     columns,
     moved,
+    project_out,
     torque,
 )
-from tests.simulated_cases.judge import judge
+from tests.simulated_cases.evaluation import evaluate
 from tests.simulated_cases.oracle_report import OracleEffect, OracleReport, oracle
 from tests.simulated_cases.score_card import card, run
 
@@ -52,8 +52,8 @@ def test_arms_are_of_all_kinds():
 
 def test_a_seed_makes_the_same_case_again():
     for seed in (0, 6, 13):
-        (arm, data, answer), (again, same, told) = make_case(seed), make_case(seed)
-        assert answer == told
+        (arm, data, answer), (again, same, repeated) = make_case(seed), make_case(seed)
+        assert answer == repeated
         np.testing.assert_array_equal(data.q, same.q)
         q = data.q[:3]
         np.testing.assert_array_equal(arm.forward(q), again.forward(q))
@@ -99,7 +99,7 @@ def _fitted(matrix, seen):
 
 
 @pytest.mark.parametrize("seed", [12, 13, 17, 19, 32, 34, 37])
-def test_what_was_measured_is_noise_beside_the_truth(seed):
+def test_what_was_measured_is_noise_around_the_truth(seed):
     """The measurement, which is not linear, less all that the answer tells of it."""
     case = draw_case(seed)
     sealed, noise = case.sealed, case.answer.noise
@@ -113,7 +113,7 @@ def test_what_was_measured_is_noise_beside_the_truth(seed):
         for actions, value in zip(shape.actions.values(), values, strict=True):
             seen = seen - value * sum(moved(poses, a) for a in actions)
     rows = np.setdiff1d(np.arange(len(seen)), facts.get("outliers", {}).get("rows", []))
-    left = beside(basis(base_columns(poses)), column(poses, seen)).reshape(-1, 3)[rows]
+    left = project_out(basis(base_columns(poses)), column(poses, seen)).reshape(-1, 3)[rows]
     assert np.sqrt(np.mean(left**2)) / noise == pytest.approx(0.95, abs=0.12)
 
 
@@ -146,7 +146,7 @@ def test_a_beam_bends_as_the_sum_of_many_short_ones():
     poses = case.sealed.poses
     row = int(np.argmax(np.hypot(poses.arm.a, poses.arm.d)[:-1] * ~poses.arm.sliding[:-1]))
     frames, end = poses.frames, row + 1
-    told = cantilever(poses, row)
+    computed = cantilever(poses, row)
     i = 0
     into = frames.rotation[end][i].T
     beam = into @ (frames.origin[end][i] - frames.origin[row][i])
@@ -170,7 +170,7 @@ def test_a_beam_bends_as_the_sum_of_many_short_ones():
         bend = moment * length / pieces
         turn += bend
         shift += np.cross(bend, (1 - s) * beam)
-    np.testing.assert_allclose(told[i], [*shift, *turn], atol=1e-6 * np.abs(told[i]).max())
+    np.testing.assert_allclose(computed[i], [*shift, *turn], atol=1e-6 * np.abs(computed[i]).max())
 
 
 def _weighed_case():
@@ -211,10 +211,10 @@ def test_the_card_fails_who_guesses():
         return lambda case: OracleReport(verdict, list(effects))
 
     seeds = [0, 5, 10, 13]  # clean, outside, confounded, inside
-    assert [judge(s, says("clean")).exact for s in seeds] == [True, False, False, False]
-    assert [judge(s, says("unknown")).exact for s in seeds] == [False, True, False, False]
+    assert [evaluate(s, says("clean")).exact for s in seeds] == [True, False, False, False]
+    assert [evaluate(s, says("unknown")).exact for s in seeds] == [False, True, False, False]
     curve = [OracleEffect("joint_harmonic", 0)]
-    assert not any(judge(s, says("named", curve)).exact for s in seeds)
+    assert not any(evaluate(s, says("named", curve)).exact for s in seeds)
 
     def another_joint(case):
         report = oracle(case)
@@ -224,7 +224,7 @@ def test_the_card_fails_who_guesses():
         return report
 
     joints = [s for s in INSIDE if any(e["joint"] is not None for e in make_case(s)[2].effects)]
-    assert not any(judge(s, another_joint).exact for s in joints[:2])
+    assert not any(evaluate(s, another_joint).exact for s in joints[:2])
 
 
 def test_a_case_that_stops_the_diagnosis_is_on_the_card():

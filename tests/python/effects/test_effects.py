@@ -40,14 +40,14 @@ def cable(data: Any, joint: int) -> Any:
     return np.sin(data.q[:, 1] + data.q[:, 2])
 
 
-def model_of(function: Callable[..., Any], *, value: float = 1e-3, **told: Any) -> Any:
+def model_of(function: Callable[..., Any], *, value: float = 1e-3, **options: Any) -> Any:
     """A UR10e with one effect of a user's, of one parameter."""
-    told = {"parameters": {"size": "rad"}, "joints": "each"} | told
-    effect = Effect("mine", function, **told)
-    joint = 3 if told["joints"] else None
+    options = {"parameters": {"size": "rad"}, "joints": "each"} | options
+    effect = Effect("mine", function, **options)
+    joint = 3 if options["joints"] else None
     arm = bathyal.arms.ur10e()
     data = bathyal.Tracked(Q, arm.forward(Q)[:, :3, 3])
-    parameters = dict.fromkeys(told["parameters"], value)
+    parameters = dict.fromkeys(options["parameters"], value)
     return bathyal.CorrectedArm(arm, [FoundEffect(effect, parameters, joint=joint)], data)
 
 
@@ -156,7 +156,7 @@ def test_a_function_sees_what_was_recorded() -> None:
     ],
     ids=["raises", "arguments", "nan", "wide", "short", "number", "text", "nothing", "complex"],
 )
-def test_a_function_that_fails_is_told_by_the_name_of_its_effect(
+def test_a_function_that_fails_is_reported_by_the_name_of_its_effect(
     gives: Callable[..., Any], error: type[Exception], text: str
 ) -> None:
     with pytest.raises(error, match=text):
@@ -172,7 +172,7 @@ def test_an_interrupt_inside_a_function_is_no_error_of_the_effect() -> None:
 
 
 @pytest.mark.parametrize(
-    ("told", "text"),
+    ("options", "text"),
     [
         ({"parameters": {}}, "one parameter or more"),
         ({"parameters": {"size": 1}}, "a dict of name to unit"),
@@ -184,12 +184,12 @@ def test_an_interrupt_inside_a_function_is_no_error_of_the_effect() -> None:
         ({"scales": {"size": 0.0}}, "above 0"),
     ],
 )
-def test_an_effect_that_is_told_amiss_is_refused(told: dict[str, Any], text: str) -> None:
+def test_an_effect_that_is_defined_wrongly_is_refused(options: dict[str, Any], text: str) -> None:
     with pytest.raises(ValueError, match=text):
-        Effect("mine", cable, **({"parameters": {"size": "rad"}, "joints": "each"} | told))
+        Effect("mine", cable, **({"parameters": {"size": "rad"}, "joints": "each"} | options))
 
 
-def test_registered_effects_stand_behind_the_library() -> None:
+def test_registered_effects_follow_the_library() -> None:
     effect = Effect("cable", cable, parameters={"pull": "rad"}, joints="each")
     bathyal.effects.register(effect)
     try:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""identify_arm against SciPy and NumPy, invariance, and the spread that it foretells."""
+"""identify_arm against SciPy and NumPy, invariance, and the spread that it predicts."""
 
 import numpy as np
 import pytest
@@ -27,7 +27,7 @@ def test_the_cost_is_scipys(noisy: bathyal.Touches, criterion: str) -> None:
     fit = bathyal.identify_arm(
         arm, noisy, criterion=criterion, fixed=["a_2"], length_prior=100.0, noise=NOISE
     )
-    assert fit.scale_source.startswith("prior"), "a held length is not told by the data"
+    assert fit.scale_source.startswith("prior"), "a held length is not determined by the data"
     peer = Peer(arm, fit, noisy.q, noisy.point)
     free = [i for i, p in enumerate(fit.parameters) if p.status not in ("gauge", "fixed")]
     assert len(free) == 20

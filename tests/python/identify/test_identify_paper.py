@@ -78,11 +78,13 @@ def test_pairwise_distances_fall_more_than_five_times() -> None:
 @pytest.mark.parametrize("criterion", ["centroid", "pairs"])
 def test_five_iterations_are_enough(criterion: str) -> None:
     for touches, fit in experiments():
-        told = bathyal.identify_arm(bathyal.arms.ur10e(), touches, noise=NOISE, criterion=criterion)
-        for found in (fit, told):  # the noise found with the arm, and told
+        given = bathyal.identify_arm(
+            bathyal.arms.ur10e(), touches, noise=NOISE, criterion=criterion
+        )
+        for found in (fit, given):  # the noise found with the arm, and given
             assert found.converged
             assert found.iterations <= 5
-        assert told.pairs_after == pytest.approx(fit.pairs_after, rel=0.02)
+        assert given.pairs_after == pytest.approx(fit.pairs_after, rel=0.02)
 
 
 def test_the_flange_is_found_as_the_papers_tracker_saw_it() -> None:
@@ -140,15 +142,15 @@ def true_arm(nominal: bathyal.Arm, random: np.random.Generator) -> bathyal.Arm:
     """Every number off by about 1 mm or mrad but those that base and tool do as well."""
     q = anywhere(nominal, 40, random)
     tracked = bathyal.identify_arm(nominal, bathyal.Tracked(q, nominal.forward(q)[:, :3, 3]))
-    told = [p.name for p in tracked.parameters if p.status != "gauge" and p.group != "base"]
-    return changed(nominal, {name: random.normal(0, 1e-3) for name in told})
+    given = [p.name for p in tracked.parameters if p.status != "gauge" and p.group != "base"]
+    return changed(nominal, {name: random.normal(0, 1e-3) for name in given})
 
 
 def check_found(fit: Any, true: bathyal.Arm, columns: int) -> None:
-    told = [p for p in fit.parameters if p.status == "identified" and p.group != "base"]
+    free = [p for p in fit.parameters if p.status == "identified" and p.group != "base"]
     bases = sum(p.group == "base" for p in fit.parameters)
-    assert len(told) + bases == columns
-    for p in told:
+    assert len(free) + bases == columns
+    for p in free:
         assert p.value == pytest.approx(value_in(true, p.name), abs=1e-9), p.name
 
 
@@ -207,14 +209,14 @@ def test_exact_touches_with_a_known_distance_give_the_arm_back(name: str) -> Non
 
 
 def test_a_sliding_joint_tells_the_size() -> None:
-    """Its travel is recorded in metres: no distance need be known, and no prior stands in."""
+    """Its travel is recorded in metres: no distance need be known, and no prior replaces it."""
     nominal, true, q, labels, _ = exact_touches("lift")
     fit = bathyal.identify_arm(nominal, bathyal.Touches(q, labels))
     assert fit.scale_source == "travel of sliding joints"
     check_touched(fit, nominal, true, ARMS["lift"][2])
 
 
-def test_a_slide_that_stands_still_does_not() -> None:
+def test_a_slide_that_does_not_move_does_not() -> None:
     random = np.random.default_rng(4)
     nominal = lift_arm()
     table = nominal.to_dh()
@@ -254,10 +256,10 @@ def test_intervals_hold_the_truth_as_often_as_they_say(case: str) -> None:
     assert 0.9 < shown.spread.mean() < 1.1
 
 
-def test_what_rests_on_a_prior_is_told_as_well_as_the_prior_says() -> None:
+def test_what_rests_on_a_prior_is_known_as_well_as_the_prior_says() -> None:
     """Over arms that vary as the prior says: those numbers that only it tells are held by intervals
     too. Touches draw the size a fifth of a std down, for a smaller arm scatters less."""
-    shown = show(*sets_of("untold"), statuses=("prior",))
+    shown = show(*sets_of("without_distances"), statuses=("prior",))
     assert shown.names == ["a_2", "a_3", "d_4", "d_5", "tool_x", "tool_y", "tool_z"]
     assert shown.allows(coverage=(0.93, 0.97), bias=0.3), shown
 

@@ -59,7 +59,7 @@ def spread(arm: bathyal.Arm, touches: bathyal.Touches) -> float:
     ("robot", "before", "after"),
     [("panda_2_clean", 8.42, 0.31), ("panda_3", 2.84, 0.21), ("panda_4_clean", None, 0.21)],
 )
-def test_pandas_whose_distances_are_told(robot: str, before: float | None, after: float) -> None:
+def test_pandas_whose_distances_are_given(robot: str, before: float | None, after: float) -> None:
     fit = bathyal.identify_arm(bathyal.arms.panda(), sockets(robot))
     if before is not None:
         assert fit.rms_before == pytest.approx(before * MM, abs=0.01 * MM)
@@ -71,12 +71,12 @@ def test_pandas_whose_distances_are_told(robot: str, before: float | None, after
 
 @pytest.mark.parametrize(("robot", "within"), [("panda_2_clean", 0.2), ("panda_3", 0.05)])
 @pytest.mark.parametrize("half", [0, 1])
-def test_distances_told_on_half_of_the_placements_hold_on_the_rest(
+def test_distances_given_on_half_of_the_placements_hold_on_the_rest(
     robot: str, within: float, half: int
 ) -> None:
     names = placements(robot)
     told = np.arange(len(names)) % 2 == half
-    touches = sockets(robot, told=lambda name: bool(told[names.index(name)]))
+    touches = sockets(robot, with_distance=lambda name: bool(told[names.index(name)]))
     fit = bathyal.identify_arm(bathyal.arms.panda(), touches)
     assert len(fit.distances) == told.sum()
     assert apart(fit.points)[~told].mean() == pytest.approx(SOCKETS_APART, abs=within * MM)
@@ -87,7 +87,7 @@ def test_any_half_of_the_placements_tells_the_size() -> None:
     names = placements("panda_2_clean")
     found = []
     for chosen in [*combinations(names, 4)][::2]:
-        touches = sockets("panda_2_clean", told=lambda name, chosen=chosen: name in chosen)
+        touches = sockets("panda_2_clean", with_distance=lambda name, chosen=chosen: name in chosen)
         fit = bathyal.identify_arm(bathyal.arms.panda(), touches)
         found.append(apart(fit.points)[[name not in chosen for name in names]].mean())
     assert np.median(found) == pytest.approx(SOCKETS_APART, abs=0.05 * MM)
@@ -129,7 +129,7 @@ def test_a_smaller_rms_proves_nothing_where_only_a_prior_tells_the_size(
     0.175 mm per axis, or (a slip that is easily made) the 3-D rms, 0.301 mm, taken as that of an
     axis, which weighs touches a third as much.
     """
-    touches = sockets("panda_2_clean", told=lambda name: False)
+    touches = sockets("panda_2_clean", with_distance=lambda name: False)
     for prior, (scatter, distance) in trap.items():
         fit = bathyal.identify_arm(
             bathyal.arms.panda(), touches, length_prior=prior * MM, noise=noise
@@ -250,7 +250,7 @@ def test_the_sliding_joint_is_identified() -> None:
     np.testing.assert_allclose(np.degrees(angle), 89.556, atol=0.02)
 
 
-def test_two_stages_that_slide_as_one_are_not_told_apart() -> None:
+def test_two_stages_that_slide_as_one_are_not_distinguished() -> None:
     data, _ = hilti("flat")
     two = bathyal.identify_arm(trailblazer(), data)
     one = bathyal.identify_arm(trailblazer_with_one_slide(), data)

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Touches and tracked poses that cannot be taken: refused with the argument's name and the way out.
 
-URDFs that are none stand in test_urdf_refusals.py; data that can be taken but tell too little, in
-test_identify_warnings.py.
+URDFs that are none are in test_urdf_refusals.py; data that can be taken but determine too little,
+in test_identify_warnings.py.
 """
 
 from __future__ import annotations
@@ -141,6 +141,21 @@ def test_degrees_in_a_file_name_the_unit(tmp_path: Path) -> None:
     with pytest.raises(ValueError, match='unit="deg"'):
         bathyal.read_touches(file, unit="rad")
     assert bathyal.read_touches(file, unit="deg").q.max() == pytest.approx(np.pi / 2)
+
+
+def test_joints_without_a_unit_are_refused_with_the_option_that_gives_it(tmp_path: Path) -> None:
+    file = tmp_path / "touches.csv"
+    file.write_text("point;q1;q2\n0;1;0\n0;0.5;0.1\n0;0.3;0.2\n")
+    with pytest.raises(bathyal.Error, match=r'`q1`: expected a unit among .*; unit="rad" or unit='):
+        bathyal.read_touches(file)
+
+
+def test_the_option_for_joints_is_no_remedy_for_other_columns(tmp_path: Path) -> None:
+    file = tmp_path / "touches.csv"
+    file.write_text("point;q1_rad;q2_rad;payload_m\n0;1;0;1\n0;0.5;0.1;1\n0;0.3;0.2;1\n")
+    with pytest.raises(bathyal.Error, match="expected a unit among kg") as caught:
+        bathyal.read_touches(file)
+    assert "unit=" not in str(caught.value)
 
 
 def test_another_number_of_joints_is_refused_with_the_arms_name() -> None:

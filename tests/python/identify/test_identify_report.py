@@ -30,7 +30,7 @@ def made():
 
 
 @pytest.fixture(scope="module")
-def untold(made):
+def unscaled(made):
     return bathyal.identify_arm(UR10E, made.touches)
 
 
@@ -40,7 +40,7 @@ def data(made):
 
 
 @pytest.fixture(scope="module")
-def told(data):
+def scaled(data):
     return bathyal.identify_arm(UR10E, data)
 
 
@@ -124,29 +124,29 @@ def test_names_are_of_labels_that_were_touched():
 # Tables -------------------------------------------------------------------------------------------
 
 
-def test_pairs_are_those_of_the_paper(data, told):
+def test_pairs_are_those_of_the_paper(data, scaled):
     """J of eq 7 is the sum of the squares of what is drawn, before and after."""
-    pairs = fit_tables.pair_distances(told, data)
+    pairs = fit_tables.pair_distances(scaled, data)
     assert [some.group for some in pairs] == ["left", "right", "top"]
     assert sum(len(some.before) for some in pairs) == 3 * 21 * 20 // 2
-    for name, total in (("before", told.pairs_before), ("after", told.pairs_after)):
+    for name, total in (("before", scaled.pairs_before), ("after", scaled.pairs_after)):
         assert sum(np.sum(getattr(some, name) ** 2) for some in pairs) == pytest.approx(total)
-    tips = told.arm.forward(data.q)[:, :3, 3]
+    tips = scaled.arm.forward(data.q)[:, :3, 3]
     some = pairs[1]
     apart = np.linalg.norm(tips[some.first] - tips[some.second], axis=1)
     np.testing.assert_allclose(apart, some.after, atol=1e-12)
 
 
-def test_groups_have_the_rms_of_the_fit(data, told):
-    found = fit_tables.groups(told, data)
-    np.testing.assert_allclose([group.before for group in found], told.point_rms_before)
-    np.testing.assert_allclose([group.after for group in found], told.point_rms_after)
+def test_groups_have_the_rms_of_the_fit(data, scaled):
+    found = fit_tables.groups(scaled, data)
+    np.testing.assert_allclose([group.before for group in found], scaled.point_rms_before)
+    np.testing.assert_allclose([group.after for group in found], scaled.point_rms_after)
 
 
-def test_parameters_are_told_in_mm_and_degrees(told):
-    lines = {line.name: line for line in fit_tables.lines(told)}
+def test_parameters_are_shown_in_mm_and_degrees(scaled):
+    lines = {line.name: line for line in fit_tables.lines(scaled)}
     alpha = lines["alpha_2"]
-    p = next(p for p in told.parameters if p.name == "alpha_2")
+    p = next(p for p in scaled.parameters if p.name == "alpha_2")
     assert alpha.value == pytest.approx(math.degrees(p.value))
     assert alpha.change == pytest.approx(1e3 * (p.value - p.nominal))
     assert alpha.changed == f"+{1e3 * p.value:.3f} ± {1e3 * p.std:.3f} mrad"
@@ -162,17 +162,17 @@ def test_numbers_are_printed_with_a_true_minus(value, sign, text):
     assert fit_tables.number(value, sign=sign) == text
 
 
-def test_csv_files_hold_every_parameter_and_row(data, told, tmp_path):
-    fit_tables.write_parameters(told, tmp_path / "p.csv")
-    fit_tables.write_residuals(told, data, tmp_path / "r.csv")
+def test_csv_files_hold_every_parameter_and_row(data, scaled, tmp_path):
+    fit_tables.write_parameters(scaled, tmp_path / "p.csv")
+    fit_tables.write_residuals(scaled, data, tmp_path / "r.csv")
     with open(tmp_path / "p.csv", encoding="utf-8") as stream:
         rows = list(csv.DictReader(stream))
-    assert [row["name"] for row in rows] == [p.name for p in told.parameters]
-    assert [float(row["value"]) for row in rows] == [p.value for p in told.parameters]
+    assert [row["name"] for row in rows] == [p.name for p in scaled.parameters]
+    assert [float(row["value"]) for row in rows] == [p.value for p in scaled.parameters]
     with open(tmp_path / "r.csv", encoding="utf-8") as stream:
         rows = list(csv.DictReader(stream))
     after = np.array([float(row["after_m"]) for row in rows])
-    assert np.sqrt(np.mean(after**2)) == pytest.approx(told.rms_after)
+    assert np.sqrt(np.mean(after**2)) == pytest.approx(scaled.rms_after)
     assert [row["group"] for row in rows[::21]] == ["left", "right", "top"]
 
 
@@ -190,20 +190,20 @@ def test_many_pairs_are_thinned_and_said_so():
 # Words --------------------------------------------------------------------------------------------
 
 
-def test_untold_size_is_the_first_thing_to_mend(data, made, untold, told):
-    wanted = fit_words.next_touches(untold, made.touches)
+def test_undetermined_scale_is_the_first_thing_to_mend(data, made, unscaled, scaled):
+    wanted = fit_words.next_touches(unscaled, made.touches)
     assert wanted[0].startswith("Measure one distance between touched points, say left to right")
-    assert "prior" in untold.summary(warnings=False)
-    assert not any("Measure one" in text for text in fit_words.next_touches(told, data))
+    assert "prior" in unscaled.summary(warnings=False)
+    assert not any("Measure one" in text for text in fit_words.next_touches(scaled, data))
 
 
-def test_how_surely_depends_on_the_size(untold, told):
-    def foretold(fit):
-        return float(re.search(r"tip is foretold to ([\d.]+) mm", fit_words.surely_text(fit))[1])
+def test_how_surely_depends_on_the_size(unscaled, scaled):
+    def predicted(fit):
+        return float(re.search(r"tip is predicted to ([\d.]+) mm", fit_words.surely_text(fit))[1])
 
-    assert foretold(untold) > 2 * foretold(told)
+    assert predicted(unscaled) > 2 * predicted(scaled)
     q = np.random.default_rng(5).uniform(-np.pi, np.pi, (500, 6))
-    assert foretold(told) == pytest.approx(1e3 * np.median(told.tip_std(q)), rel=0.1)
+    assert predicted(scaled) == pytest.approx(1e3 * np.median(scaled.tip_std(q)), rel=0.1)
 
 
 def test_one_point_needs_a_second(made):
@@ -212,7 +212,7 @@ def test_one_point_needs_a_second(made):
     assert fit_words.next_touches(fit, touches)[0].startswith("Touch a second point")
 
 
-def test_joint_that_stood_still_is_named(made):
+def test_joint_that_did_not_move_is_named(made):
     q = made.touches.q.copy()
     q[:, 4] = 0.3 + 0.01 * np.arange(len(q)) / len(q)
     touches = bathyal.Touches(q, made.touches.point)
@@ -220,81 +220,83 @@ def test_joint_that_stood_still_is_named(made):
     assert any("wrist_2_joint moved over" in text for text in fit_words.next_touches(fit, touches))
 
 
-def test_few_touches_are_told():
+def test_few_touches_are_reported():
     made = simulated(count=5)
     fit = bathyal.identify_arm(UR10E, made.touches)
     assert any(
-        "degrees of freedom are left" in text for text in fit_words.next_touches(fit, made.touches)
+        "degrees of freedom remain" in text for text in fit_words.next_touches(fit, made.touches)
     )
 
 
-def test_known_distances_are_told_beside_what_was_found(data, told):
-    text = fit_words.known_text(told, data)
-    assert text.startswith("Known distances: left to right told 350.000 mm, found 3")
+def test_known_distances_are_listed_with_what_was_found(data, scaled):
+    text = fit_words.known_text(scaled, data)
+    assert text.startswith("Known distances: left to right given 350.000 mm, found 3")
 
 
-def test_data_of_another_fit_are_refused(made, told):
+def test_data_of_another_fit_are_refused(made, scaled):
     for other in (made.touches, with_distance(simulated(count=8))):
         with pytest.raises(ValueError, match="`data`: expected what the fit was found from"):
-            fit_figure(told, other)
+            fit_figure(scaled, other)
 
 
 def test_unseen_motion_is_no_standard_deviation():
-    """An elbow that never moved tells nothing of what stands before and behind it."""
+    """An elbow that never moved says nothing of what lies before and behind it."""
     arm = bathyal.Arm.from_dh(a=[0.5, 0.4], alpha=[0, 0], d=[0, 0], theta=[0, 0])
     q = np.random.default_rng(1).uniform(-2, 2, (40, 2))
     q[:, 1] = 0.3
     tracked = bathyal.Tracked(q, arm.forward(q)[:, :3, 3])
     fit = bathyal.identify_arm(arm, tracked)
-    assert "Everywhere the tip moves by something that nobody told" in fit_words.surely_text(fit)
-    lost = [text for text in fit_words.next_touches(fit, tracked) if "Nothing tells" in text]
+    assert "Everywhere the tip depends on what the data do not determine" in fit_words.surely_text(
+        fit
+    )
+    lost = [text for text in fit_words.next_touches(fit, tracked) if "do not determine" in text]
     assert "base_z" in lost[0]
     assert "measure more poses" in lost[0]
     table = {line.name: line.changed for line in fit_tables.lines(fit)}
     assert table["base_z"].endswith("± ? mm")
 
 
-def test_warnings_are_told_once(untold, told):
+def test_warnings_are_shown_once(unscaled, scaled):
     """By the paragraph, or by who leaves them out of it."""
-    assert untold.warnings
-    assert not told.warnings
-    short = untold.summary(warnings=False)
-    assert untold.summary().startswith(short)
-    for warning in untold.warnings:
-        assert warning in untold.summary()
+    assert unscaled.warnings
+    assert not scaled.warnings
+    short = unscaled.summary(warnings=False)
+    assert unscaled.summary().startswith(short)
+    for warning in unscaled.warnings:
+        assert warning in unscaled.summary()
         assert warning not in short
     assert not short.endswith("But:")
-    assert told.summary(warnings=False) == told.summary() == str(told)
+    assert scaled.summary(warnings=False) == scaled.summary()
 
 
 # Picture and page ---------------------------------------------------------------------------------
 
 
-def test_picture_shows_what_was_found(data, told):
-    figure = fit_figure(told, data, title="UR10e")
+def test_picture_shows_what_was_found(data, scaled):
+    figure = fit_figure(scaled, data, title="UR10e")
     words = " ".join(" ".join(text.get_text().split()) for text in figure.texts)
-    assert told.summary(warnings=False) in words
+    assert scaled.summary(warnings=False) in words
     assert "350.000 mm" in words
     pairs, values, table, *joints = figure.axes
     assert len(joints) == 6
     assert values.get_title() == "rank 21 of 27"
     shown = [line.get_ydata() for line in pairs.lines if len(line.get_ydata()) == 210]
     after = np.concatenate(shown[1::2]) * 1e-3
-    assert np.sum(after**2) == pytest.approx(told.pairs_after)
+    assert np.sum(after**2) == pytest.approx(scaled.pairs_after)
     names = [text.get_text() for text in table.texts]
-    assert all(p.name in names for p in told.parameters)
+    assert all(p.name in names for p in scaled.parameters)
 
 
-def test_picture_and_page_are_the_same_bytes_twice(data, told, tmp_path):
+def test_picture_and_page_are_the_same_bytes_twice(data, scaled, tmp_path):
     for name in "ab":
-        write_png(fit_figure(told, data), tmp_path / f"{name}.png")
-        write_page(told, data, tmp_path / f"{name}.html")
+        write_png(fit_figure(scaled, data), tmp_path / f"{name}.png")
+        write_page(scaled, data, tmp_path / f"{name}.html")
     assert (tmp_path / "a.png").read_bytes() == (tmp_path / "b.png").read_bytes()
     assert (tmp_path / "a.html").read_bytes() == (tmp_path / "b.html").read_bytes()
 
 
-def test_page_needs_no_network_and_shows_everything(data, told, tmp_path):
-    write_page(told, data, tmp_path / "r.html", title="<arm>", facts={"a<": "b&"})
+def test_page_needs_no_network_and_shows_everything(data, scaled, tmp_path):
+    write_page(scaled, data, tmp_path / "r.html", title="<arm>", facts={"a<": "b&"})
     page = (tmp_path / "r.html").read_text(encoding="utf-8")
     own = page.replace(page[page.index("<script>") : page.index("</script>")], "", 1)
     assert not re.search(r"<(script|link|img)[^>]+(src|href)=", own)
@@ -302,7 +304,7 @@ def test_page_needs_no_network_and_shows_everything(data, told, tmp_path):
     assert "a&lt;" in own
     for name in ("pairs", "values", "residuals", "arm"):
         assert f'id="{name}"' in own
-    assert own.count("<tr><td title=") == len(told.parameters)
+    assert own.count("<tr><td title=") == len(scaled.parameters)
     assert "349.99" in own or "350.00" in own
 
 
@@ -317,7 +319,7 @@ def test_tracked_poses_have_a_report_too(made, tmp_path):
     assert "Measure one distance" not in " ".join(fit_words.next_touches(fit, tracked))
 
 
-def test_planes_stand_beside_points(made, tmp_path):
+def test_planes_are_listed_with_points(made, tmp_path):
     """A plane has no pairs; its rows have distances of their own."""
     q, rng = made.touches.q[:21], np.random.default_rng(4)
     places = np.column_stack([rng.uniform([0.4, -0.3], [0.8, 0.3], (30, 2)), np.full(30, 0.2)])
@@ -366,7 +368,7 @@ def test_arm_says_where_it_comes_from(made, tmp_path):
     assert "from touches.csv; nominal: Yukhimets, Gubankov (2023)" in arm.source
 
 
-@pytest.mark.skipif(not MUKCA.exists(), reason="no shared data beside the project: arms/mukca")
+@pytest.mark.skipif(not MUKCA.exists(), reason="no shared data next to the project: arms/mukca")
 def test_mukca_report():
     """Sockets 50.0 mm apart, a pair in each folder, touched by a ball."""
     folders = sorted((MUKCA / "data" / "panda_2_clean").iterdir())
@@ -376,6 +378,6 @@ def test_mukca_report():
     found = identify(files, arm, read={"unit": "rad", "known_distances": known})
     assert found.facts["touches"] == "497 of 16 points"
     assert 1e3 * found.fit.rms_after < 0.31
-    off = [d.found - d.told for d in fit_tables.distances(found.fit, found.data)]
+    off = [d.found - d.given for d in fit_tables.distances(found.fit, found.data)]
     assert np.max(np.abs(off)) < 0.3e-3
     assert "8 known distances" in fit_words.known_text(found.fit, found.data)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Drawn arms with a sliding joint: identify_arm leaves the noise, whatever stands square."""
+"""Drawn arms with a sliding joint: identify_arm leaves the noise, whatever is square."""
 
 from dataclasses import replace
 

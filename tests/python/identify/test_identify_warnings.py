@@ -52,7 +52,7 @@ def test_the_chance_of_structure_is_evenly_spread_over_noise() -> None:
     assert p[0] > 1e-4
 
 
-def test_plain_dh_beside_parallel_axes_shows_no_structure() -> None:
+def test_plain_dh_near_parallel_axes_shows_no_structure() -> None:
     fit = fit_of(touched())
     plain = bathyal.identify_arm(
         drawn(), touched().touches(known_distances=TOLD), parametrization="dh"
@@ -60,7 +60,7 @@ def test_plain_dh_beside_parallel_axes_shows_no_structure() -> None:
     assert plain.structure_p == pytest.approx(fit.structure_p, abs=0.3)
 
 
-def test_nothing_unknown_is_nothing_to_doubt() -> None:
+def test_nothing_unknown_is_nothing_to_warn_of() -> None:
     data = touched().touches(known_distances=TOLD)
     names = [p.name for p in bathyal.identify_arm(drawn(), data).parameters]
     fit = bathyal.identify_arm(drawn(), data, fixed=names)
@@ -71,7 +71,7 @@ def test_nothing_unknown_is_nothing_to_doubt() -> None:
 # Size ---------------------------------------------------------------------------------------------
 
 
-def test_untold_size_names_the_prior_and_what_to_measure() -> None:
+def test_undetermined_scale_names_the_prior_and_what_to_measure() -> None:
     fit = bathyal.identify_arm(drawn(), touched().touches())
     text = warning(fit, "No measurement determines the scale")
     assert "prior on lengths (1 mm)" in text
@@ -90,14 +90,14 @@ def test_points_that_have_names_are_called_by_them() -> None:
     assert "row 7 (point left, 50" in warning(fit, "One row lies far")
 
 
-def test_loose_prior_on_the_size_is_told() -> None:
+def test_loose_prior_on_the_size_is_reported() -> None:
     fit = bathyal.identify_arm(drawn(), touched().touches(), length_prior=0.1)
     assert "length_prior" in warning(
         fit, "times its nominal size with lengths constrained to 100 mm only"
     )
 
 
-def test_wrong_distance_stretches_the_arm_and_is_told() -> None:
+def test_wrong_distance_stretches_the_arm_and_is_reported() -> None:
     data = touched()
     fit = bathyal.identify_arm(drawn(), data.touches(known_distances={(0, 1): 0.5}))
     assert "no maker misses by so much" in warning(fit, "By the known distance the arm is 0.6")
@@ -167,7 +167,7 @@ def test_swapped_labels_are_named_with_where_they_fit(count: int) -> None:
 
 
 @pytest.mark.parametrize("known", ["distances", "points"])
-def test_two_points_swapped_throughout_are_named_by_what_was_told(known: str) -> None:
+def test_two_points_swapped_throughout_are_named_by_what_was_given(known: str) -> None:
     good = touched()
     bad = Touched(good.q, np.array([1, 0, 2])[good.point])
     told = (
@@ -199,19 +199,19 @@ def other(change: str) -> bathyal.ArmFit:
 
 
 @pytest.mark.parametrize("change", ["arm", "order", "sign", "labels"])
-def test_data_of_another_machine_are_told(change: str) -> None:
+def test_data_of_another_machine_are_reported(change: str) -> None:
     fit = other(change)
     assert "use none of these numbers" in warning(fit, "look like different machines")
     assert fit.outliers == []
 
 
-def test_positions_in_another_unit_are_told() -> None:
+def test_positions_in_another_unit_are_reported() -> None:
     q, position = tracked()
     fit = bathyal.identify_arm(drawn(), bathyal.Tracked(q, 1e3 * position))
     assert "units" in warning(fit, "look like different machines")
 
 
-def test_the_arms_older_model_is_told_by_its_parameters() -> None:
+def test_the_arms_older_model_is_recognised_by_its_parameters() -> None:
     fit = bathyal.identify_arm(bathyal.arms.ur10(), touched().touches(known_distances=ALL_TOLD))
     assert "type and generation" in warning(fit, "Farther from nominal")
 
@@ -266,7 +266,7 @@ def test_poses_in_a_narrow_range() -> None:
     assert "joint 6 (wrist_3_joint) (11.5 deg)" in warning(fit, "Hardly moved")
 
 
-def test_parameters_that_are_hardly_told_are_named() -> None:
+def test_parameters_that_are_weakly_determined_are_named() -> None:
     q, position = tracked(reach=0.1)
     fit = bathyal.identify_arm(drawn(), bathyal.Tracked(q, position))
     weak = [p for p in fit.parameters if p.status == "identified" and p.group[:3] == "row"]
@@ -298,7 +298,7 @@ def test_search_that_did_not_settle() -> None:
     assert "max_iterations" in warning(fit, "had not converged")
 
 
-def test_noise_told_too_small() -> None:
+def test_noise_given_too_small() -> None:
     fit = bathyal.identify_arm(drawn(), touched().touches(known_distances=TOLD), noise=1e-5)
     assert "where 0.01 mm was given" in warning(fit, "The residuals imply a noise of 0.1")
 

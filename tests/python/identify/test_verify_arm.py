@@ -44,7 +44,7 @@ def test_the_instruments_frame_does_not_count() -> None:
     assert there.rms_before > 0.1
 
 
-def test_nor_does_where_the_arm_stands_or_what_it_carries() -> None:
+def test_nor_does_the_pose_of_the_base_or_what_it_carries() -> None:
     """A tool moves all points of one orientation alike."""
     q, seen = flange_positions()
     arm = identified_ur10e()
@@ -78,7 +78,7 @@ def test_icp_finds_the_pairs_of_positions_in_any_order() -> None:
     pytest.importorskip("bathyal._pcl")
     q, seen = flange_positions()
     order = np.random.default_rng(2).permutation(13)
-    # A tracker that stands nearly as the arm does: ICP starts from centroids laid on each other.
+    # A tracker whose frame is close to the arm's: ICP starts from centroids laid on each other.
     shuffled = moved(seen, 0.05, (4, -5, 6))[order]
     result = bathyal.verify_arm(ARM, q, shuffled, pairing="icp")
     np.testing.assert_array_equal(order[result.pairs], np.arange(13))

@@ -21,7 +21,7 @@ def jd211():
         return bathyal.read_cloud(measured(JD211))
 
 
-def test_jd211_stands_where_libgdal_puts_it(jd211):
+def test_jd211_lies_where_libgdal_puts_it(jd211):
     decoded = np.load(measured("seabed/jd211/jd211_derived_grid.npz"))
     elevation = decoded["elevation_m"]
     row, column = np.nonzero(np.isfinite(elevation))

@@ -57,7 +57,7 @@ def test_an_empty_cloud_is_written(tmp_path):
 
 
 @pytest.mark.parametrize("suffix", WRITTEN)
-def test_a_disk_without_room_is_told(tmp_path, suffix):
+def test_a_disk_without_room_is_reported(tmp_path, suffix):
     full = pathlib.Path("/dev/full")
     if not full.exists():
         pytest.skip("no /dev/full here")

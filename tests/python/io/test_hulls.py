@@ -10,8 +10,8 @@ import bathyal
 from tests.support.file_cases import measured
 from tests.support.mesh_cases import area, volume
 
-# What is stated beside the files: triangles and signed volume [m³] of what is closed, each with its
-# tolerance (the figures stand with five or six digits, one with four).
+# What is stated with the files: triangles and signed volume [m³] of what is closed, each with its
+# tolerance (the figures are given with five or six digits, one with four).
 CLOSED = {
     "COLLISION-Slocum-Glider": (124, 0.453234, 2e-5),
     "Slocum-Glider-Propeller": (238, 8.1604e-5, 2e-5),

@@ -208,7 +208,7 @@ def test_options_out_of_range_are_refused(write, options, pattern):
 def test_real_recordings_read_as_numpy_reads_them():
     path = DATA / "uvms" / "runs" / "baseline1_mocap.csv"
     if not path.exists():
-        pytest.skip("no shared data beside the project: uvms/runs/baseline1_mocap.csv")
+        pytest.skip("no shared data next to the project: uvms/runs/baseline1_mocap.csv")
     table = _core.read_text_table(path)
     expected = np.genfromtxt(path, delimiter=",", names=True)
     assert table.names == list(expected.dtype.names)
@@ -218,7 +218,7 @@ def test_real_recordings_read_as_numpy_reads_them():
 def test_a_decimal_comma_of_a_real_recording_is_read():
     path = DATA / "arms" / "ipa-ur10" / "Series_B" / "measurements_joint_configurations.csv"
     if not path.exists():
-        pytest.skip("no shared data beside the project: arms/ipa-ur10")
+        pytest.skip("no shared data next to the project: arms/ipa-ur10")
     table = _core.read_text_table(path)
     assert (table.separator, table.decimal) == (";", ",")
     lines = path.read_text().splitlines()

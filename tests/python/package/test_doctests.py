@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The examples in docstrings run as they stand: of every public name, and of every module."""
+"""The examples in docstrings run as they are: of every public name, and of every module."""
 
 import doctest
 import importlib

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the README and the pages of the documentation tell a reader to type works as it stands.
+"""What the README and the pages of the documentation tell a reader to type works as it is.
 
 Each page is followed from top to bottom in a folder of its own: shell lines that begin with
 `bathyal` must end well, Python is executed, tables of aims and of touches are the file that the
@@ -41,7 +41,7 @@ def shell_lines(text: str) -> list[list[str]]:
 
 
 def run(words: list[str], folder: Path) -> str:
-    """What `bathyal …` says beside its results."""
+    """What `bathyal …` says in addition to its results."""
     done = bathyal_run(*words[1:], cwd=folder)
     assert done.returncode == 0, (words, done.stderr)
     return done.stderr

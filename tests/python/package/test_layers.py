@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The house stands as ARCHITECTURE.md says: an include may only point down."""
+"""The rooms lie as ARCHITECTURE.md says: an include may only point down."""
 
 import re
 from pathlib import Path
@@ -28,7 +28,7 @@ def wrong_includes(room: str, text: str) -> list[str]:
     return [other for other in included if other != room and floor[other] >= floor[room]]
 
 
-def test_every_room_stands_on_a_floor() -> None:
+def test_every_room_has_a_floor() -> None:
     rooms = {path.name for path in MODULES.iterdir() if path.is_dir()}
     assert rooms <= set(floors())
 

@@ -57,8 +57,8 @@ def test_formats_agree(path, tmp_path):
     columns = json.loads((tmp_path / "path.json").read_text())["path"]
     assert list(rows) == list(columns)
     for name, values in rows.items():
-        told = np.array(columns[name], float)  # null is NaN
-        np.testing.assert_array_equal(told, values, err_msg=name)
+        content = np.array(columns[name], float)  # null is NaN
+        np.testing.assert_array_equal(content, values, err_msg=name)
     vtp = read_vtp(tmp_path / "path.vtp")
     np.testing.assert_array_equal(vtp.points, path.position)
     for name in ("approach", "travel", "side", "quaternion", "segment", "time", "surface"):
@@ -76,13 +76,13 @@ def test_vtp_lines_stop_at_gaps(path, tmp_path):
 
 def test_json_tells_targets_and_provenance(path, tmp_path):
     write_path(path, tmp_path / "p.json", crs="EPSG:32602", provenance={"input": {"file": "a.xyz"}})
-    told = json.loads((tmp_path / "p.json").read_text())
-    assert told["crs"] == "EPSG:32602"
-    assert told["provenance"]["input"]["file"] == "a.xyz"
-    assert told["targets"]["status"] == path.targets.status.tolist()
-    assert told["targets"]["point_x_m"][3] is None  # the aim that met nothing
-    assert told["warnings"] == path.warnings
-    assert told["warnings"]
+    content = json.loads((tmp_path / "p.json").read_text())
+    assert content["crs"] == "EPSG:32602"
+    assert content["provenance"]["input"]["file"] == "a.xyz"
+    assert content["targets"]["status"] == path.targets.status.tolist()
+    assert content["targets"]["point_x_m"][3] is None  # the aim that met nothing
+    assert content["warnings"] == path.warnings
+    assert content["warnings"]
 
 
 def test_datum_rides_along(path, tmp_path):
@@ -122,7 +122,7 @@ def test_other_suffix_is_refused(path, tmp_path):
         write_path(path, tmp_path / "path.txt")
 
 
-def test_missing_folder_is_told_by_name(path, tmp_path):
+def test_missing_folder_is_reported_by_name(path, tmp_path):
     with pytest.raises(OSError, match="nowhere"):
         write_path(path, tmp_path / "nowhere" / "path.csv")
 

@@ -11,7 +11,7 @@ import bathyal
 POINTS = np.array([[0.75, -0.2, 0.25], [0.65, 0.35, 0.15], [0.55, 0.0, 0.6]])
 DISTANCES = [(0, 1), (0, 2)]
 COUNT = 63
-HAND = [0.0, -1.2, 1.6, -2.0, -np.pi / 2, 0.0]  # elbow up, tool down, as one stands before it
+HAND = [0.0, -1.2, 1.6, -2.0, -np.pi / 2, 0.0]  # elbow up, tool down, as seen from the front
 
 
 def ur10e() -> bathyal.Arm:
@@ -22,12 +22,12 @@ def ur10e() -> bathyal.Arm:
     return arm
 
 
-def told() -> dict[tuple[int, int], float]:
+def given_distances() -> dict[tuple[int, int], float]:
     return {(a, b): float(np.linalg.norm(POINTS[a] - POINTS[b])) for a, b in DISTANCES}
 
 
 def touches(q, point):
-    return bathyal.Touches(q, point, known_distances=told())
+    return bathyal.Touches(q, point, known_distances=given_distances())
 
 
 def about(axis, angle):
@@ -112,7 +112,7 @@ def test_the_worst_deviation_at_least_halves_against_hands(arm, plan):
 @pytest.mark.parametrize("distances", [DISTANCES, []], ids=["distances", "no distance"])
 def test_never_worse_than_the_median_of_200_random_designs(arm, distances):
     planned = bathyal.plan_touches(arm, COUNT, points=POINTS, known_distances=distances)
-    known = {pair: told()[pair] for pair in distances}
+    known = {pair: given_distances()[pair] for pair in distances}
     worst = [
         bathyal.forecast_touches(
             arm,
@@ -151,14 +151,14 @@ def touched_by(truth, q, point, seed):
     return found.q
 
 
-def test_what_is_foretold_comes_true(arm, plan):
+def test_predictions_come_true(arm, plan):
     workspace = plan.forecast.workspace
 
     def strays(q, point, seed):
         truth = true_arm(seed)
         fit = bathyal.identify_arm(arm, touches(touched_by(truth, q, point, seed), point))
         found, real = fit.arm.forward(workspace), truth.forward(workspace)
-        # The tips' clouds laid on each other: where the base stands is nobody's to tell.
+        # The tips' clouds laid on each other: the pose of the base is not determined.
         return bathyal.verify_arm(fit.arm, workspace, real[:, :3, 3]).rms_after, found
 
     planned = [strays(plan.q, plan.point, seed)[0] for seed in range(15)]
@@ -317,7 +317,7 @@ def test_little_may_be_held(arm):
     assert "Only 15 poses that may be held were found" in str(plan)
 
 
-def test_three_joints_stand_on_a_point_in_few_ways():
+def test_three_joints_reach_a_point_in_few_ways():
     arm = bathyal.arms.maevskiy_zanin()
     plan = bathyal.plan_touches(arm, 30, num_points=3)
     assert len(plan) < 30

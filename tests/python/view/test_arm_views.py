@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Arms to look at: what is drawn stands where the arm has it."""
+"""Arms to look at: what is drawn lies where the arm has it."""
 
 from pathlib import Path
 

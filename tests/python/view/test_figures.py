@@ -135,7 +135,7 @@ def test_picture_shows_path_and_gap():
     assert near(whole, RED) == 0
 
 
-def test_picture_says_what_it_is_told():
+def test_picture_says_what_it_is_given():
     surface, axes, path = scenes.planned()
     figure = figures.plan_figure(
         surface, axes, path, title="Sand waves", facts={"soundings": "1,025"}, crs="EPSG:32602"
@@ -154,7 +154,7 @@ def test_north_is_marked_only_in_a_survey_frame():
     assert "x [m]" in texts(figure)
 
 
-def test_far_coordinates_are_told_by_an_offset():
+def test_far_coordinates_are_given_by_an_offset():
     surface, axes, path = scenes.planned(offset=scenes.UTM)
     words = texts(figures.plan_figure(surface, axes, path)).replace("\N{THIN SPACE}", " ")
     assert "(+ 620 900 m)" in words

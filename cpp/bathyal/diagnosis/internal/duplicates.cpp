@@ -8,11 +8,11 @@
 #include "bathyal/base/text.hpp"
 #include "bathyal/identify/model/calibration_data.hpp"
 
-namespace bathyal {
+namespace bathyal::diagnosis {
 namespace {
 
-/// Rows that are copies of none, in their order.
-std::vector<int> firsts(const std::vector<int>& of) {
+/// Rows that duplicate no earlier one, in their order.
+std::vector<int> distinct_rows(const std::vector<int>& of) {
   std::vector<int> rows;
   for (int i = 0; i < static_cast<int>(of.size()); ++i) {
     if (of[i] == i) rows.push_back(i);
@@ -27,9 +27,9 @@ void add(Numbers& numbers, const auto& more) {
   for (const double value : more) numbers.push_back(std::isnan(value) ? kUnknown : value);
 }
 
-/// What copies share, of touches and tracked poses alike.
+/// The values that duplicates share, of touches and tracked poses alike.
 template <class Data>
-Numbers told_of_row(const Data& data, int row) {
+Numbers row_values(const Data& data, int row) {
   Numbers numbers;
   add(numbers, data.q.row(row));
   for (const std::vector<int>* number : {&data.tool, &data.station}) {
@@ -65,20 +65,20 @@ Data common_part(const Data& data, const std::vector<int>& rows) {
 
 }  // namespace
 
-std::vector<int> find_copies(const Tracked& tracked) {
+std::vector<int> find_duplicates(const Tracked& tracked) {
   std::vector<Numbers> rows;
   for (int i = 0; i < static_cast<int>(tracked.q.rows()); ++i) {
-    rows.push_back(told_of_row(tracked, i));
+    rows.push_back(row_values(tracked, i));
     add(rows.back(), tracked.position.row(i));
     if (!tracked.pose.empty()) add(rows.back(), tracked.pose[i].linear().reshaped());
   }
   return first_alike(rows);
 }
 
-std::vector<int> find_copies(const Touches& touches) {
+std::vector<int> find_duplicates(const Touches& touches) {
   std::vector<Numbers> rows;
   for (int i = 0; i < static_cast<int>(touches.q.rows()); ++i) {
-    rows.push_back(told_of_row(touches, i));
+    rows.push_back(row_values(touches, i));
     rows.back().push_back(touches.point[i]);
   }
   for (const TouchedPlane& plane : touches.planes) {
@@ -87,16 +87,16 @@ std::vector<int> find_copies(const Touches& touches) {
   return first_alike(rows);
 }
 
-Tracked without_copies(const Tracked& tracked, const std::vector<int>& of) {
-  const std::vector<int> rows = firsts(of);
+Tracked without_duplicates(const Tracked& tracked, const std::vector<int>& of) {
+  const std::vector<int> rows = distinct_rows(of);
   Tracked out = common_part(tracked, rows);
   out.position = tracked.position(rows, Eigen::all);
   out.pose = picked(tracked.pose, rows);
   return out;
 }
 
-Touches without_copies(const Touches& touches, const std::vector<int>& of) {
-  const std::vector<int> rows = firsts(of);
+Touches without_duplicates(const Touches& touches, const std::vector<int>& of) {
+  const std::vector<int> rows = distinct_rows(of);
   Touches out = common_part(touches, rows);
   out.point = picked(touches.point, rows);
   for (TouchedPlane& plane : out.planes) {
@@ -107,16 +107,16 @@ Touches without_copies(const Touches& touches, const std::vector<int>& of) {
   return out;
 }
 
-void spread_over_copies(const std::vector<int>& of, Diagnosis& diagnosis) {
-  const std::vector<int> rows = firsts(of);
+void expand_to_duplicates(const std::vector<int>& of, Diagnosis& diagnosis) {
+  const std::vector<int> rows = distinct_rows(of);
   const std::size_t copies = of.size() - rows.size();
   if (copies == 0) return;
   std::map<int, int> place;
   for (int i = 0; i < static_cast<int>(rows.size()); ++i) place[rows[i]] = i;
-  std::vector<int> from, told;
+  std::vector<int> from, duplicated;
   for (int i = 0; i < static_cast<int>(of.size()); ++i) {
     from.push_back(place[of[i]]);
-    if (of[i] != i) told.push_back(i);
+    if (of[i] != i) duplicated.push_back(i);
   }
   for (Eigen::Matrix3Xd* residuals : {&diagnosis.residuals_before, &diagnosis.residuals_after,
                                       &diagnosis.fit.residuals, &diagnosis.fit.residuals_before}) {
@@ -132,9 +132,9 @@ void spread_over_copies(const std::vector<int>& of, Diagnosis& diagnosis) {
   diagnosis.warnings.push_back(
       (copies == 1 ? "One row is a copy" : std::to_string(copies) + " rows are copies") +
       std::string(" of others to the last digit (") + (copies == 1 ? "row " : "rows ") +
-      listed(told, 3) +
+      listed(duplicated, 3) +
       ", counted from 0). Nothing is measured the same twice: they were left out, and have the "
       "errors of the rows that they repeat.");
 }
 
-}  // namespace bathyal
+}  // namespace bathyal::diagnosis

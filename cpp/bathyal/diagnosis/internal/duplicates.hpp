@@ -5,22 +5,22 @@
 
 #include "bathyal/diagnosis/diagnose.hpp"
 
-// Rows that repeat another to the last digit, as a logger leaves them that is faster than its
-// instrument: no measurements of their own. For use inside the room.
+// Rows that duplicate another to the last digit, as a logger that is faster than its instrument
+// writes them: no measurements of their own.
 
-namespace bathyal {
+namespace bathyal::diagnosis {
 
-/// For each row the row that it is a copy of: the first that agrees in joint values, tool, station,
-/// all that was recorded beside but time and session, and what was measured (position and
-/// orientation, or the point that was touched). Touches of planes are no copies.
-std::vector<int> find_copies(const Tracked& tracked);
-std::vector<int> find_copies(const Touches& touches);
+/// For each row the row that it duplicates: the first that agrees in joint values, tool, station,
+/// all covariates but time and session, and in what was measured (position and orientation, or the
+/// touched point). Touches of planes are never duplicates.
+std::vector<int> find_duplicates(const Tracked& tracked);
+std::vector<int> find_duplicates(const Touches& touches);
 
-/// Rows that are no copies.
-Tracked without_copies(const Tracked& tracked, const std::vector<int>& of);
-Touches without_copies(const Touches& touches, const std::vector<int>& of);
+/// The data without duplicate rows.
+Tracked without_duplicates(const Tracked& tracked, const std::vector<int>& of);
+Touches without_duplicates(const Touches& touches, const std::vector<int>& of);
 
-/// Makes what is told by row of the data without copies speak of all rows, and warns.
-void spread_over_copies(const std::vector<int>& of, Diagnosis& diagnosis);
+/// Expands the results by row from the data without duplicates to all rows, and adds a warning.
+void expand_to_duplicates(const std::vector<int>& of, Diagnosis& diagnosis);
 
-}  // namespace bathyal
+}  // namespace bathyal::diagnosis

@@ -9,22 +9,22 @@
 #include "bathyal/base/text.hpp"
 #include "bathyal/compensation/corrected_arm.hpp"
 
-namespace bathyal {
+namespace bathyal::diagnosis {
 namespace {
 
 using PoseNumbers = Eigen::Matrix<double, 4, 4, Eigen::RowMajor>;
 
-/// [m], and of the largest coordinate: what the two ways of computing round off.
+/// [m], and of the largest coordinate: rounding of the two computations.
 constexpr double kTipRounding = 1e-9;
 
 /// (3, N) tips of the model, each by the tool and the station of its row.
-Eigen::Matrix3Xd tips_of_model(const Diagnosis& found, const ArmSubject& subject,
+Eigen::Matrix3Xd tips_of_model(const Diagnosis& found, const ArmModel& arm_model,
                                const Measurement& m, const Covariates& covariates,
                                int num_threads) {
   const CorrectedArm model(found.arm, found.found, found.support);
   const CorrectedPoses poses =
       model.forward_of_record({m.q.data(), m.q.rows(), m.q.cols()}, covariates, num_threads);
-  const ArmState state = subject.state();
+  const ArmState state = arm_model.state();
   const Pose base = state.bases[0].inverse(), tool = state.tools[0].inverse();
   Eigen::Matrix3Xd tips(3, m.rows());
   for (Index i = 0; i < m.rows(); ++i) {
@@ -37,10 +37,10 @@ Eigen::Matrix3Xd tips_of_model(const Diagnosis& found, const ArmSubject& subject
   return tips;
 }
 
-/// (3, N) how far tips less residuals are from where they should be: at what was measured, at one
-/// place for each touched point, in its plane.
+/// (3, N) distance of tips less residuals from the measured position, from the point's mean, or
+/// from the touched plane.
 Eigen::Matrix3Xd misses_of_model(const Eigen::Matrix3Xd& tips, const Diagnosis& found,
-                                 const ArmSubject& subject, const Measurement& m) {
+                                 const ArmModel& arm_model, const Measurement& m) {
   Eigen::Matrix3Xd out = tips - found.residuals_after;
   if (m.tracked) return out - m.position;
   std::map<int, std::vector<Index>> touches;
@@ -51,7 +51,7 @@ Eigen::Matrix3Xd misses_of_model(const Eigen::Matrix3Xd& tips, const Diagnosis& 
     const Vec3 center = out(Eigen::all, rows).rowwise().mean();
     for (const Index i : rows) out.col(i) -= center;
   }
-  const std::vector<PlaneGuess> planes = subject.state().planes;
+  const std::vector<PlaneGuess> planes = arm_model.state().planes;
   for (Index i = 0; i < m.rows(); ++i) {
     if (m.point[i] >= 0) continue;
     const PlaneGuess& plane = planes[m.plane[i]];
@@ -60,7 +60,7 @@ Eigen::Matrix3Xd misses_of_model(const Eigen::Matrix3Xd& tips, const Diagnosis& 
   return out;
 }
 
-/// Of covariates that the library does not know.
+/// Covariates that are not the library's.
 bool lacks_own_covariate(const Covariates& covariates, Index row) {
   return std::any_of(covariates.begin(), covariates.end(), [row](const auto& covariate) {
     return !is_library_covariate(covariate.first) &&
@@ -70,18 +70,19 @@ bool lacks_own_covariate(const Covariates& covariates, Index row) {
 
 }  // namespace
 
-void check_model(const Diagnosis& found, const ArmSubject& subject, const Measurement& measurement,
+void check_model(const Diagnosis& found, const ArmModel& arm_model, const Measurement& measurement,
                  int num_threads) {
-  const Covariates covariates = used_covariates(subject.data());
-  const Eigen::Matrix3Xd tips = tips_of_model(found, subject, measurement, covariates, num_threads);
-  const Eigen::Matrix3Xd misses = misses_of_model(tips, found, subject, measurement);
+  const Covariates covariates = used_covariates(arm_model.data());
+  const Eigen::Matrix3Xd tips =
+      tips_of_model(found, arm_model, measurement, covariates, num_threads);
+  const Eigen::Matrix3Xd misses = misses_of_model(tips, found, arm_model, measurement);
   const double least = kTipRounding * (1.0 + tips.cwiseAbs().maxCoeff());
   for (Index i = 0; i < misses.cols(); ++i) {
     if (misses.col(i).norm() <= least || lacks_own_covariate(covariates, i)) continue;
     throw Error("diagnose: the model that was found gives another tip in row " + std::to_string(i) +
                 " than it was fitted with, by " + millimetres(misses.col(i).norm()) +
-                ": an effect does something else than the same row and form made it do before");
+                ": an effect acts differently than in the fit, for the same row and variant");
   }
 }
 
-}  // namespace bathyal
+}  // namespace bathyal::diagnosis

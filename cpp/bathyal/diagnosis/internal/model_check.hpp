@@ -4,14 +4,13 @@
 #include "bathyal/diagnosis/arm/internal/model.hpp"
 #include "bathyal/diagnosis/diagnose.hpp"
 
-namespace bathyal {
+namespace bathyal::diagnosis {
 
-/// Whether the corrected arm that a diagnosis hands out does what its report says: evaluated at the
-/// joint values that taught it, it must leave the residuals that are reported. Rows that lack a
-/// covariate of the caller's own (NaN) are not compared: there the model leaves out what looks at
-/// it.
+/// Checks that the corrected arm of a diagnosis, evaluated at the recorded joint values, has the
+/// residuals that are reported. Rows that lack a covariate of the caller's own (NaN) are not
+/// compared: there the model omits the effects that depend on it.
 /// \throw Error where it does not
-void check_model(const Diagnosis& found, const ArmSubject& subject, const Measurement& measurement,
+void check_model(const Diagnosis& found, const ArmModel& arm_model, const Measurement& measurement,
                  int num_threads);
 
-}  // namespace bathyal
+}  // namespace bathyal::diagnosis

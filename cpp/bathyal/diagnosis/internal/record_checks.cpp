@@ -11,17 +11,17 @@
 #include "bathyal/base/text.hpp"
 #include "bathyal/effects/gravity_load.hpp"
 
-namespace bathyal {
+namespace bathyal::diagnosis {
 namespace {
 
 using Effects = std::vector<std::shared_ptr<const Effect>>;
 using Sentences = std::vector<std::string>;
 
-constexpr std::size_t kFewestSessionRows = 3;  ///< fewer tell no frame: effects_of_sessions.cpp
+constexpr std::size_t kFewestSessionRows = 3;  ///< fewer determine no frame: effects/sessions.cpp
 
 std::string number_of_rows(Index count) { return counted(static_cast<long>(count), "row"); }
 
-/// Effects that want a covariate, by name.
+/// Names of the effects that need a covariate.
 std::string wanting(const std::string& covariate, const Effects& effects) {
   std::vector<std::string> names;
   for (const auto& effect : effects) {
@@ -33,10 +33,10 @@ std::string wanting(const std::string& covariate, const Effects& effects) {
   return listed(names);
 }
 
-/// What is taken instead of a covariate that was not recorded in every row.
+/// The assumption made without a covariate that was not recorded in every row.
 std::string instead_of(const std::string& covariate) {
   static const std::map<std::string, std::string> known{
-      {"time", "rows were taken in the order in which they stand"},
+      {"time", "rows were taken in the order of the record"},
       {"session", "all rows were taken as one session"},
       {"payload", "the arm was taken to carry nothing"},
       {"gravity", "gravity was taken as 9.80665 m/s² down the base's z"}};
@@ -44,7 +44,7 @@ std::string instead_of(const std::string& covariate) {
   return found == known.end() ? "" : "; " + found->second;
 }
 
-void doubt_missing(const EffectData& data, const Effects& effects, Sentences& out) {
+void check_missing(const EffectData& data, const Effects& effects, Sentences& out) {
   for (const auto& [name, values] : data.covariates) {
     const auto missing = static_cast<Index>(
         std::count_if(values.rowwise().begin(), values.rowwise().end(),
@@ -59,21 +59,21 @@ void doubt_missing(const EffectData& data, const Effects& effects, Sentences& ou
   }
 }
 
-/// Of gravity and sessions it is no news. A load that never changes still weighs on an arm whose
-/// masses are known.
-void doubt_constant(const EffectData& data, Sentences& out) {
+/// Gravity and sessions may well be constant. A constant load still matters for an arm whose masses
+/// are known.
+void check_constant(const EffectData& data, Sentences& out) {
   for (const auto& [name, values] : data.covariates) {
-    const bool told =
+    const bool expected =
         name == "gravity" || name == "session" || (name == "payload" && masses_known(*data.arm));
-    if (told || data.rows() < 2 || !data.has(name)) continue;
+    if (expected || data.rows() < 2 || !data.has(name)) continue;
     if ((values.rowwise() - values.row(0)).cwiseAbs().maxCoeff() > 0.0) continue;
     out.push_back("`" + name +
-                  "` is the same in all rows: what goes with it cannot be told from the rest of "
+                  "` is the same in all rows: its effect cannot be distinguished from the rest of "
                   "the arm.");
   }
 }
 
-/// Rows of each session, in the order in which they stand; of all where no session was told.
+/// Rows of each session, in their order; all rows where no sessions are given.
 std::map<double, std::vector<int>> rows_by_session(const EffectData& data) {
   std::map<double, std::vector<int>> out;
   for (int i = 0; i < static_cast<int>(data.rows()); ++i) {
@@ -82,7 +82,7 @@ std::map<double, std::vector<int>> rows_by_session(const EffectData& data) {
   return out;
 }
 
-void doubt_time(const EffectData& data, Sentences& out) {
+void check_time(const EffectData& data, Sentences& out) {
   if (!data.has("time")) return;
   const RowMatrix& time = data.covariate("time");
   std::vector<int> back;
@@ -109,11 +109,11 @@ void doubt_time(const EffectData& data, Sentences& out) {
   if (overlap) {
     out.push_back(
         "Sessions overlap in `time`: drifts and slips were looked for as if by one clock. Where "
-        "each session has a clock of its own, tell times that go on from one to the next.");
+        "each session has a clock of its own, give times that continue from one to the next.");
   }
 }
 
-void doubt_sessions(const EffectData& data, Sentences& out) {
+void check_sessions(const EffectData& data, Sentences& out) {
   if (!data.has("session")) return;
   const auto sessions = rows_by_session(data);
   const auto few = std::count_if(sessions.begin(), sessions.end(), [](const auto& session) {
@@ -126,7 +126,7 @@ void doubt_sessions(const EffectData& data, Sentences& out) {
                 " fewer than three rows: whether base or tool moved there cannot be seen.");
 }
 
-void doubt_own_effects(const EffectData& data, const Effects& effects, Sentences& out) {
+void check_own_effects(const EffectData& data, const Effects& effects, Sentences& out) {
   std::set<std::string> library;
   for (const auto& effect : library_effects()) library.insert(effect->info().name);
   for (const auto& effect : effects) {
@@ -142,14 +142,14 @@ void doubt_own_effects(const EffectData& data, const Effects& effects, Sentences
 
 }  // namespace
 
-std::vector<std::string> doubt_record(const EffectData& data, const Effects& effects) {
+std::vector<std::string> check_record(const EffectData& data, const Effects& effects) {
   Sentences out;
-  doubt_missing(data, effects, out);
-  doubt_constant(data, out);
-  doubt_time(data, out);
-  doubt_sessions(data, out);
-  doubt_own_effects(data, effects, out);
+  check_missing(data, effects, out);
+  check_constant(data, out);
+  check_time(data, out);
+  check_sessions(data, out);
+  check_own_effects(data, effects, out);
   return out;
 }
 
-}  // namespace bathyal
+}  // namespace bathyal::diagnosis

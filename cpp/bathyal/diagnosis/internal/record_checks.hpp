@@ -7,12 +7,11 @@
 
 #include "bathyal/effects/effect.hpp"
 
-namespace bathyal {
+namespace bathyal::diagnosis {
 
-/// What a person should know of what was recorded beside the poses, in sentences: covariates that
-/// are missing in parts or never change, times that run backwards, sessions too short to tell,
-/// effects of the user's own that want what was not recorded. For use inside the room.
-std::vector<std::string> doubt_record(const EffectData& data,
+/// Warnings about the covariates: partly missing or constant ones, times that run backwards,
+/// sessions too short for a frame, effects of the user's own that need what was not recorded.
+std::vector<std::string> check_record(const EffectData& data,
                                       const std::vector<std::shared_ptr<const Effect>>& effects);
 
-}  // namespace bathyal
+}  // namespace bathyal::diagnosis

@@ -10,76 +10,78 @@
 #include "bathyal/base/text.hpp"
 #include "bathyal/estimation/f_distribution.hpp"
 
-namespace bathyal {
+namespace bathyal::diagnosis {
 namespace {
 
-constexpr double kLeastRepeats = 12.0;  ///< degrees of freedom of repeats that tell the noise
-constexpr std::size_t kMostRivals = 5;
+constexpr double kMinReplicateDof =
+    12.0;  ///< degrees of freedom from which replicates estimate the noise
+constexpr std::size_t kMaxAlternatives = 5;
 
 /// The t whose two tails hold 5 %.
-double t_of_95(double freedom) {
+double t_of_95(double dof) {
   double low = 1.0, high = 20.0;
   while (high - low > 1e-9) {
     const double middle = 0.5 * (low + high);
-    (f_tail(middle * middle, 1.0, freedom) > 0.05 ? low : high) = middle;
+    (f_tail(middle * middle, 1.0, dof) > 0.05 ? low : high) = middle;
   }
   return 0.5 * (low + high);
 }
 
 class Reporter {
  public:
-  Reporter(const ArmSubject& subject, const Measurement& measurement, const Arm& nominal,
-           const Examination& found, const DiagnoseOptions& options)
-      : subject_(subject), m_(measurement), found_(found), options_(options), out_(nominal) {}
+  Reporter(const ArmModel& arm_model, const Measurement& measurement, const Arm& nominal,
+           const selection::SelectionResult& found, const DiagnoseOptions& options)
+      : model_(arm_model), m_(measurement), found_(found), options_(options), out_(nominal) {}
 
   Diagnosis report() {
-    out_.fit = subject_.geometry();
-    out_.arm = subject_.arm();
-    out_.found = subject_.found();
-    out_.support = support_of(m_.q, used_covariates(subject_.data()));
-    out_.residuals_before = subject_.bare_deviations();
-    out_.residuals_after = subject_.deviations();
-    tell_noise();
-    tell_shown();
+    out_.fit = model_.geometry();
+    out_.arm = model_.arm();
+    out_.found = model_.found();
+    out_.support = support_of(m_.q, used_covariates(model_.data()));
+    out_.residuals_before = model_.deviations_before();
+    out_.residuals_after = model_.deviations();
+    fill_noise();
+    fill_lack_of_fit_before();
     if (!found_.held_out) {
-      tell_why_nothing_is_held_out();
+      fill_too_few_data();
       return std::move(out_);
     }
-    out_.detectable = found_.detectable * subject_.mean_unit();
-    tell_held_out();
-    tell_effects();
-    tell_leftover();
+    out_.detectable = found_.detectable * model_.mean_unit();
+    fill_held_out();
+    fill_effects();
+    fill_unexplained();
     decide();
     return std::move(out_);
   }
 
  private:
-  const Form& form(int index) const { return subject_.forms()[index]; }
+  const selection::Term& term_at(int index) const { return model_.terms()[index]; }
 
-  /// By repeats of a pose, which no model explains away; else by what the model leaves.
-  void tell_noise() {
-    std::map<int, std::vector<Index>> twins;
-    std::set<int> odd(found_.odd.begin(), found_.odd.end());
+  /// Pure error from replicates of a pose; else the residuals of the model.
+  void fill_noise() {
+    std::map<int, std::vector<Index>> replicates;
+    std::set<int> excluded(found_.outliers.begin(), found_.outliers.end());
     for (Index i = 0; i < m_.rows(); ++i) {
-      if (!odd.contains(static_cast<int>(i))) twins[subject_.units().twin[i]].push_back(i);
+      if (!excluded.contains(static_cast<int>(i)))
+        replicates[model_.observations().replicate[i]].push_back(i);
     }
-    double squares = 0.0, freedom = 0.0;
+    double squares = 0.0, dof = 0.0;
     int poses = 0;
-    for (const auto& [twin, rows] : twins) {
+    for (const auto& [replicate, rows] : replicates) {
       if (rows.size() < 2) continue;
       const Eigen::Matrix3Xd same = out_.residuals_after(Eigen::all, rows);
       squares += (same.colwise() - same.rowwise().mean()).squaredNorm();
-      freedom += 3.0 * (static_cast<double>(rows.size()) - 1.0);
+      dof += 3.0 * (static_cast<double>(rows.size()) - 1.0);
       ++poses;
     }
-    if (freedom >= kLeastRepeats && squares > 0.0) {
-      out_.noise = std::sqrt(squares / freedom);
+    if (dof >= kMinReplicateDof && squares > 0.0) {
+      out_.noise = std::sqrt(squares / dof);
       out_.noise_source = "repeats of " + counted(poses, "pose");
     } else {
-      out_.noise = subject_.mean_noise();
+      out_.noise = model_.mean_noise();
       out_.noise_source = "what the model leaves";
     }
-    constexpr double kComputed = 1e-7;  // [m] at which steps of the search come to be seen
+    constexpr double kComputed = 1e-7;  // [m] at which the search's convergence becomes visible
     if (found_.held_out && out_.noise < kComputed) {
       out_.warnings.push_back(
           "Noise of " + millimetres(out_.noise) +
@@ -88,34 +90,34 @@ class Reporter {
     }
   }
 
-  void tell_shown() {
-    std::set<std::string> told;
-    for (const Dependence& d : found_.shown) {
-      if (d.p > kBeyondNoise && !out_.shown.empty())
-        break;  // the least unlikely is told in any case
-      if (!told.insert(form(d.form).effect).second) continue;
-      out_.shown.push_back(
-          {form(d.form).effect, form(d.form).words, d.size * found_.base_noise, d.share, d.p});
+  void fill_lack_of_fit_before() {
+    std::set<std::string> reported;
+    for (const selection::LackOfFit& d : found_.lack_of_fit_before) {
+      if (d.p > selection::kBeyondNoise && !out_.lack_of_fit_before.empty())
+        break;  // the most significant is reported in any case
+      if (!reported.insert(term_at(d.term).effect).second) continue;
+      out_.lack_of_fit_before.push_back(
+          structure(d.term, d.size * found_.base_noise, d.share, d.p));
     }
   }
 
-  void tell_why_nothing_is_held_out() {
+  void fill_too_few_data() {
     constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
     HeldOut& out = out_.held_out;
-    out.how =
-        counted(m_.rows(), m_.tracked ? "pose" : "touch", m_.tracked ? "poses" : "touches") +
-        (found_.blocks.count < kLeastBlocks ? " make fewer than three blocks of poses that differ"
-                                            : " leave hardly more equations than unknowns");
+    out.how = counted(m_.rows(), m_.tracked ? "pose" : "touch", m_.tracked ? "poses" : "touches") +
+              (found_.folds.count < selection::kMinFolds
+                   ? " make fewer than three blocks of poses that differ"
+                   : " leave hardly more equations than unknowns");
     out.noise = std::sqrt(3.0) * out_.noise;
     out.rms_before = out.rms_after = out_.gain = out_.detectable = kNothing;
     out_.warnings.push_back("Too few data to hold any out: what is shown is all that can be said.");
   }
 
-  void tell_held_out() {
+  void fill_held_out() {
     HeldOut& out = out_.held_out;
-    out.how = found_.blocks.how;
-    out.blocks = found_.blocks.count;
-    out.p_value = found_.luck;
+    out.how = found_.folds.description;
+    out.blocks = found_.folds.count;
+    out.p_value = found_.p_value;
     out.noise = std::sqrt(3.0) * out_.noise;
     out.before = errors(found_.error_before);
     out.after = errors(found_.error_after);
@@ -135,7 +137,7 @@ class Reporter {
     const HeldOut::Part all = part("all", [](Index) { return true; });
     out.rms_before = all.rms_before;
     out.rms_after = all.rms_after;
-    const std::vector<int>& session = subject_.units().session;
+    const std::vector<int>& session = model_.observations().session;
     const std::vector<std::string> names = session_names();
     for (std::size_t s = 0; names.size() > 1 && s < names.size(); ++s) {
       out.parts.push_back(
@@ -145,10 +147,10 @@ class Reporter {
       out.parts.push_back(
           part("point " + m_.name_of(m_.labels[p]), [&](Index i) { return m_.point[i] == p; }));
     }
-    const std::vector<bool> beyond = beyond_the_others();
-    if (std::find(beyond.begin(), beyond.end(), true) != beyond.end()) {
-      out.parts.push_back(part("within others' ranges", [&](Index i) { return !beyond[i]; }));
-      out.parts.push_back(part("beyond others' ranges", [&](Index i) { return bool(beyond[i]); }));
+    const std::vector<bool> outside = extrapolated();
+    if (std::find(outside.begin(), outside.end(), true) != outside.end()) {
+      out.parts.push_back(part("within others' ranges", [&](Index i) { return !outside[i]; }));
+      out.parts.push_back(part("beyond others' ranges", [&](Index i) { return bool(outside[i]); }));
     }
     if (out.parts.empty()) out.parts.push_back(all);
     const double above = out.rms_before * out.rms_before - out.noise * out.noise;
@@ -157,9 +159,9 @@ class Reporter {
     }
   }
 
-  /// As the record calls them; counted from 1 where it does not.
+  /// As in the record; counted from 1 where it has none.
   std::vector<std::string> session_names() const {
-    const EffectData& data = subject_.data();
+    const EffectData& data = model_.data();
     std::vector<std::string> names;
     if (data.has("session")) {
       const auto labels = data.covariate("session").reshaped();
@@ -167,21 +169,21 @@ class Reporter {
         names.push_back(to_text(label));
       }
     } else {
-      const std::vector<int>& session = subject_.units().session;
+      const std::vector<int>& session = model_.observations().session;
       const int count = 1 + *std::max_element(session.begin(), session.end());
       for (int s = 1; s <= count; ++s) names.push_back(std::to_string(s));
     }
     return names;
   }
 
-  /// (N,) whether a row's joints lie where no row of the other blocks reaches: what was found is a
-  /// guess there.
-  std::vector<bool> beyond_the_others() const {
+  /// (N,) whether a row's joints are outside the ranges of all other folds: there the prediction
+  /// extrapolates.
+  std::vector<bool> extrapolated() const {
     std::vector<bool> out(static_cast<std::size_t>(m_.rows()), false);
-    for (int block = 0; block < found_.blocks.count; ++block) {
+    for (int block = 0; block < found_.folds.count; ++block) {
       std::vector<Index> own, others;
       for (Index i = 0; i < m_.rows(); ++i) {
-        (found_.blocks.of[i] == block ? own : others).push_back(i);
+        (found_.folds.fold_of[i] == block ? own : others).push_back(i);
       }
       const RowMatrix known = m_.q(others, Eigen::all);
       const Eigen::RowVectorXd low = known.colwise().minCoeff();
@@ -194,31 +196,31 @@ class Reporter {
     return out;
   }
 
-  /// (N,) 3-D, of position rows [m]; NaN of rows that are left out.
+  /// (N,) 3-D, of position rows [m]; NaN for outliers.
   Eigen::VectorXd errors(const Eigen::VectorXd& rows) const {
-    Eigen::VectorXd out = subject_.in_metres(rows).colwise().norm();
-    for (const int odd : found_.odd) out[odd] = std::numeric_limits<double>::quiet_NaN();
+    Eigen::VectorXd out = model_.in_metres(rows).colwise().norm();
+    for (const int row : found_.outliers) out[row] = std::numeric_limits<double>::quiet_NaN();
     return out;
   }
 
-  void tell_effects() {
-    const Eigen::MatrixXd covariance = subject_.covariance();
-    const double t = t_of_95(subject_.freedom());
+  void fill_effects() {
+    const Eigen::MatrixXd covariance = model_.covariance();
+    const double t = t_of_95(model_.dof());
     const HeldOut& held = out_.held_out;
     const double above =
         std::max(held.rms_before * held.rms_before - held.noise * held.noise, 1e-300);
     Index at = 0;
     for (const FoundEffect& effect : out_.found) {
-      const auto chosen =
-          std::find_if(found_.names.begin(), found_.names.end(), [&](const Chosen& c) {
-            return subject_.effect(c.form) == effect.effect.get() &&
-                   subject_.variant(c.form).settings == effect.variant.settings &&
-                   subject_.variant(c.form).joint == effect.variant.joint;
+      const auto chosen = std::find_if(
+          found_.terms.begin(), found_.terms.end(), [&](const selection::SelectedTerm& c) {
+            return model_.effect(c.term) == effect.effect.get() &&
+                   model_.variant(c.term).settings == effect.variant.settings &&
+                   model_.variant(c.term).joint == effect.variant.joint;
           });
       NamedEffect named;
       named.name = effect.variant.effect;
       named.joint = effect.variant.joint;
-      named.words = form(chosen->form).words;
+      named.description = term_at(chosen->term).description;
       for (const auto& [name, value] : effect.variant.settings) {
         named.parameters.push_back({name, "", value, 0.0, value, value});
       }
@@ -229,28 +231,29 @@ class Reporter {
         named.parameters.push_back(
             {parameter.name, parameter.unit, value, std, value - t * std, value + t * std});
       }
-      named.size = chosen->size * subject_.mean_unit();
+      named.size = chosen->size * model_.mean_unit();
       const double rows = 3.0;  // a held-out mean square is per row, rms are of three
-      named.held_out_before = std::sqrt(rows * chosen->held_out_without) * subject_.mean_unit();
-      named.held_out_after = std::sqrt(rows * chosen->held_out_with) * subject_.mean_unit();
+      named.held_out_before = std::sqrt(rows * chosen->held_out_without) * model_.mean_unit();
+      named.held_out_after = std::sqrt(rows * chosen->held_out_with) * model_.mean_unit();
       named.gain = (named.held_out_before * named.held_out_before -
                     named.held_out_after * named.held_out_after) /
                    above;
       named.p_value = chosen->p;
-      for (const RivalForm& rival : found_.rivals) {
-        if (rival.form != chosen->form || named.rivals.size() == kMostRivals) continue;
-        named.rivals.push_back(cause(rival.instead, rival.odds));
+      for (const selection::AlternativeTerm& alternative : found_.alternatives) {
+        if (alternative.term != chosen->term || named.alternatives.size() == kMaxAlternatives)
+          continue;
+        named.alternatives.push_back(cause(alternative.replacement, alternative.odds));
       }
       out_.effects.push_back(std::move(named));
     }
     std::stable_sort(out_.effects.begin(), out_.effects.end(),
                      [](const NamedEffect& a, const NamedEffect& b) { return a.size > b.size; });
-    tell_odd();
-    for (const NoiseFit& fit : found_.noise) {
-      const NoiseForm& about = subject_.noise_forms()[fit.form];
+    fill_outliers();
+    for (const selection::VarianceComponentFit& fit : found_.noise) {
+      const selection::VarianceComponent& about = model_.variance_components()[fit.term];
       NamedEffect named;
       named.name = about.effect;
-      named.words = about.words;
+      named.description = about.description;
       named.parameters.push_back({about.parameter, about.unit, fit.parameter, fit.std,
                                   fit.parameter - t * fit.std, fit.parameter + t * fit.std});
       named.size = std::sqrt(fit.share) * out_.noise;
@@ -259,41 +262,47 @@ class Reporter {
     }
   }
 
-  void tell_odd() {
-    if (found_.odd.empty()) return;
+  void fill_outliers() {
+    if (found_.outliers.empty()) return;
     NamedEffect named;
     named.name = "outliers";
-    named.rows = found_.odd;
-    named.words = counted(static_cast<long>(found_.odd.size()), "row") + " that " +
-                  (found_.odd.size() == 1 ? "does" : "do") + " not belong";
-    const auto count = static_cast<double>(found_.odd.size());
+    named.rows = found_.outliers;
+    named.description = counted(static_cast<long>(found_.outliers.size()), "row") + " that " +
+                        (found_.outliers.size() == 1 ? "does" : "do") + " not belong";
+    const auto count = static_cast<double>(found_.outliers.size());
     named.parameters.push_back({"count", "1", count, 0.0, count, count});
     double squares = 0.0;
-    for (const int row : found_.odd) squares += out_.residuals_after.col(row).squaredNorm();
+    for (const int row : found_.outliers) squares += out_.residuals_after.col(row).squaredNorm();
     named.size = std::sqrt(squares / static_cast<double>(3 * m_.rows()));
     out_.effects.push_back(std::move(named));
   }
 
-  Cause cause(int index, double odds) const {
-    return {form(index).effect, form(index).joint, form(index).words, odds};
+  Structure structure(int index, double size, double share, double p_value) const {
+    const LackOfFitTerm& term = model_.lack_of_fit_term(index);
+    return {term.dependence, term.joint, term.description, size, share, p_value};
   }
 
-  void tell_leftover() {
-    if (found_.probes.empty()) return;
-    const auto most = std::max_element(
-        found_.probes.begin(), found_.probes.end(),
-        [](const Chosen& a, const Chosen& b) { return a.explained < b.explained; });
+  Cause cause(int index, double odds) const {
+    return {term_at(index).effect, term_at(index).joint, term_at(index).description, odds};
+  }
+
+  void fill_unexplained() {
+    if (found_.lack_of_fit.empty()) return;
+    const auto most =
+        std::max_element(found_.lack_of_fit.begin(), found_.lack_of_fit.end(),
+                         [](const selection::SelectedTerm& a, const selection::SelectedTerm& b) {
+                           return a.explained < b.explained;
+                         });
     const auto rows = static_cast<double>(3 * m_.rows());
-    out_.leftover = {form(most->form).effect, form(most->form).words,
-                     std::sqrt(found_.left_over / rows) * subject_.mean_unit(),
-                     found_.base_squares > 0.0 ? found_.left_over / found_.base_squares : 0.0,
-                     most->p};
+    out_.unexplained = structure(
+        most->term, std::sqrt(found_.unexplained / rows) * model_.mean_unit(),
+        found_.base_squares > 0.0 ? found_.unexplained / found_.base_squares : 0.0, most->p);
   }
 
   void decide() {
-    const bool left =
-        !found_.probes.empty() && found_.left_over > options_.leftover * found_.removed;
-    if (left) {
+    const bool unexplained =
+        !found_.lack_of_fit.empty() && found_.unexplained > options_.leftover * found_.explained;
+    if (unexplained) {
       out_.verdict = Verdict::kUnknown;
       return;
     }
@@ -302,30 +311,30 @@ class Reporter {
       return;
     }
     out_.verdict = Verdict::kNamed;
-    std::vector<int> forms;
-    for (const RivalForm& rival : found_.rivals) {
-      if (rival.odds < options_.rival_odds) continue;
-      if (std::find(forms.begin(), forms.end(), rival.form) == forms.end()) {
-        forms.push_back(rival.form);
-        out_.ambiguous.push_back(cause(rival.form, 1.0));
+    std::vector<int> terms;
+    for (const selection::AlternativeTerm& alternative : found_.alternatives) {
+      if (alternative.odds < options_.rival_odds) continue;
+      if (std::find(terms.begin(), terms.end(), alternative.term) == terms.end()) {
+        terms.push_back(alternative.term);
+        out_.ambiguous.push_back(cause(alternative.term, 1.0));
       }
-      out_.ambiguous.push_back(cause(rival.instead, rival.odds));
+      out_.ambiguous.push_back(cause(alternative.replacement, alternative.odds));
     }
     if (!out_.ambiguous.empty()) out_.verdict = Verdict::kAmbiguous;
   }
 
-  const ArmSubject& subject_;
+  const ArmModel& model_;
   const Measurement& m_;
-  const Examination& found_;
+  const selection::SelectionResult& found_;
   const DiagnoseOptions& options_;
   Diagnosis out_;
 };
 
 }  // namespace
 
-Diagnosis report(const ArmSubject& subject, const Measurement& measurement, const Arm& nominal,
-                 const Examination& found, const DiagnoseOptions& options) {
-  return Reporter(subject, measurement, nominal, found, options).report();
+Diagnosis report(const ArmModel& arm_model, const Measurement& measurement, const Arm& nominal,
+                 const selection::SelectionResult& found, const DiagnoseOptions& options) {
+  return Reporter(arm_model, measurement, nominal, found, options).report();
 }
 
-}  // namespace bathyal
+}  // namespace bathyal::diagnosis

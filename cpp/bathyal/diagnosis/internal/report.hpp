@@ -5,11 +5,11 @@
 #include "bathyal/diagnosis/diagnose.hpp"
 #include "bathyal/selection/selection.hpp"
 
-namespace bathyal {
+namespace bathyal::diagnosis {
 
-/// What an examination found, in metres, names and words, with its verdict: all of a Diagnosis but
-/// the warnings of the record and the next poses. For use inside the room.
-Diagnosis report(const ArmSubject& subject, const Measurement& measurement, const Arm& nominal,
-                 const Examination& found, const DiagnoseOptions& options);
+/// The result of a selection in metres and names, with its verdict: all of a Diagnosis but the
+/// warnings of the record and the next poses.
+Diagnosis report(const ArmModel& arm_model, const Measurement& measurement, const Arm& nominal,
+                 const selection::SelectionResult& found, const DiagnoseOptions& options);
 
-}  // namespace bathyal
+}  // namespace bathyal::diagnosis

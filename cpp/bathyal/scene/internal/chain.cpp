@@ -104,7 +104,7 @@ class Chainer {
   }
 
   /// The direction most opposed to direction i; equal ones are ordered by the pair's numbers, so
-  /// that both of a pair judge it alike.
+  /// that both of a pair find the same.
   static std::size_t straightest(const std::vector<Vec3>& leaving, std::size_t i) {
     std::size_t best = i;
     std::tuple<double, std::size_t, std::size_t> best_turn{2.0, 0, 0};  // a cosine is at most 1

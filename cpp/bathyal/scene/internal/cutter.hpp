@@ -32,7 +32,7 @@ class Cutter {
   static Cutter between(const Vec3& start, const Vec3& end, const Vec3& up);
 
   /// p = r · (V − A) in units of |normal|, a function of the vertex alone, so that all triangles
-  /// around it judge it alike; exactly 0 for a vertex nearer to the plane than the rounding of its
+  /// around it agree on it; exactly 0 for a vertex nearer to the plane than the rounding of its
   /// coordinates.
   double height(const Vec3& vertex) const {
     const double p = normal_.dot(vertex - anchor_);

@@ -1,28 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bathyal/scene/internal/nearest.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
-#include <tuple>
 #include <vector>
 
 #include "bathyal/base/parallel.hpp"
 #include "bathyal/scene/internal/cutter.hpp"
 #include "bathyal/scene/internal/hierarchy.hpp"
+#include "bathyal/scene/internal/nearest_walk.hpp"
 #include "bathyal/scene/internal/nearness.hpp"
-#include "bathyal/scene/internal/prefetch.hpp"
 
 namespace bathyal {
 namespace scene {
-namespace {
-
-/// Where between the two ends of an edge the closest point lies: 0 at `from`, 1 at `to`.
-struct OnEdge {
-  double squared_distance;
-  Vec3 point;
-  double t;
-};
 
 OnEdge closest_on_edge(const Vec3& from, const Vec3& to, const Vec3& query) {
   if (precedes(to, from)) {
@@ -44,8 +34,6 @@ OnEdge closest_on_edge(const Vec3& from, const Vec3& to, const Vec3& query) {
   }
   return {(point - query).squaredNorm(), point, t};
 }
-
-}  // namespace
 
 ClosestPoint closest_point(const std::array<Vec3, 3>& corners, const Vec3& query) {
   const auto& [a, b, c] = corners;
@@ -78,109 +66,38 @@ ClosestPoint closest_point(const std::array<Vec3, 3>& corners, const Vec3& query
 
 namespace {
 
-/// A node, or ~block, that may hold something nearer.
-struct Waiting {
-  float bound;
-  std::int32_t item;
-};
-
-/// One query's way through the hierarchy, depth first, nearest child first. Whatever may still hold
-/// an equal distance is looked at, since the lowest number wins a tie.
-class NearestWalk {
+/// The walk's query where it is a point.
+class PointQuery {
  public:
-  NearestWalk(const Scene::Hierarchy& hierarchy, const Vec3& query)
-      : hierarchy_(hierarchy),
-        query_(query),
-        nearness_(hierarchy, query - hierarchy.origin),
-        rounding_(16.0 * std::numeric_limits<double>::epsilon() *
-                  (reach(query) + reach(hierarchy.origin))) {}
+  using Found = ClosestPoint;
 
-  NearestPoint run() {
-    if (hierarchy_.nodes.empty()) return {};
-    stack_[depth_++] = {0.0F, 0};
-    while (depth_ > 0) {
-      const Waiting top = stack_[--depth_];
-      if (top.bound > limit_) continue;
-      if (top.item < 0) {
-        look_at(hierarchy_.blocks[static_cast<std::size_t>(~top.item)]);
-      } else {
-        open(hierarchy_.nodes[static_cast<std::size_t>(top.item)]);
-      }
-    }
-    const PrimitiveName name = hierarchy_.name(primitive_);
-    return {
-        std::sqrt(best_.squared_distance), name.mesh, name.triangle, best_.u, best_.v, best_.point};
+  PointQuery(const Scene::Hierarchy& hierarchy, const Vec3& point)
+      : point_(point),
+        nearness_(hierarchy, point - hierarchy.origin),
+        rounding_(16.0 * std::numeric_limits<double>::epsilon() *
+                  (reach(point) + reach(hierarchy.origin))) {}
+
+  template <class Lanes>
+  void bound(const Lanes& lanes, LaneDistances& bounds) const {
+    nearness_.bound(lanes, bounds);
   }
+  float limit(double distance) const { return nearness_.limit(distance + rounding_); }
+  Found measure(const std::array<Vec3, 3>& corners) const { return closest_point(corners, point_); }
 
  private:
-  /// Pushes the children that may hold something nearer, the nearest on top.
-  void open(const WideNode& node) {
-    LaneDistances bounds;
-    nearness_.bound(node, bounds);
-    const std::size_t first = depth_;
-    for (std::size_t lane = 0; lane < kWidth; ++lane) {
-      const std::int32_t child = node.child[lane];
-      if (bounds[lane] > limit_ || child == kNoChild) continue;
-      if (child < 0) {
-        prefetch(hierarchy_.blocks[static_cast<std::size_t>(~child)]);
-      } else {
-        prefetch(hierarchy_.nodes[static_cast<std::size_t>(child)]);
-      }
-      std::size_t at = depth_++;
-      for (; at > first && stack_[at - 1].bound < bounds[lane]; --at) stack_[at] = stack_[at - 1];
-      stack_[at] = {bounds[lane], child};
-    }
-  }
-
-  /// Measures the block's triangles, the one with the least bound first.
-  void look_at(const TriangleBlock& block) {
-    struct Candidate {
-      float bound;
-      std::uint32_t primitive;
-    };
-    LaneDistances bounds;
-    nearness_.bound(block, bounds);
-    std::array<Candidate, kWidth> candidates;
-    std::size_t count = 0;
-    for (std::size_t lane = 0; lane < kWidth; ++lane) {
-      const std::uint32_t primitive = block.primitive[lane];
-      if (primitive == kNoPrimitive) break;
-      if (bounds[lane] > limit_) continue;
-      prefetch_three(hierarchy_.row(primitive).index);
-      std::size_t at = count++;
-      for (; at > 0 && candidates[at - 1].bound > bounds[lane]; --at) {
-        candidates[at] = candidates[at - 1];
-      }
-      candidates[at] = {bounds[lane], primitive};
-    }
-    for (std::size_t i = 0; i < count; ++i) {
-      const Scene::Hierarchy::Row row = hierarchy_.row(candidates[i].primitive);
-      for (int c = 0; c < 3; ++c) prefetch_three(row.corner(c));
-    }
-    for (std::size_t i = 0; i < count && candidates[i].bound <= limit_; ++i) {
-      measure(candidates[i].primitive);
-    }
-  }
-
-  void measure(std::uint32_t primitive) {
-    const ClosestPoint found = closest_point(hierarchy_.corners(primitive), query_);
-    if (std::tie(found.squared_distance, primitive) >= std::tie(best_.squared_distance, primitive_))
-      return;
-    best_ = found;
-    primitive_ = primitive;
-    limit_ = nearness_.limit(std::sqrt(found.squared_distance) + rounding_);
-  }
-
-  const Scene::Hierarchy& hierarchy_;
-  Vec3 query_;
+  Vec3 point_;
   Nearness nearness_;
   double rounding_;  ///< how far it may carry a closest point out of its triangle's box [m]
-  ClosestPoint best_{std::numeric_limits<double>::infinity(), {}, 0.0, 0.0};
-  std::uint32_t primitive_ = kNoPrimitive;
-  float limit_ = std::numeric_limits<float>::infinity();
-  std::array<Waiting, kStackSize> stack_;
-  std::size_t depth_ = 0;
 };
+
+NearestPoint nearest_to(const Scene::Hierarchy& hierarchy, const Vec3& point) {
+  NearestWalk walk(hierarchy, PointQuery(hierarchy, point));
+  walk.run();
+  if (walk.primitive() == kNoPrimitive) return {};
+  const PrimitiveName name = hierarchy.name(walk.primitive());
+  const ClosestPoint& best = walk.found();
+  return {std::sqrt(best.squared_distance), name.mesh, name.triangle, best.u, best.v, best.point};
+}
 
 }  // namespace
 }  // namespace scene
@@ -195,8 +112,7 @@ std::vector<NearestPoint> Scene::nearest(PointView points, int num_threads) cons
   constexpr std::size_t kGrain = 256;
   parallel_for(found.size(), kGrain, num_threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      found[i] =
-          scene::NearestWalk(*hierarchy_, points.row(static_cast<Index>(i)).transpose()).run();
+      found[i] = scene::nearest_to(*hierarchy_, points.row(static_cast<Index>(i)).transpose());
     }
   });
   return found;

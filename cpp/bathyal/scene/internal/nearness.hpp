@@ -12,27 +12,62 @@ namespace bathyal::scene {
 /// Least squared distances [m²] of eight lanes to a query, as floats know them.
 using LaneDistances = std::array<float, kWidth>;
 
-/// How near boxes and triangles may be to a query, in float: no bound that it gives exceeds
-/// `limit(r)` where the true distance is at most r. It rules out and decides nothing.
-class Nearness {
+/// The nearest float; beyond the largest, infinite.
+inline float narrow(double x) {
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  if (x > std::numeric_limits<float>::max()) return kInfinity;
+  return x < std::numeric_limits<float>::lowest() ? -kInfinity : static_cast<float>(x);
+}
+
+/// One vector in the local frame [m], each coordinate in all lanes.
+using LaneVector = std::array<Float4, 3>;
+
+inline LaneVector all_lanes(const Vec3& v) {
+  return {all4(narrow(v.x())), all4(narrow(v.y())), all4(narrow(v.z()))};
+}
+
+/// Turns distances into limits of bounds that were computed in float.
+class NearnessLimit {
  public:
-  /// `query` in the local frame [m].
-  Nearness(const Scene::Hierarchy& hierarchy, const Vec3& query) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      query_[axis] = all4(narrow(query[static_cast<Index>(axis)]));
-    }
+  /// `reach`: largest coordinate of the query in the local frame [m].
+  NearnessLimit(const Scene::Hierarchy& hierarchy, double reach) {
     // Differences of rounded coordinates, and their products with a direction, are off by less than
     // 18 ε · (the largest coordinate of the query + that of the scene).
     constexpr double kRounding = 32.0 * std::numeric_limits<float>::epsilon();
-    slack_ = kRounding * (query.lpNorm<Eigen::Infinity>() + hierarchy.reach());
+    slack_ = kRounding * (reach + hierarchy.reach());
   }
 
   /// The largest bound of what is within `distance` [m].
-  float limit(double distance) const {
+  float operator()(double distance) const {
     constexpr double kSquaring = 1.000001;  // a dozen roundings of a float
     const double reach = distance + slack_;
     return narrow(kSquaring * reach * reach);
   }
+
+ private:
+  double slack_;
+};
+
+/// The square of h / |m|, of which `squared` is |m|²: the bound that a direction m gives, along
+/// which the query and the lane lie h apart. 0 where h is not above 0, or |m|² is too small or too
+/// large for a float.
+inline Float4 bound_along(Float4 h, Float4 squared) {
+  // The square of m is short of digits below a length of 10⁻¹⁰ m, and infinite far away.
+  constexpr float kLargest = std::numeric_limits<float>::max();
+  const Int4 is_known = (h > Float4{}) & (squared > all4(1e-20F)) & (squared <= all4(kLargest));
+  return is_known ? h / squared * h : Float4{};
+}
+
+/// How near boxes and triangles may be to a point, in float: no bound that it gives exceeds
+/// `limit(r)` where the true distance is at most r. It rules out and decides nothing.
+class Nearness {
+ public:
+  /// `query` in the local frame [m].
+  Nearness(const Scene::Hierarchy& hierarchy, const Vec3& query)
+      : query_(all_lanes(query)), limit_(hierarchy, query.lpNorm<Eigen::Infinity>()) {}
+
+  /// The largest bound of what is within `distance` [m].
+  float limit(double distance) const { return limit_(distance); }
 
   /// Bounds of the boxes; infinite, or NaN, for an empty lane.
   void bound(const WideNode& node, LaneDistances& bounds) const {
@@ -66,23 +101,14 @@ class Nearness {
         squared += m * m;
       }
       const Float4 h = min4(h0, min4(h1, h2));
-      // The square of m is short of digits below a length of 10⁻¹⁰ m, and infinite far away.
-      constexpr float kLargest = std::numeric_limits<float>::max();
-      const Int4 is_known = (h > Float4{}) & (squared > all4(1e-20F)) & (squared <= all4(kLargest));
-      const Float4 bound = is_known ? h / squared * h : Float4{};
+      const Float4 bound = bound_along(h, squared);
       __builtin_memcpy(bounds.data() + i, &bound, sizeof bound);
     }
   }
 
  private:
-  static float narrow(double x) {
-    constexpr float kInfinity = std::numeric_limits<float>::infinity();
-    if (x > std::numeric_limits<float>::max()) return kInfinity;
-    return x < std::numeric_limits<float>::lowest() ? -kInfinity : static_cast<float>(x);
-  }
-
-  std::array<Float4, 3> query_;  // one number in all lanes each
-  double slack_;
+  LaneVector query_;
+  NearnessLimit limit_;
 };
 
 }  // namespace bathyal::scene

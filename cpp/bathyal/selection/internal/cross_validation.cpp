@@ -4,63 +4,64 @@
 #include <algorithm>
 #include <numeric>
 
-namespace bathyal {
+namespace bathyal::selection {
 namespace {
 
-Eigen::MatrixXd columns_of(const Eigen::MatrixXd& basis, const Pool& pool) {
-  Eigen::MatrixXd out(basis.rows(), basis.cols() + pool.held_by().size());
+Eigen::MatrixXd columns_of(const Eigen::MatrixXd& basis, const CandidateSet& candidates) {
+  Eigen::MatrixXd out(basis.rows(), basis.cols() + candidates.prior_precision().size());
   out.leftCols(basis.cols()) = basis;
   Index at = basis.cols();
-  for (int m = 0; m < pool.size(); ++m) {
-    out.middleCols(at, pool.width(m)) = pool.columns(m);
-    at += pool.width(m);
+  for (int m = 0; m < candidates.size(); ++m) {
+    out.middleCols(at, candidates.width(m)) = candidates.columns(m);
+    at += candidates.width(m);
   }
   return out;
 }
 
-Eigen::VectorXd held_by_of(const Eigen::MatrixXd& basis, const Pool& pool) {
-  Eigen::VectorXd out = Eigen::VectorXd::Zero(basis.cols() + pool.held_by().size());
-  out.tail(pool.held_by().size()) = pool.held_by();
+Eigen::VectorXd prior_precision_of(const Eigen::MatrixXd& basis, const CandidateSet& candidates) {
+  Eigen::VectorXd out = Eigen::VectorXd::Zero(basis.cols() + candidates.prior_precision().size());
+  out.tail(candidates.prior_precision().size()) = candidates.prior_precision();
   return out;
 }
 
 }  // namespace
 
-FormsHeldOut::FormsHeldOut(const Vantage& vantage, const std::vector<int>& forms,
-                           const Blocks& blocks)
-    : FormsHeldOut(vantage, vantage.pool_of(forms), blocks) {}
+BlockCrossValidation::BlockCrossValidation(const WorkingPoint& working_point,
+                                           const std::vector<int>& terms, const Folds& folds)
+    : BlockCrossValidation(working_point, working_point.candidate_set(terms), folds) {}
 
-FormsHeldOut::FormsHeldOut(const Vantage& vantage, const Pool& pool, const Blocks& blocks)
-    : columns_(columns_of(vantage.ground().basis, pool)),
-      held_by_(held_by_of(vantage.ground().basis, pool)),
-      held_(vantage.subject().linearization().misfit, columns_, held_by_,
-            vantage.subject().linearization().unit, blocks, vantage.num_threads()),
-      basis_(static_cast<std::size_t>(vantage.ground().basis.cols())) {
+BlockCrossValidation::BlockCrossValidation(const WorkingPoint& working_point,
+                                           const CandidateSet& candidates, const Folds& folds)
+    : columns_(columns_of(working_point.nuisance().basis, candidates)),
+      prior_precision_(prior_precision_of(working_point.nuisance().basis, candidates)),
+      fit_(working_point.model().linearization().residual, columns_, prior_precision_,
+           working_point.model().linearization().observation, folds, working_point.num_threads()),
+      basis_(static_cast<std::size_t>(working_point.nuisance().basis.cols())) {
   std::iota(basis_.begin(), basis_.end(), Index{0});
   auto at = static_cast<Index>(basis_.size());
-  for (int m = 0; m < pool.size(); ++m) {
-    forms_.push_back(pool.form(m));
-    own_.emplace_back(static_cast<std::size_t>(pool.width(m)));
+  for (int m = 0; m < candidates.size(); ++m) {
+    terms_.push_back(candidates.term_index(m));
+    own_.emplace_back(static_cast<std::size_t>(candidates.width(m)));
     std::iota(own_.back().begin(), own_.back().end(), at);
-    at += pool.width(m);
+    at += candidates.width(m);
   }
 }
 
-void FormsHeldOut::drop(std::size_t place) {
-  forms_.erase(forms_.begin() + static_cast<std::ptrdiff_t>(place));
+void BlockCrossValidation::drop(std::size_t place) {
+  terms_.erase(terms_.begin() + static_cast<std::ptrdiff_t>(place));
   own_.erase(own_.begin() + static_cast<std::ptrdiff_t>(place));
 }
 
-double FormsHeldOut::density_of(const std::vector<int>& forms) const {
+double BlockCrossValidation::log_predictive_density_of(const std::vector<int>& terms) const {
   std::vector<Index> which = basis_;
   for (std::size_t i = 0; i < own_.size(); ++i) {
-    if (std::find(forms.begin(), forms.end(), forms_[i]) == forms.end()) continue;
+    if (std::find(terms.begin(), terms.end(), terms_[i]) == terms.end()) continue;
     which.insert(which.end(), own_[i].begin(), own_[i].end());
   }
-  return held_.density(which);
+  return fit_.log_predictive_density(which);
 }
 
-std::vector<Index> FormsHeldOut::all_but(std::size_t without) const {
+std::vector<Index> BlockCrossValidation::all_but(std::size_t without) const {
   std::vector<Index> which = basis_;
   for (std::size_t i = 0; i < own_.size(); ++i) {
     if (i != without) which.insert(which.end(), own_[i].begin(), own_[i].end());
@@ -68,4 +69,4 @@ std::vector<Index> FormsHeldOut::all_but(std::size_t without) const {
   return which;
 }
 
-}  // namespace bathyal
+}  // namespace bathyal::selection

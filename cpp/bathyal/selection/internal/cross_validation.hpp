@@ -7,43 +7,45 @@
 #include "bathyal/selection/internal/fold_least_squares.hpp"
 #include "bathyal/selection/working_point.hpp"
 
-namespace bathyal {
+namespace bathyal::selection {
 
-/// Forms beside the base model, by what they foretell of rows that they have not seen. Forms are
-/// told by their places in `forms()`; those that the base model swallows are none of them.
-class FormsHeldOut {
+/// Block cross-validation of terms given the base model. Terms are numbered by their position in
+/// `terms()`; those that are collinear with the base model are left out.
+class BlockCrossValidation {
  public:
   static constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
 
-  /// `vantage` and `blocks` must outlive it, and the subject must stay where it stands.
-  FormsHeldOut(const Vantage& vantage, const std::vector<int>& forms, const Blocks& blocks);
-  FormsHeldOut(const FormsHeldOut&) = delete;
-  FormsHeldOut& operator=(const FormsHeldOut&) = delete;
+  /// `working_point` and `folds` must outlive it, and the model must not be fitted meanwhile.
+  BlockCrossValidation(const WorkingPoint& working_point, const std::vector<int>& terms,
+                       const Folds& folds);
+  BlockCrossValidation(const BlockCrossValidation&) = delete;
+  BlockCrossValidation& operator=(const BlockCrossValidation&) = delete;
 
-  const std::vector<int>& forms() const { return forms_; }
+  const std::vector<int>& terms() const { return terms_; }
   void drop(std::size_t place);
 
-  // Of all forms, or of all but one.
-  double density(std::size_t without = kNone) const { return held_.density(all_but(without)); }
-  double squares(std::size_t without = kNone) const {
-    return held_.squares(all_but(without)).sum();
+  // Of all terms, or of all but one.
+  double log_predictive_density(std::size_t without = kNone) const {
+    return fit_.log_predictive_density(all_but(without));
   }
-  /// Of those of `forms` that it has.
-  double density_of(const std::vector<int>& forms) const;
-  HeldOutErrors errors() const { return held_.errors(all_but(kNone)); }
-  HeldOutErrors errors_of_base() const { return held_.errors(basis_); }
-  double rows() const { return held_.rows(); }
+  double press(std::size_t without = kNone) const { return fit_.press(all_but(without)).sum(); }
+  /// Of those of `terms` that it has.
+  double log_predictive_density_of(const std::vector<int>& terms) const;
+  HeldOutErrors errors() const { return fit_.errors(all_but(kNone)); }
+  HeldOutErrors errors_of_base() const { return fit_.errors(basis_); }
+  double rows() const { return fit_.rows(); }
 
  private:
-  FormsHeldOut(const Vantage& vantage, const Pool& pool, const Blocks& blocks);
+  BlockCrossValidation(const WorkingPoint& working_point, const CandidateSet& candidates,
+                       const Folds& folds);
   std::vector<Index> all_but(std::size_t without) const;
 
   Eigen::MatrixXd columns_;
-  Eigen::VectorXd held_by_;
-  HoldOut held_;
+  Eigen::VectorXd prior_precision_;
+  FoldLeastSquares fit_;
   std::vector<Index> basis_;
-  std::vector<int> forms_;
+  std::vector<int> terms_;
   std::vector<std::vector<Index>> own_;  ///< columns of each
 };
 
-}  // namespace bathyal
+}  // namespace bathyal::selection

@@ -6,57 +6,57 @@
 #include "bathyal/selection/folds.hpp"
 #include "bathyal/selection/model.hpp"
 
-namespace bathyal {
+namespace bathyal::selection {
 
-/// Errors of rows that were foretold by a fit to the other blocks.
+/// Prediction errors of held-out rows.
 struct HeldOutErrors {
-  Eigen::VectorXd error;     ///< (M,) in units of noise; 0 of rows that are never held out
-  Eigen::VectorXd of_block;  ///< (blocks,) sum of their squares
+  Eigen::VectorXd error;    ///< (M,) in units of noise; 0 of rows that are never held out
+  Eigen::VectorXd by_fold;  ///< (folds,) sum of their squares
 };
 
-/// Least squares of a misfit by columns, once for each block left out: by inner products, so that
-/// any choice of the columns is asked without looking at the rows again. A column that a block
-/// alone tells stays at 0 when it is left out. Where units share something that the rows are told
-/// about (a touched point), a block that holds all of them is foretold as it is.
-class HoldOut {
+/// Least squares of a residual on columns, once for each fold held out: from Gram matrices, so that
+/// any choice of columns is evaluated without a pass over the rows. A column that is determined by
+/// one fold alone is 0 when that fold is held out. A column for an unknown that observations share
+/// (a touched point) then predicts nothing of a fold that has all of them.
+class FoldLeastSquares {
  public:
-  /// All but `held_by` must outlive it: (columns,) 1 / variance of values before the data.
+  /// All but `prior_precision`, (columns,), must outlive it.
   /// \pre columns are of length 1
-  HoldOut(const Eigen::VectorXd& misfit, const Eigen::MatrixXd& columns,
-          const Eigen::VectorXd& held_by, const std::vector<int>& unit, const Blocks& blocks,
-          int num_threads);
+  FoldLeastSquares(const Eigen::VectorXd& residual, const Eigen::MatrixXd& columns,
+                   const Eigen::VectorXd& prior_precision, const std::vector<int>& observation,
+                   const Folds& folds, int num_threads);
 
-  /// (blocks,) sums of squared errors by the columns `which`.
-  Eigen::VectorXd squares(const std::vector<Index>& which) const;
-  /// ln of how likely the blocks are by what the others foretell, noise of 1 and the uncertainty of
-  /// the values counted, but for what all choices of columns have in common. A block beyond what
-  /// the others cover is foretold badly, and is known to be: squares alone would blame the columns.
-  double density(const std::vector<Index>& which) const;
+  /// (folds,) predicted residual sums of squares with the columns `which`.
+  Eigen::VectorXd press(const std::vector<Index>& which) const;
+  /// Log predictive density of the folds, each given the others, for unit noise and with the
+  /// uncertainty of the values, up to a constant common to all choices of columns. Where a fold
+  /// extrapolates, large errors are expected and weigh less, which PRESS alone ignores.
+  double log_predictive_density(const std::vector<Index>& which) const;
   /// The errors themselves.
   HeldOutErrors errors(const std::vector<Index>& which) const;
-  double rows() const { return held_; }
+  double rows() const { return rows_held_out_; }
 
  private:
-  /// Inner products of all blocks but one.
+  /// The fit to all folds but one.
   struct Others {
     Eigen::LLT<Eigen::MatrixXd> root;
     Eigen::VectorXd values;
   };
-  Others others(const std::vector<Index>& which, std::size_t block) const;
-  double squares_of(const std::vector<Index>& which, const Eigen::VectorXd& values,
-                    std::size_t block) const;
+  Others others(const std::vector<Index>& which, std::size_t fold) const;
+  double fold_press(const std::vector<Index>& which, const Eigen::VectorXd& values,
+                    std::size_t fold) const;
 
-  const Eigen::VectorXd& misfit_;
+  const Eigen::VectorXd& residual_;
   const Eigen::MatrixXd& columns_;
   int num_threads_;
-  double held_ = 0.0;
-  std::vector<std::vector<Index>> rows_;  ///< of each block
-  Eigen::MatrixXd square_;                ///< of [columns misfit], all rows
-  std::vector<Eigen::MatrixXd> squares_;  ///< of each block
+  double rows_held_out_ = 0.0;
+  std::vector<std::vector<Index>> rows_;       ///< of each fold
+  Eigen::MatrixXd square_;                     ///< Gram matrix of [columns residual], all rows
+  std::vector<Eigen::MatrixXd> fold_squares_;  ///< of each fold
 };
 
-/// Probability that gains (one of each block) as large would come of signs thrown at random: all of
-/// them are tried up to 16 blocks, and 65536 of more.
+/// p-value of gains (one of each fold) under random signs: all sign patterns are enumerated for up
+/// to 16 folds, and 65536 are drawn for more.
 double sign_flip_p(const Eigen::VectorXd& gains);
 
-}  // namespace bathyal
+}  // namespace bathyal::selection

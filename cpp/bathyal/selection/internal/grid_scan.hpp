@@ -5,24 +5,24 @@
 
 #include "bathyal/selection/model.hpp"
 
-namespace bathyal {
+namespace bathyal::selection {
 
-/// A form and what it would add: the log evidence of Pool::judge, without ln(trials).
-struct ScannedForm {
-  int form = 0;
+/// A term and its gain: the log evidence of CandidateSet::evaluate, without ln(multiplicity).
+struct ScannedTerm {
+  int term = 0;
   double gain = 0.0;       ///< in log evidence
   double explained = 0.0;  ///< sum of squares
   double width = 0.0;      ///< columns
 };
 
-/// What each of `forms` adds to a model that `basis` (orthonormal) spans, in their order. Columns
-/// are made a few at a time: memory does not grow with the number of forms.
-std::vector<ScannedForm> scan(const Subject& subject, const std::vector<int>& forms,
-                              const Eigen::MatrixXd& basis, const Eigen::VectorXd& misfit,
-                              double freedom, int num_threads);
+/// The gain of each of `terms`, in their order, given a model with the orthonormal `basis`. Columns
+/// are made a few at a time: memory does not grow with the number of terms.
+std::vector<ScannedTerm> scan(const Model& model, const std::vector<int>& terms,
+                              const Eigen::MatrixXd& basis, const Eigen::VectorXd& residual,
+                              double dof, int num_threads);
 
-/// The best `count` of a family whose forms stand in the order of one number: only peaks, since the
-/// neighbours of a peak say the same.
-std::vector<int> peaks(const std::vector<ScannedForm>& family, int count);
+/// The best `count` local maxima of a family of terms ordered by one setting: the neighbours of a
+/// maximum describe the same.
+std::vector<int> peaks(const std::vector<ScannedTerm>& family, int count);
 
-}  // namespace bathyal
+}  // namespace bathyal::selection

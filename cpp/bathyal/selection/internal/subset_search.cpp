@@ -11,11 +11,11 @@
 
 #include "bathyal/base/parallel.hpp"
 
-namespace bathyal {
+namespace bathyal::selection {
 namespace {
 
 struct Scored {
-  std::vector<int> members;  ///< rising
+  std::vector<int> members;  ///< ascending
   double score;
 };
 
@@ -29,7 +29,7 @@ std::vector<int> without(std::vector<int> members, std::size_t place) {
   return members;
 }
 
-/// Members by falling quick score, at most `count`; those that are impossible never.
+/// The `count` members of highest approximate score; never those that cannot be added.
 std::vector<int> best_of(const Eigen::VectorXd& scores, int count) {
   std::vector<int> order;
   for (int m = 0; m < static_cast<int>(scores.size()); ++m) {
@@ -45,47 +45,47 @@ std::vector<int> best_of(const Eigen::VectorXd& scores, int count) {
   return order;
 }
 
-/// Sets that are kept: causes hide each other where there are few; where there are many the next
-/// one is plain.
-std::size_t beam_of(std::size_t members) { return members < 4 ? 8 : members < 8 ? 3 : 1; }
+/// Beam width: terms mask each other in small sets; in large ones the next one is clear.
+std::size_t beam_width(std::size_t members) { return members < 4 ? 8 : members < 8 ? 3 : 1; }
 
-/// Sets one larger than those of `beam`, the best first.
-std::vector<Scored> grown(const Pool& pool, const std::vector<Scored>& beam,
-                          const SetSearchOptions& options) {
+/// Sets one member larger than those of `beam`, the best first.
+std::vector<Scored> extended(const CandidateSet& candidates, const std::vector<Scored>& beam,
+                             const SetSearchOptions& options) {
   std::vector<Scored> out;
   std::set<std::vector<int>> seen;
   for (const Scored& base : beam) {
-    for (const int m : best_of(pool.scores_beside(base.members), options.extensions)) {
+    for (const int m : best_of(candidates.forward_scores(base.members), options.extensions)) {
       std::vector<int> members = with(base.members, m);
       if (!seen.insert(members).second) continue;
-      if (const auto fit = pool.judge(members)) out.push_back({std::move(members), fit->score});
+      if (const auto fit = candidates.evaluate(members))
+        out.push_back({std::move(members), fit->score});
     }
   }
   std::stable_sort(out.begin(), out.end(),
                    [](const Scored& a, const Scored& b) { return a.score > b.score; });
-  if (out.size() > beam_of(beam.front().members.size())) {
-    out.erase(out.begin() + static_cast<std::ptrdiff_t>(beam_of(beam.front().members.size())),
+  if (out.size() > beam_width(beam.front().members.size())) {
+    out.erase(out.begin() + static_cast<std::ptrdiff_t>(beam_width(beam.front().members.size())),
               out.end());
   }
   return out;
 }
 
-/// Rivals less likely than e to minus this are not told.
-constexpr double kLeastOdds = 20.0;
-constexpr int kAskedOfCause = 3;  ///< forms of one cause that are judged in a member's place
+/// Alternatives less likely than e to minus this are not reported.
+constexpr double kMaxLogOddsDeficit = 20.0;
+constexpr int kAskedOfAliasGroup = 3;  ///< terms of a group that are evaluated in a member's place
 
-/// What a quick score may lack of the true one: others' costs change with a member.
+/// By how much an approximate score may be too low: a member changes the others' penalties.
 constexpr double kQuickScoreLacks = 6.0;
 
-/// The best one that `scores` (of additions to `base`) promise to be better than `best`.
-Scored better_of(const Pool& pool, const std::vector<int>& base, Scored best,
-                 const SetSearchOptions& options) {
-  const Eigen::VectorXd scores = pool.scores_beside(base);
+/// The best addition to `base`, or `best` where none exceeds it.
+Scored best_addition(const CandidateSet& candidates, const std::vector<int>& base, Scored best,
+                     const SetSearchOptions& options) {
+  const Eigen::VectorXd scores = candidates.forward_scores(base);
   std::vector<int> asked = best_of(scores, options.extensions);
   std::erase_if(asked, [&](int m) { return scores[m] < best.score - kQuickScoreLacks; });
   std::vector<std::optional<SetFit>> fits(asked.size());
-  parallel_for(asked.size(), 1, pool.num_threads(), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k) fits[k] = pool.judge(with(base, asked[k]));
+  parallel_for(asked.size(), 1, candidates.num_threads(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) fits[k] = candidates.evaluate(with(base, asked[k]));
   });
   for (std::size_t k = 0; k < asked.size(); ++k) {
     if (fits[k] && fits[k]->score > best.score) best = {with(base, asked[k]), fits[k]->score};
@@ -93,126 +93,136 @@ Scored better_of(const Pool& pool, const std::vector<int>& base, Scored best,
   return best;
 }
 
-/// The best exchange of one member for another, where one is better than `best`.
-Scored exchanged(const Pool& pool, const std::vector<int>& members, Scored best,
-                 const SetSearchOptions& options) {
-  const Eigen::MatrixXd scores = pool.scores_instead(members);
+/// The best exchange of one member for a candidate, or `best` where none exceeds it.
+Scored best_exchange(const CandidateSet& candidates, const std::vector<int>& members, Scored best,
+                     const SetSearchOptions& options) {
+  const Eigen::MatrixXd scores = candidates.exchange_scores(members);
   const double promising = best.score - kQuickScoreLacks;
-  std::vector<std::pair<double, std::vector<int>>> worth;
+  std::vector<std::pair<double, std::vector<int>>> trials_of_exchange;
   for (std::size_t i = 0; i < members.size(); ++i) {
     const Eigen::VectorXd own = scores.row(static_cast<Index>(i));
     for (const int m : best_of(own, options.extensions)) {
       if (own[m] < promising) break;
-      worth.emplace_back(-own[m], with(without(members, i), m));
+      trials_of_exchange.emplace_back(-own[m], with(without(members, i), m));
     }
   }
-  std::stable_sort(worth.begin(), worth.end());
-  if (worth.size() > options.exchanges) worth.resize(options.exchanges);
-  std::vector<std::optional<SetFit>> fits(worth.size());
-  parallel_for(worth.size(), 1, pool.num_threads(), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k) fits[k] = pool.judge(worth[k].second);
-  });
-  for (std::size_t k = 0; k < worth.size(); ++k) {
-    if (fits[k] && fits[k]->score > best.score) best = {worth[k].second, fits[k]->score};
+  std::stable_sort(trials_of_exchange.begin(), trials_of_exchange.end());
+  if (trials_of_exchange.size() > options.exchanges) trials_of_exchange.resize(options.exchanges);
+  std::vector<std::optional<SetFit>> fits(trials_of_exchange.size());
+  parallel_for(trials_of_exchange.size(), 1, candidates.num_threads(),
+               [&](std::size_t begin, std::size_t end) {
+                 for (std::size_t k = begin; k < end; ++k)
+                   fits[k] = candidates.evaluate(trials_of_exchange[k].second);
+               });
+  for (std::size_t k = 0; k < trials_of_exchange.size(); ++k) {
+    if (fits[k] && fits[k]->score > best.score)
+      best = {trials_of_exchange[k].second, fits[k]->score};
   }
   return best;
 }
 
-/// The best set that differs by one member: added, where that helps; else dropped or exchanged.
-Scored improved(const Pool& pool, const Scored& now, const SetSearchOptions& options) {
-  if (static_cast<int>(now.members.size()) < options.most) {
-    Scored larger = better_of(pool, now.members, now, options);
+/// The best set one step away: an addition where one helps; else a removal or an exchange.
+Scored best_step(const CandidateSet& candidates, const Scored& now,
+                 const SetSearchOptions& options) {
+  if (static_cast<int>(now.members.size()) < options.max_members) {
+    Scored larger = best_addition(candidates, now.members, now, options);
     if (larger.score > now.score) return larger;
   }
   Scored best = now;
-  std::map<std::string, int> causes;
-  const auto whole = pool.judge(now.members);
+  std::map<std::string, int> alias_groups;
+  const auto whole = candidates.evaluate(now.members);
   for (std::size_t i = 0; i < now.members.size(); ++i) {
-    ++causes[pool.about(now.members[i]).cause];
-    if (pool.worth(now.members, *whole, i) > kQuickScoreLacks) continue;
+    ++alias_groups[candidates.term(now.members[i]).alias_group];
+    if (candidates.marginal_score(now.members, *whole, i) > kQuickScoreLacks) continue;
     std::vector<int> rest = without(now.members, i);
-    const auto fit = pool.judge(rest);
+    const auto fit = candidates.evaluate(rest);
     if (fit && fit->score > best.score) best = {std::move(rest), fit->score};
   }
-  best = exchanged(pool, now.members, std::move(best), options);
-  // One wide member may be all that several of its cause are, and fits none of them beside it.
-  for (const auto& [cause, count] : causes) {
+  best = best_exchange(candidates, now.members, std::move(best), options);
+  // One wide member may span several of its alias group, and can be added to none of them.
+  for (const auto& [alias_group, count] : alias_groups) {
     if (count < 2) continue;
     std::vector<int> without_kin = now.members;
-    std::erase_if(without_kin, [&, &kin = cause](int m) { return pool.about(m).cause == kin; });
-    best = better_of(pool, without_kin, std::move(best), options);
+    std::erase_if(without_kin,
+                  [&, &kin = alias_group](int m) { return candidates.term(m).alias_group == kin; });
+    best = best_addition(candidates, without_kin, std::move(best), options);
   }
   return best;
 }
 
-/// The members that can stand together: where one is made of those before it, it goes.
-Scored independent_of(const Pool& pool, const std::vector<int>& members) {
-  if (const auto all = pool.judge(members)) return {members, all->score};
-  Scored out{{}, pool.judge({})->score};
+/// An independent subset: members that are collinear with those before them are dropped.
+Scored independent_subset(const CandidateSet& candidates, const std::vector<int>& members) {
+  if (const auto all = candidates.evaluate(members)) return {members, all->score};
+  Scored out{{}, candidates.evaluate({})->score};
   for (const int m : members) {
     std::vector<int> longer = with(out.members, m);
-    if (const auto fit = pool.judge(longer)) out = {std::move(longer), fit->score};
+    if (const auto fit = candidates.evaluate(longer)) out = {std::move(longer), fit->score};
   }
   return out;
 }
 
 }  // namespace
 
-std::vector<int> improve_set(const Pool& pool, std::vector<int> start,
-                             const SetSearchOptions& options) {
+std::vector<int> stepwise_search(const CandidateSet& candidates, std::vector<int> start,
+                                 const SetSearchOptions& options) {
   std::sort(start.begin(), start.end());
-  Scored best = independent_of(pool, start);
+  Scored best = independent_subset(candidates, start);
   for (;;) {
-    Scored next = improved(pool, best, options);
+    Scored next = best_step(candidates, best, options);
     if (!(next.score > best.score)) return best.members;
     best = std::move(next);
   }
 }
 
-std::vector<int> find_best_set(const Pool& pool, const SetSearchOptions& options) {
-  Scored best{{}, pool.judge({})->score};
+std::vector<int> beam_search(const CandidateSet& candidates, const SetSearchOptions& options) {
+  Scored best{{}, candidates.evaluate({})->score};
   std::vector<Scored> beam{best};
-  // Two causes may hide each other: one size may be worse than the last before the next is better.
+  // Two terms may mask each other: one size may be worse than the last before the next is better.
   int worse = 0;
-  for (int size = 1; size <= options.most && !beam.empty() && worse < 2; ++size) {
-    beam = grown(pool, beam, options);
+  for (int size = 1; size <= options.max_members && !beam.empty() && worse < 2; ++size) {
+    beam = extended(candidates, beam, options);
     if (beam.empty()) break;
     worse = beam.front().score > best.score ? 0 : worse + 1;
     if (worse == 0) best = beam.front();
   }
-  return improve_set(pool, best.members, options);
+  return stepwise_search(candidates, best.members, options);
 }
 
-std::vector<Rival> find_rivals(const Pool& pool, const std::vector<int>& set) {
-  std::vector<Rival> out;
-  const auto all = pool.judge(set);
-  const Eigen::MatrixXd quick = pool.scores_instead(set);
-  const auto trials = [&](int m) { return std::log(pool.about(m).trials); };
+std::vector<Alternative> find_alternatives(const CandidateSet& candidates,
+                                           const std::vector<int>& set) {
+  std::vector<Alternative> out;
+  const auto all = candidates.evaluate(set);
+  const Eigen::MatrixXd quick = candidates.exchange_scores(set);
+  const auto multiplicity = [&](int m) { return std::log(candidates.term(m).multiplicity); };
   for (std::size_t i = 0; i < set.size(); ++i) {
     const std::vector<int> rest = without(set, i);
-    const double own = all->score + trials(set[i]);
-    std::map<std::string, Rival> best_of_cause;
+    const double own = all->score + multiplicity(set[i]);
+    std::map<std::string, Alternative> best_of_alias_group;
     const Eigen::VectorXd scores = quick.row(static_cast<Index>(i));
     std::map<std::string, int> asked;
-    for (const int m : best_of(scores, pool.size())) {
-      if (scores[m] + trials(m) < own - kLeastOdds) continue;
-      const std::string& cause = pool.about(m).cause;
-      if (cause == pool.about(set[i]).cause || ++asked[cause] > kAskedOfCause) continue;
-      const auto fit = pool.judge(with(rest, m));
+    for (const int m : best_of(scores, candidates.size())) {
+      if (scores[m] + multiplicity(m) < own - kMaxLogOddsDeficit) continue;
+      const std::string& alias_group = candidates.term(m).alias_group;
+      if (alias_group == candidates.term(set[i]).alias_group ||
+          ++asked[alias_group] > kAskedOfAliasGroup)
+        continue;
+      const auto fit = candidates.evaluate(with(rest, m));
       if (!fit) continue;
-      // What helps as much beside the member as in its place stands for something else.
-      const auto both = pool.judge(with(set, m));
-      const double best = std::max(own, both ? both->score + trials(m) + trials(set[i]) : own);
-      const Rival rival{set[i], m, std::exp(std::min(fit->score + trials(m) - best, 0.0))};
-      const auto [place, fresh] = best_of_cause.emplace(cause, rival);
-      if (!fresh && rival.odds > place->second.odds) place->second = rival;
+      // What helps as much in addition to the member as in its place explains something else.
+      const auto both = candidates.evaluate(with(set, m));
+      const double best =
+          std::max(own, both ? both->score + multiplicity(m) + multiplicity(set[i]) : own);
+      const Alternative alternative{set[i], m,
+                                    std::exp(std::min(fit->score + multiplicity(m) - best, 0.0))};
+      const auto [place, fresh] = best_of_alias_group.emplace(alias_group, alternative);
+      if (!fresh && alternative.odds > place->second.odds) place->second = alternative;
     }
     const std::size_t first = out.size();
-    for (const auto& [cause, rival] : best_of_cause) out.push_back(rival);
+    for (const auto& [alias_group, alternative] : best_of_alias_group) out.push_back(alternative);
     std::stable_sort(out.begin() + static_cast<std::ptrdiff_t>(first), out.end(),
-                     [](const Rival& a, const Rival& b) { return a.odds > b.odds; });
+                     [](const Alternative& a, const Alternative& b) { return a.odds > b.odds; });
   }
   return out;
 }
 
-}  // namespace bathyal
+}  // namespace bathyal::selection

@@ -5,32 +5,32 @@
 
 #include "bathyal/selection/candidate_set.hpp"
 
-namespace bathyal {
+namespace bathyal::selection {
 
-/// A member of the best set, and what could stand in its place.
-struct Rival {
-  int member = 0;     ///< of the set
-  int instead = 0;    ///< another cause
-  double odds = 0.0;  ///< likelihood with it, freedom counted, against that of the set
+/// A member of the best set, and a candidate that could take its place.
+struct Alternative {
+  int member = 0;       ///< of the set
+  int replacement = 0;  ///< of another alias group
+  double odds = 0.0;    ///< likelihood ratio to the set, complexity penalized
 };
 
 struct SetSearchOptions {
-  int extensions = 12;         ///< of a set, by their quick score, that are judged
+  int extensions = 12;         ///< of a set, by approximate score, that are evaluated
   std::size_t exchanges = 48;  ///< of a set, the same
-  int most = 48;               ///< members
+  int max_members = 48;        ///< members
 };
 
-/// The best set of a pool's candidates by Pool::judge: sets grow by one, the best of each size are
-/// kept (a beam, wide while sets are small), then the best of all is improved by adding, dropping
-/// and exchanging members until nothing helps.
-std::vector<int> find_best_set(const Pool& pool, const SetSearchOptions& options = {});
+/// The best subset by CandidateSet::evaluate: a beam search over growing sets (wide while they are
+/// small), then stepwise search from the best of all sizes.
+std::vector<int> beam_search(const CandidateSet& candidates, const SetSearchOptions& options = {});
 
-/// The second half of it alone, from `start`.
-std::vector<int> improve_set(const Pool& pool, std::vector<int> start,
-                             const SetSearchOptions& options = {});
+/// Adds, drops and exchanges members of `start` until no step improves the score.
+std::vector<int> stepwise_search(const CandidateSet& candidates, std::vector<int> start,
+                                 const SetSearchOptions& options = {});
 
-/// The best one of each other cause in each member's place, likeliest first. Odds leave out how
-/// many forms were tried: two that explain the same are told apart by none of that.
-std::vector<Rival> find_rivals(const Pool& pool, const std::vector<int>& set);
+/// The best candidate of each other alias group in each member's place, most likely first. Odds
+/// leave out multiplicity, which cannot distinguish two terms that explain the same.
+std::vector<Alternative> find_alternatives(const CandidateSet& candidates,
+                                           const std::vector<int>& set);
 
-}  // namespace bathyal
+}  // namespace bathyal::selection

@@ -31,7 +31,7 @@ std::unique_ptr<ByteSource> open_file(const std::filesystem::path& path);
 /// `bytes` must outlive the source.
 std::unique_ptr<ByteSource> open_memory(std::string_view bytes);
 
-/// Text as it may stand in a message: valid UTF-8 as it is, anything else as \xNN, and no more than
+/// Text fit for a message: valid UTF-8 as it is, anything else as \xNN, and no more than
 /// `limit` bytes of it.
 std::string printable(std::string_view text, std::size_t limit = 60);
 

@@ -61,10 +61,8 @@ void warn_of_unknowns(const TouchPlan& plan, const PlanTouchesOptions& options,
     std::string text = "These touches do not determine " +
                        counted(static_cast<long>(forecast.null_space.size()), "combination") +
                        " of the arm's parameters; the priors determine ";
-    for (std::size_t i = 0; i < forecast.null_space.size(); ++i) {
-      // A description begins with its leading parameter.
-      text += (i == 0 ? "" : ", ") +
-              forecast.null_space[i].substr(0, forecast.null_space[i].find(" +1"));
+    for (std::size_t i = 0; i < forecast.null_space_leading.size(); ++i) {
+      text += (i == 0 ? "" : ", ") + forecast.null_space_leading[i];
     }
     out.push_back(text + ", each together with others.");
   }

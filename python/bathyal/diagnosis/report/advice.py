@@ -3,19 +3,18 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from bathyal._core import Touches
 from bathyal.diagnosis.report.numbers import odds_text
-from bathyal.diagnosis.report.quantities import against_text
 from bathyal.view.text import counted, listed, upper
 
 if TYPE_CHECKING:
     from bathyal._core import Diagnosis
 
-_NEAR = 0.1  # odds of a rival that is worth a word
+_NEAR = 0.1  # odds from which an alternative is mentioned
 # What data without a covariate cannot show.
 _BLIND = {
     "temperature": "growth with temperature",
@@ -35,8 +34,8 @@ def _after_named(report: Diagnosis) -> list[str]:
     near = [(effect, rival) for effect in report.effects for rival in effect.rivals
             if rival.odds >= _NEAR]  # fmt: skip
     steps = [
-        "Use the corrected arm (report.model) within the range of joints that taught it, and check "
-        "it on a dozen poses that were no part of this."
+        "Use the corrected arm (report.model) within the range of joints of the data, and check it "
+        "on a dozen poses that were not used."
     ]
     for effect, rival in near[:1]:
         steps.append(
@@ -56,16 +55,14 @@ def _after_clean(report: Diagnosis) -> list[str]:
 
 def _after_ambiguous(report: Diagnosis) -> list[str]:
     what = _next_poses(report) or (
-        "No pose would tell them apart: record more beside the joints, or in another order."
+        "No pose distinguishes them: record more covariates, or measure in another order."
     )
-    return [what, "Until then any of them corrects the arm alike where the data lie, and nowhere "
-            "else.", _to_record(report)]  # fmt: skip
+    return [what, "Until then any of them corrects the arm alike within the range of the data, and "
+            "nowhere else.", _to_record(report)]  # fmt: skip
 
 
 def _after_unknown(report: Diagnosis) -> list[str]:
-    left = report.leftover
-    against = against_text(left) if left is not None else ""
-    where = _where_to_look(against)
+    where = _where_to_look(report.leftover)
     return [
         _to_record(report) or where,
         where if _to_record(report) else "",
@@ -93,32 +90,40 @@ _NEXT = {
 }
 
 
-def _where_to_look(against: str) -> str:
-    if against.startswith("time"):
+def _where_to_look(structure: Any) -> str:
+    """The next step where a structure is unexplained, by what it depends on."""
+    if structure.kind == "joints":
+        joints = "these" if len(structure.coordinates) > 1 else "that joint"
         return (
-            "It goes with time: look for what runs in that rhythm (a pump, a machine, the sun), "
-            "and measure the same poses again at another hour."
+            f"The residuals depend on {structure.against}: sweep {joints} in small steps, up and "
+            "down, with the others still, and plot them."
         )
-    if against.startswith("the order of the rows"):
-        return "It goes with the order of the rows: record the time, and measure in another order."
-    if against.startswith("the last move"):
-        return (
-            "It goes with the side from which a joint came: record `direction`, and approach each "
-            "pose from both sides."
-        )
-    if against.startswith("position"):
-        return (
-            "It goes with the place: check the instrument's own field with a body of known size, "
-            "or measure the same places from another station."
-        )
-    if against.startswith("session"):
-        return "It goes with the session: find what was changed between them, and repeat one pose."
-    if against.startswith("joint"):
-        return (
-            f"It goes with {against}: sweep {'these' if 'and' in against else 'that joint'} in "
-            "small steps, up and down, with the others still, and look at the curve."
-        )
-    return "Repeat a few poses, each approached from both sides, and see what changes."
+    return _BY_KIND.get(structure.kind, _WITHOUT_A_CLUE)
+
+
+_BY_KIND = {
+    "time": (
+        "The residuals depend on time: look for what runs with that period (a pump, a machine, the "
+        "sun), and measure the same poses again at another hour."
+    ),
+    "order": (
+        "The residuals depend on the order of the rows: record the time, and measure in another "
+        "order."
+    ),
+    "approach": (
+        "The residuals depend on the side from which a joint came: record `direction`, and "
+        "approach each pose from both sides."
+    ),
+    "position": (
+        "The residuals depend on the position: check the instrument's own field with a body of "
+        "known size, or measure the same positions from another station."
+    ),
+    "session": (
+        "The residuals depend on the session: find what was changed between sessions, and repeat "
+        "one pose."
+    ),
+}
+_WITHOUT_A_CLUE = "Repeat a few poses, each approached from both sides, and see what changes."
 
 
 def _next_poses(report: Diagnosis) -> str:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The causes on the page of a diagnosis: a card each, with numbers, evidence and rivals."""
+"""The causes on the page of a diagnosis: a card each, with numbers, evidence and alternatives."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from bathyal.diagnosis.report.text import amplitude_text, groups_of, is_of_noise
 if TYPE_CHECKING:
     from bathyal._core import Diagnosis
 
-_FAR = 1e-3  # odds of rivals that are not listed
+_FAR = 1e-3  # odds of alternatives that are not listed
 _MOST_OUTLIERS = 200
 
 
@@ -39,8 +39,8 @@ def causes_of(report: Diagnosis) -> str:
             else "Nothing in the library explains it."  # fmt: skip
         parts.append(f"<p>{partial}</p>")
     if report.ambiguous:
-        parts.append("<p>The data cannot tell apart:</p>")
-        parts += [f"<div class='card'>{_rivals(group)}</div>" for group in groups_of(report)]
+        parts.append("<p>The data do not distinguish:</p>")
+        parts += [f"<div class='card'>{_alternatives(group)}</div>" for group in groups_of(report)]
     parts += [_card(effect) for effect in report.effects]
     return "".join(parts)
 
@@ -48,8 +48,8 @@ def causes_of(report: Diagnosis) -> str:
 def _card(effect: Any) -> str:
     """A cause: its numbers to the left, the evidence to the right."""
     numbers_of = effect.parameters.items()
-    told = [setting_text(name, float(one.value)) for name, one in numbers_of if is_setting(one)]
-    settings = [text for text in told if text]
+    texts = [setting_text(name, float(one.value)) for name, one in numbers_of if is_setting(one)]
+    settings = [text for text in texts if text]
     amplitude = amplitude_text(effect)
     rows = [("amplitude", amplitude)] if amplitude else []
     rows += [
@@ -67,21 +67,22 @@ def _card(effect: Any) -> str:
     name = f"<code>{html.escape(effect.name)}</code>"
     form = f" · {html.escape(', '.join(settings))}" if settings else ""
     bar = "" if is_of_noise(effect) else _bar(effect.gain)
-    words = html.escape(effect.words[:1].upper() + effect.words[1:])
-    near = [rival for rival in effect.rivals if rival.odds >= _FAR]
-    rivals = "" if is_of_noise(effect) else "Rivals for what it explains:" if near else _far(effect)
+    heading = html.escape(effect.words[:1].upper() + effect.words[1:])
+    near = [other for other in effect.rivals if other.odds >= _FAR]
+    far = "Alternatives that explain the same:" if near else _far(effect)
+    note = "" if is_of_noise(effect) else far
     return (
-        f"<div class='card'><h3>{words}</h3><p class='small'>{name}{form}</p>"
+        f"<div class='card'><h3>{heading}</h3><p class='small'>{name}{form}</p>"
         f"{bar}<div class='sides'><div>{numbers}</div><div>{evidence}</div></div>"
-        f"<p class='small'>{html.escape(rivals)}</p>{_rivals(near)}</div>"
+        f"<p class='small'>{html.escape(note)}</p>{_alternatives(near)}</div>"
     )
 
 
 def _far(effect: Any) -> str:
     if not effect.rivals:
-        return "It has no rival."
-    best = max(effect.rivals, key=lambda rival: rival.odds)
-    return f"No rival comes near: the next best, {best.words}, has {odds_text(best.odds)}."
+        return "It has no alternative."
+    best = max(effect.rivals, key=lambda other: other.odds)
+    return f"No alternative comes near: the next best, {best.words}, has {odds_text(best.odds)}."
 
 
 def _bar(share: float) -> str:
@@ -104,7 +105,7 @@ def _evidence(effect: Any) -> str:
     )
 
 
-def _rivals(causes: Sequence[Any]) -> str:
+def _alternatives(causes: Sequence[Any]) -> str:
     if not causes:
         return ""
     rows = "".join(

@@ -39,7 +39,7 @@ if TYPE_CHECKING:
     from bathyal._core import Diagnosis
 
 MOST_CURVES = 12
-"""Curves that the page draws; the others stand in its table."""
+"""Curves that the page draws; its table lists the others."""
 VERDICT_SIGNS = {"clean": "✔", "named": "◆", "ambiguous": "≈", "unknown": "?", "none": "○"}
 """What says a verdict without colour."""
 _WIDE = 11.0  # in, of a picture on the page
@@ -65,7 +65,7 @@ _MOST_LINES = 16  # of the paragraph
 
 
 def show_figure(report: Diagnosis) -> Figure:
-    """Step one: what is left beside geometry alone, against all that could be asked; what is
+    """Step one: residuals of geometry alone against every recorded quantity; what is
     beyond noise is framed."""
     return _against_all(report, residuals_of(report, report.residuals_before), list(report.shown))
 
@@ -89,7 +89,7 @@ def pair_figure(report: Diagnosis) -> Figure | None:
     return figure
 
 
-def left_figure(report: Diagnosis) -> Figure | None:
+def residual_figure(report: Diagnosis) -> Figure | None:
     """The same with the causes taken out, on a scale of its own; None where none were."""
     if not report.effects and not report.ambiguous:
         return None
@@ -196,7 +196,7 @@ def _write(figure: Figure, top: float, paragraphs: Sequence[tuple[str, str]], mo
     for text, colour in paragraphs:
         lines = _wrapped(text, _LETTERS)
         if len(lines) > most:
-            lines = [*lines[: most - 1], "… the rest stands in report.html"]
+            lines = [*lines[: most - 1], "… the rest is in report.html"]
         figure.text(
             _LEFT, top, "\n".join(map(plain, lines)), va="top", fontsize=8, color=colour,
             linespacing=1.25,
@@ -212,7 +212,7 @@ def _wrapped(text: str, letters: int) -> list[str]:
 
 
 def _draw_sheet(figure: Figure, report: Diagnosis, top: float) -> None:
-    """Rows of pictures below the words: what is there, the curves, the gain."""
+    """Rows of pictures below the text: what is there, the curves, the gain."""
     curves = curves_of(report)[:_CURVES_ON_SHEET]
     residuals = residuals_of(report, report.residuals_before)
     known = quantities(report)
@@ -253,13 +253,13 @@ def _draw_sheet(figure: Figure, report: Diagnosis, top: float) -> None:
 def _write_evidence(
     figure: Figure, report: Diagnosis, curves: int, bottom: float, height: float
 ) -> None:
-    """Why these causes, beside their curves."""
+    """Why these causes, to the right of their curves."""
     left = _cell(curves, 3, bottom, height)[0]
     letters = int(_EVIDENCE_LETTERS * (3 - curves))
     lines = [line for text in evidence_texts(report) for line in _wrapped(text, letters)]
     most = int(height / _LINE) - 3
     if len(lines) > most:
-        lines = [*lines[: most - 1], "… the rest stands in report.html"]
+        lines = [*lines[: most - 1], "… the rest is in report.html"]
     figure.text(
         left, bottom + height - 0.023, "\n".join(map(plain, ["Why these", *lines])), va="top",
         fontsize=7.5, color=INK, linespacing=1.3,

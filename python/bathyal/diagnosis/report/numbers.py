@@ -23,8 +23,8 @@ _SHOWN = {
     "1/(N m²)": ("1/(MN m²)", 1e6),
     "kg rad/(N m)": ("kg °/(kN m)", 1e3 * math.degrees(1.0)),
 }
-_SHARES = ("scale", "ratio")  # plain numbers that are told in per cent
-_FEWEST_P = 1e-3  # smaller ones are told as smaller
+_SHARES = ("scale", "ratio")  # plain numbers that are shown in per cent
+_FEWEST_P = 1e-3  # smaller ones are shown as p < this
 _MOST_DIGITS = 12
 _NAMES = {"cos": "cosine", "sin": "sine"}
 
@@ -58,7 +58,7 @@ def chance_text(p: float) -> str:
 
 
 def odds_text(odds: float) -> str:
-    """What the odds of a rival come to: "12 to 1 against it"."""
+    """What the odds of an alternative come to: "12 to 1 against it"."""
     if not math.isfinite(odds):
         return "odds not known"
     if odds >= 0.67:
@@ -69,15 +69,15 @@ def odds_text(odds: float) -> str:
 
 
 def is_setting(estimate: Any) -> bool:
-    """Whether a parameter is a setting, which tells a form of an effect from others: it has no unit
+    """Whether a parameter is a setting, which selects a form of an effect: it has no unit
     and no interval."""
     return not estimate.unit
 
 
 def parameter_name(name: str) -> str:
     """ "shift x 2" of shift_x_2."""
-    words = name.split("_")
-    return " ".join([_NAMES.get(words[0], words[0]), *words[1:]])
+    parts = name.split("_")
+    return " ".join([_NAMES.get(parts[0], parts[0]), *parts[1:]])
 
 
 def setting_text(name: str, value: float) -> str:
@@ -118,17 +118,17 @@ def estimate_text(name: str, estimate: Any) -> str:
     if digits > _MOST_DIGITS:
         return f"{value:.3g}{spaced(unit)}".replace("-", "−")
     value, low, high = (round(x, digits) for x in (value, low, high))
-    told = [number(x, max(digits, 0)) for x in (value, low, high)]
-    return f"{told[0]}{spaced(unit)} ({told[1]} … {told[2]})"
+    texts = [number(x, max(digits, 0)) for x in (value, low, high)]
+    return f"{texts[0]}{spaced(unit)} ({texts[1]} … {texts[2]})"
 
 
 def spaced(unit: str) -> str:
-    """A unit as it stands behind its number."""
+    """A unit as it is written behind its number."""
     return unit if unit in ("°", "") else f" {unit}"
 
 
 def figures(value: float) -> str:
-    """Three of them, with a true minus, and powers of ten where a row of zeros would stand."""
+    """Three of them, with a true minus, and powers of ten where there would be a row of zeros."""
     if value != 0 and not 1e-3 <= abs(value) < 1e6:
         return f"{value:.2e}".replace("-", "−")
     if abs(value) >= 100 or value == 0:

@@ -23,8 +23,8 @@ from bathyal.diagnosis.report.figure import (
     curve_figure,
     curves_of,
     gain_figure,
-    left_figure,
     pair_figure,
+    residual_figure,
     show_figure,
     support_figure,
 )
@@ -34,7 +34,7 @@ from bathyal.diagnosis.report.numbers import (
     share_text,
 )
 from bathyal.diagnosis.report.panels import MOST_MARKS, MOST_PARTS
-from bathyal.diagnosis.report.quantities import against_text, supports
+from bathyal.diagnosis.report.quantities import supports
 from bathyal.diagnosis.report.style import PAGE
 from bathyal.diagnosis.report.text import (
     VERDICTS,
@@ -70,16 +70,16 @@ def write_page(
     title : str
         What was diagnosed.
     facts : mapping of str to str, optional
-        Lines for the box beside the words; `facts_of` unless given.
+        Lines for the box to the right of the text; `facts_of` unless given.
     step : callable, optional
         Called with the share that is done, 0 to 1, and what is being drawn.
     """
-    step = step or (lambda share, words: None)
+    step = step or (lambda share, text: None)
     drawings: dict[str, str] = {}
-    for place, (name, (words, draw)) in enumerate(_DRAWINGS.items()):
-        step(place / len(_DRAWINGS), f"Drawing {words}")
+    for place, (name, (caption, draw)) in enumerate(_DRAWINGS.items()):
+        step(place / len(_DRAWINGS), f"Drawing {caption}")
         figure = draw(report)
-        drawings[name] = "" if figure is None else _image(figure, words)
+        drawings[name] = "" if figure is None else _image(figure, caption)
     page = PAGE.format(
         title=html.escape(title or f"{report.fit.arm.name or 'An arm'}, {len(report.data):,} rows"),
         ink=INK,
@@ -87,10 +87,10 @@ def write_page(
         blue=AFTER,
         verdict=VERDICT_COLOURS[report.verdict],
         sign=VERDICT_SIGNS[report.verdict],
-        word=VERDICTS[report.verdict][0],
+        name=VERDICTS[report.verdict][0],
         headline=html.escape(_without_title(report)),
         tiles=_tiles(report),
-        words=html.escape(summary(report, warnings=False)),
+        found=html.escape(summary(report, warnings=False)),
         warnings="".join(f"<p>{html.escape(warning)}</p>" for warning in report.warnings),
         wanting="".join(f"<li>{html.escape(text)}</li>" for text in next_steps(report)),
         facts=_facts(facts_of(report) if facts is None else facts),
@@ -102,7 +102,7 @@ def write_page(
         beyond=_beyond(report),
         held=html.escape(_held(report)),
         parts=_parts(report),
-        left=_left(report),
+        residuals=_residuals(report),
         poses=_poses(report),
         **{f"{name}_picture": drawing for name, drawing in drawings.items()},
     )
@@ -121,11 +121,11 @@ _DRAWINGS: dict[str, tuple[str, Callable[[Any], Figure | None]]] = {
         support_figure,
     ),
     "gain": ("error on data held out, before and after", gain_figure),
-    "left": ("residuals with the causes taken out", left_figure),
+    "residuals": ("residuals with the causes taken out", residual_figure),
 }
 
 
-def _image(figure: Figure, words: str) -> str:
+def _image(figure: Figure, caption: str) -> str:
     """A drawing as an image inside the page: letters are outlines, so that no font is missing."""
     stream = io.BytesIO()
     with matplotlib.rc_context({"svg.hashsalt": "bathyal", "svg.fonttype": "path"}):
@@ -133,7 +133,7 @@ def _image(figure: Figure, words: str) -> str:
     code = base64.b64encode(stream.getvalue()).decode("ascii")
     wide = figure.get_figwidth() * 96
     return (
-        f"<img style='width:{wide:.0f}px' alt='{html.escape(words, quote=True)}' "
+        f"<img style='width:{wide:.0f}px' alt='{html.escape(caption, quote=True)}' "
         f"src='data:image/svg+xml;base64,{code}'>"
     )
 
@@ -165,14 +165,14 @@ def _tiles(report: Diagnosis) -> str:
         tiles += [
             (change, "error on data held out (3-D rms)"),
             (share_text(report.gain), "of the variance above noise is gone"),
-            (chance_text(held.p_value), "that this is luck"),
+            (chance_text(held.p_value), "p-value of the gain"),
         ]
     if report.verdict == "unknown" and report.leftover is not None:
         tiles.append((length_text(report.leftover.size), "per axis has no name"))
     tiles.append((length_text(report.noise), f"noise per axis, by {report.noise_source}"))
     return "".join(
-        f"<div><b>{html.escape(value)}</b><span>{html.escape(words)}</span></div>"
-        for value, words in tiles
+        f"<div><b>{html.escape(value)}</b><span>{html.escape(label)}</span></div>"
+        for value, label in tiles
     )
 
 
@@ -193,7 +193,7 @@ def _marks_text(report: Diagnosis) -> str:
         if count > MOST_MARKS
         else ""
     )
-    return f"{rows}Marks that would lie outside a panel stand on its edge."
+    return f"{rows}Marks that would lie outside a panel are drawn on its edge."
 
 
 def _structures(report: Diagnosis) -> str:
@@ -202,7 +202,7 @@ def _structures(report: Diagnosis) -> str:
         return f"<p>No structure that was looked for has a chance below {BEYOND_NOISE}.</p>"
     rows = [
         (
-            against_text(s), length_text(s.size), share_text(s.share), chance_text(s.p_value),
+            s.against, length_text(s.size), share_text(s.share), chance_text(s.p_value),
             s.words, "strong" if s.is_beyond_noise else "weak",
         )
         for s in shown[:_MOST_SHOWN]
@@ -210,7 +210,7 @@ def _structures(report: Diagnosis) -> str:
     head = ("against", "size per axis", "of variance above noise", "chance", "what it looks like")
     text = table(head, (row[:5] for row in rows), (row[5] for row in rows), kind="prose")
     if len(shown) > _MOST_SHOWN:
-        text += f"<p>{len(shown) - _MOST_SHOWN} more stand in report.json.</p>"
+        text += f"<p>{len(shown) - _MOST_SHOWN} more are listed in report.json.</p>"
     return text
 
 
@@ -246,7 +246,7 @@ def _model(report: Diagnosis) -> str:
 
 
 def _beyond(report: Diagnosis) -> str:
-    """What was recorded beside the joints, and how far."""
+    """The covariates that were recorded, and their ranges."""
     rows = [
         (one.name, f"{one.low:.4g} … {one.high:.4g} {one.unit}".replace("-", "−"))
         for one in supports(report)
@@ -262,12 +262,11 @@ def _held(report: Diagnosis) -> str:
     return sentence(report.held_out.how or "No data could be held out")
 
 
-def _left(report: Diagnosis) -> str:
+def _residuals(report: Diagnosis) -> str:
     if not report.effects and not report.ambiguous:
         return ""
     return (
-        "<h3>What is left with the causes taken out</h3>"
-        f"<p>{html.escape(leftover_text(report))}</p>"
+        f"<h3>Residuals with the causes taken out</h3><p>{html.escape(leftover_text(report))}</p>"
     )
 
 

@@ -34,8 +34,8 @@ MOST_PARTS = 30
 """Parts of what was held out that a picture shows."""
 _SHAPES = ("o", "s", "^")
 _INTERVAL = 1.96
-_INSIDE = 0.98  # of the marks stand within the frame, the others on its edge
-_SHOWN = 0.995  # of what a histogram counts stands left of its last bin
+_INSIDE = 0.98  # of the marks lie within the frame, the others on its edge
+_SHOWN = 0.995  # of what a histogram counts lies left of its last bin
 _BARS = 36
 _GREY = "#8a8f98"
 _DIVERGING = LinearSegmentedColormap.from_list(
@@ -55,7 +55,7 @@ def shortened(text: str, most: int = _LONGEST_NAME) -> str:
 
 
 def limit_of(known: Sequence[Quantity], residuals: Residuals) -> float:
-    """Half the height of panels of residuals that stand side by side [m]."""
+    """Half the height of panels of residuals side by side [m]."""
     size = float(np.quantile(np.abs(residuals.world), _INSIDE)) if residuals.world.size else 0.0
     means = (binned(one, residuals.against(one)) for one in known)
     highest = max((float(np.max(np.abs(b.mean))) for b in means), default=0.0)
@@ -72,7 +72,7 @@ def draw_against(
     font: float = 8.0,
 ) -> None:
     """Residuals against one quantity: marks, and means with their 95 % intervals. `found` is the
-    structure against it, where there is one; beyond noise it stands on a ground of its own."""
+    structure against it, where there is one; beyond noise it has a background of its own."""
     shown = residuals.against(quantity)
     rows = thinned(len(shown), MOST_MARKS)
     top = 1e3 * limit
@@ -187,22 +187,22 @@ def draw_parts(axes: Axes, report: Diagnosis, *, font: float = 8.0) -> None:
 
 
 def draw_histogram(axes: Axes, report: Diagnosis, *, font: float = 8.0) -> None:
-    """How far each row that was held out is from where it was foretold, before and after."""
+    """How far each row that was held out is from its prediction, before and after."""
     held = report.held_out
-    told = [
+    errors = [
         (1e3 * values[np.isfinite(values)], colour, name)
         for values, colour, name in (
             (np.asarray(held.before, float), BEFORE, "geometry alone"),
             (np.asarray(held.after, float), AFTER, "with the causes"),
         )
     ]
-    told = [one for one in told if one[0].size]
-    if not told:
+    errors = [one for one in errors if one[0].size]
+    if not errors:
         _nothing(axes, "nothing was held out", font)
         return
-    end = max(float(np.quantile(values, _SHOWN)) for values, _, _ in told)
+    end = max(float(np.quantile(values, _SHOWN)) for values, _, _ in errors)
     edges = np.linspace(0, max(end, 1e-9), _BARS + 1)
-    for values, colour, name in told:
+    for values, colour, name in errors:
         counts = np.histogram(np.minimum(values, edges[-1]), edges)[0]
         axes.stairs(counts, edges, fill=True, color=colour, alpha=0.22, lw=0)
         axes.stairs(counts, edges, color=colour, lw=1.6, label=name,
@@ -232,9 +232,9 @@ def draw_supports(axes: Axes, ranges: Sequence[Support], *, font: float = 8.0) -
             share = (high - low) / way
             axes.barh(place, share, left=(low - one.least) / way, color="#ececea", height=0.62)
         unit = "°" if one.unit == "°" else f" {one.unit}"
-        told = f"{one.low:.0f} … {one.high:.0f}{unit}".replace("-", "−")
+        text = f"{one.low:.0f} … {one.high:.0f}{unit}".replace("-", "−")
         limits = f"of {one.least:.0f} … {one.most:.0f}{unit}".replace("-", "−")
-        axes.text(1.02, place, f"{told} {limits}", va="center", fontsize=font, color=INK)
+        axes.text(1.02, place, f"{text} {limits}", va="center", fontsize=font, color=INK)
     axes.set(ylim=(len(ranges) - 0.5, -0.5), xlim=(0, 1), xticks=[], yticks=range(len(ranges)))
     axes.set_yticklabels([shortened(one.name) for one in ranges])
     dress(axes, "", "", font)

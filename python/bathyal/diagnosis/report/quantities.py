@@ -1,11 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the report of a diagnosis draws and lists, in numbers: what the residuals are laid against,
-binned; the curve of each joint effect; where the data lie."""
+"""What the report of a diagnosis draws and lists, in numbers: the quantities that residuals are
+plotted against, binned; the curve of each joint effect; the ranges of the data."""
 
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
@@ -35,14 +34,17 @@ _PARTS = {"gravity": "xyz"}
 
 @dataclass(frozen=True)
 class Quantity:
-    """Something that residuals are laid against, as people read it. `key` is what structures call
-    it: "joint 3", "temperature", "z"; `joint` is the coordinate of a joint."""
+    """What residuals are plotted against. `kind` is that of a Structure; `key` is unique: "z",
+    "joint 3", "temperature"."""
 
     key: str
     name: str
     unit: str
     values: Floats
-    joint: int | None = None
+    kind: str
+    joint: int | None = None  # coordinate of a joint
+    covariate: str | None = None
+    component: int | None = None  # column of a covariate that has several
 
     @property
     def label(self) -> str:
@@ -61,14 +63,14 @@ class Binned:
 
 @dataclass(frozen=True)
 class Residuals:
-    """What is left, (N, 3) in the world, and (N, n) along the way in which each joint moves the
-    tip: an error of a joint points everywhere in the world, and one way along the joint [m]."""
+    """Residuals, (N, 3) in the world, and (N, n) along the direction in which each joint moves the
+    tip, where an error of that joint has one sign [m]."""
 
     world: Floats
     along: Floats
 
     def against(self, quantity: Quantity) -> Floats:
-        """(N, 1) along a joint's own way; (N, 3) against anything else."""
+        """(N, 1) along a joint's own direction; (N, 3) against anything else."""
         return self.world if quantity.joint is None else self.along[:, [quantity.joint]]
 
 
@@ -86,27 +88,29 @@ def residuals_of(report: Diagnosis, residuals: Any) -> Residuals:
 
 
 def quantities(report: Diagnosis) -> list[Quantity]:
-    """Joints, position, then what was recorded beside: all that changes over the data."""
+    """Joints, position, then covariates: all that vary over the data."""
     found = [
-        Quantity(f"joint {k}", joint_label(k, joint.name), joint.unit, joint.values, k - 1)
+        Quantity(
+            f"joint {k}", joint_label(k, joint.name), joint.unit, joint.values, "joints", k - 1
+        )
         for k, joint in enumerate(joint_values(report.fit.arm, report.data), 1)
     ]
     place = positions(report)
-    found += [Quantity(axis, axis, "m", place[:, k]) for k, axis in enumerate("xyz")]
+    found += [Quantity(axis, axis, "m", place[:, k], "position") for k, axis in enumerate("xyz")]
     found += _covariates(report.data.covariates)
     if "time" not in report.data.covariates:
         rows = np.arange(len(report.data), dtype=float)
-        found.append(Quantity("the order of the rows", "row", "", rows))
+        found.append(Quantity("the order of the rows", "row", "", rows, "order"))
     return [one for one in found if np.ptp(one.values) > 0]
 
 
 def joint_label(number: int, name: str) -> str:
-    """ "joint 3 · elbow": as structures call it, then as the arm does."""
+    """ "joint 3 · elbow": its number and the arm's own name."""
     return f"joint {number}" if name in ("", f"joint_{number}") else f"joint {number} · {name}"
 
 
 def positions(report: Diagnosis) -> Floats:
-    """(N, 3) where the tip was measured; of touches, where the arm that was found has it [m]."""
+    """(N, 3) measured tip positions; of touches, those of the identified arm [m]."""
     if isinstance(report.data, Tracked):
         return np.asarray(report.data.position)
     return np.asarray(report.fit.arm.forward(report.data.q)[:, :3, 3])
@@ -118,48 +122,35 @@ def _covariates(covariates: dict[str, Any]) -> Iterator[Quantity]:
         count = columns.shape[1]
         for k in range(count):
             part = _PARTS.get(name, "")[k : k + 1] or (str(k + 1) if count > 1 else "")
-            told = f"{name} {part}".strip()
-            yield Quantity(told, told, _UNITS.get(name, ""), columns[:, k])
-
-
-def against_text(structure: Any) -> str:
-    """What a structure goes with. One that has the shape of an effect goes with what that effect
-    needs: "joint 3" of a wave along it."""
-    told = str(structure.against)
-    if told not in _EFFECTS_GO_WITH and not told.startswith("joint_"):
-        return told
-    joint = re.search(r"\bjoint \d+", structure.words)
-    return _EFFECTS_GO_WITH.get(told) or (joint[0] if joint else told)
-
-
-_EFFECTS_GO_WITH = {
-    "base_shift": "session", "tool_change": "session", "tool_slip": "time", "drift": "time",
-    "clock_shift": "time", "thermal": "temperature", "payload": "the load of gravity",
-    "base_compliance": "the load of gravity", "link_compliance": "", "backlash": "",
-}  # fmt: skip
+            label = f"{name} {part}".strip()
+            unit = _UNITS.get(name, "")
+            if name in ("time", "session"):
+                yield Quantity(label, label, unit, columns[:, k], name)
+                continue
+            component = k if count > 1 else None
+            yield Quantity(
+                label, label, unit, columns[:, k], "covariate", covariate=name, component=component
+            )
 
 
 def concerns(structure: Any, quantity: Quantity) -> bool:
-    """Whether a structure is one against this quantity alone: "joint 3", "time, period 12.1 s",
-    "position"."""
-    against = against_text(structure).split(",")[0].strip().lower()
-    key = quantity.key.lower()
-    if key in ("x", "y", "z"):
-        return against in (key, f"position {key}", "position")
-    return bool(against == key)
+    """Whether a structure depends on this quantity alone; of the position, on x, y and z."""
+    if structure.kind == "joints":
+        return list(structure.coordinates) == [quantity.joint]
+    if structure.kind == "covariate":
+        return quantity.kind == "covariate" and (quantity.covariate, quantity.component) == (
+            structure.covariate, structure.component
+        )  # fmt: skip
+    return bool(structure.kind == quantity.kind)
 
 
 def pair_of(structure: Any, known: list[Quantity]) -> tuple[Quantity, Quantity] | None:
-    """The two quantities of a structure against a pair, "joints 2 and 3"; None for others."""
-    against = against_text(structure).split(",")[0].strip().lower()
-    sides = against.split(" and ")
-    if len(sides) != 2:
+    """The two quantities of a structure that depends on two joints together; None for others."""
+    if structure.kind != "joints" or len(structure.coordinates) != 2:
         return None
-    if sides[0].startswith("joints "):
-        sides = [sides[0].replace("joints", "joint"), f"joint {sides[1].removeprefix('joint ')}"]
-    by_key = {one.key.lower(): one for one in known}
-    found = [by_key.get(side.removeprefix("position ")) for side in sides]
-    return None if found[0] is None or found[1] is None else (found[0], found[1])
+    by_joint = {one.joint: one for one in known if one.joint is not None}
+    first, second = (by_joint.get(coordinate) for coordinate in structure.coordinates)
+    return None if first is None or second is None else (first, second)
 
 
 def binned(quantity: Quantity, residuals: Floats) -> Binned:
@@ -186,7 +177,7 @@ def binned(quantity: Quantity, residuals: Floats) -> Binned:
 
 def mapped(pair: tuple[Quantity, Quantity], residuals: Floats) -> tuple[Floats, Floats, Floats]:
     """Edges along both, and the mean component along the direction in which cells differ most
-    (cells, cells); NaN where no pose lies."""
+    (cells, cells); NaN where there is no pose."""
     edges = [np.linspace(q.values.min(), q.values.max(), _CELLS + 1) for q in pair]
     place = [
         np.clip(np.searchsorted(e, q.values, "right") - 1, 0, _CELLS - 1)
@@ -194,13 +185,13 @@ def mapped(pair: tuple[Quantity, Quantity], residuals: Floats) -> tuple[Floats, 
     ]
     index = place[1] * _CELLS + place[0]
     rows = np.bincount(index, minlength=_CELLS**2)
-    some = rows > 0
-    sums = [np.bincount(index, r, minlength=_CELLS**2)[some] for r in residuals.T]
-    means = np.column_stack(sums) / rows[some, None]
-    direction = np.linalg.svd(means * np.sqrt(rows[some, None]), full_matrices=False)[2][0]
+    filled = rows > 0
+    sums = [np.bincount(index, r, minlength=_CELLS**2)[filled] for r in residuals.T]
+    means = np.column_stack(sums) / rows[filled, None]
+    direction = np.linalg.svd(means * np.sqrt(rows[filled, None]), full_matrices=False)[2][0]
     direction *= np.sign(direction[np.argmax(np.abs(direction))])
     cells = np.full(_CELLS**2, np.nan)
-    cells[some] = means @ direction
+    cells[filled] = means @ direction
     return edges[0], edges[1], cells.reshape(_CELLS, _CELLS)
 
 
@@ -209,8 +200,8 @@ def mapped(pair: tuple[Quantity, Quantity], residuals: Floats) -> tuple[Floats, 
 
 @dataclass(frozen=True)
 class Support:
-    """Where the data lie along something that may be asked for: from `low` to `high`, of what can
-    be asked, `least` to `most` (None where nothing limits it)."""
+    """The range of the data along one quantity: from `low` to `high`, within `least` to `most`
+    (None where nothing limits it)."""
 
     name: str
     unit: str
@@ -222,7 +213,7 @@ class Support:
 
     @property
     def share(self) -> float | None:
-        """Of the whole range that the data cover."""
+        """Of the whole range, covered by the data."""
         if self.least is None or self.most is None or self.most <= self.least:
             return None
         return (self.high - self.low) / (self.most - self.least)

@@ -8,7 +8,7 @@ PAGE = """<!DOCTYPE html>
 <head>
 <meta charset="utf-8">
 <meta name="viewport" content="width=device-width, initial-scale=1">
-<title>{word} – {title}</title>
+<title>{name} – {title}</title>
 <style>
 body {{ margin: 0 auto; max-width: 1120px; padding: 18px 24px 48px; color: {ink};
   font: 15px/1.5 system-ui, "DejaVu Sans", sans-serif; }}
@@ -32,10 +32,10 @@ h2 i {{ font-style: normal; color: white; background: {ink}; border-radius: 50%;
   font-size: 15px; margin-right: 10px; vertical-align: 2px; }}
 h3 {{ font-size: 16px; margin: 0; }}
 p, ul {{ margin: 6px 0; }}
-.words {{ display: flex; gap: 36px; align-items: flex-start; flex-wrap: wrap; }}
-.words > div {{ flex: 1 1 460px; }}
-.words > .facts {{ flex: 0 1 330px; }}
-.words h3 {{ margin-top: 14px; }}
+.summary {{ display: flex; gap: 36px; align-items: flex-start; flex-wrap: wrap; }}
+.summary > div {{ flex: 1 1 460px; }}
+.summary > .facts {{ flex: 0 1 330px; }}
+.summary h3 {{ margin-top: 14px; }}
 table {{ border-collapse: collapse; font-variant-numeric: tabular-nums; font-size: 13px;
   margin: 6px 0; }}
 th {{ text-align: left; font-weight: 500; color: #555; padding: 2px 16px 2px 0;
@@ -62,18 +62,18 @@ details summary {{ cursor: pointer; }}
 <body>
 <p class="title">{title}</p>
 <div class="verdict"><div class="sign">{sign}</div>
-<div><h1>{word}</h1><p>{headline}</p></div></div>
+<div><h1>{name}</h1><p>{headline}</p></div></div>
 <div class="tiles">{tiles}</div>
 <div class="warnings">{warnings}</div>
-<div class="words">
+<div class="summary">
 <div>
-<h3>What was found</h3><p>{words}</p>
+<h3>What was found</h3><p>{found}</p>
 <h3>What to do next</h3><ul>{wanting}</ul>
 </div>
 <div class="facts"><table>{facts}</table></div>
 </div>
 <h2><i>1</i>Show: what geometry alone leaves</h2>
-<p class="small">Each panel lays the same residuals against one quantity; beside a joint, their
+<p class="small">Each panel lays the same residuals against one quantity; against a joint, their
 component along the way in which that joint moves the tip. Means of bins of equal counts, with 95 %
 intervals. A yellow ground and a dot mark what is beyond noise. {marks}</p>
 {show_picture}
@@ -93,8 +93,8 @@ speaks.</p>
 <p>{held}</p>
 {gain_picture}
 {parts}
-{left}
-{left_picture}
+{residuals}
+{residuals_picture}
 {poses}
 </body>
 </html>

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a diagnosis found and how surely, in sentences; what to do: `diagnosis_advice`."""
+"""What a diagnosis found and how surely, in sentences; what to do: `advice`."""
 
 from __future__ import annotations
 
@@ -21,7 +21,6 @@ from bathyal.diagnosis.report.numbers import (
     shown_unit,
     spaced,
 )
-from bathyal.diagnosis.report.quantities import against_text
 from bathyal.view.text import bare, counted, listed, lower, sentence, upper
 
 if TYPE_CHECKING:
@@ -29,26 +28,26 @@ if TYPE_CHECKING:
 
 # What each verdict says, in a word or two and in a sentence.
 VERDICTS = {
-    "clean": ("Clean", "Nothing is there beyond noise."),
-    "named": ("Named", "What the simulation got wrong has a name."),
-    "ambiguous": ("Ambiguous", "These data cannot tell the causes apart."),
-    "unknown": ("Unknown", "Something is there that no cause of the library explains."),
+    "clean": ("Clean", "Geometry explains the data to within noise."),
+    "named": ("Named", "What the simulation gets wrong is identified."),
+    "ambiguous": ("Ambiguous", "These data cannot distinguish the causes."),
+    "unknown": ("Unknown", "No cause in the library explains what is beyond noise."),
     "none": ("No verdict", "No data could be held out."),
 }
-_MOST_TOLD = 3  # causes, with their numbers, in the paragraph
+_MOST_LISTED = 3  # causes, with their numbers, in the paragraph
 _MOST_PARAMETERS = 4  # of one cause, in the paragraph
 _MOST_ROWS = 10  # by number
 
 
 def summary(report: Diagnosis, *, warnings: bool = True) -> str:
-    """The diagnosis as one paragraph: verdict, causes, the gain on data not used, what is left, and
-    what to do.
+    """The diagnosis as one paragraph: verdict, causes, the gain on held-out data, what remains
+    unexplained, and what to do.
 
     Parameters
     ----------
     report : Diagnosis
     warnings : bool
-        Whether the report's warnings stand at the end.
+        Whether the report's warnings are at the end.
 
     Returns
     -------
@@ -68,7 +67,7 @@ def facts_of(report: Diagnosis) -> dict[str, str]:
         "verdict": VERDICTS[report.verdict][0],
         "arm": f"{arm.name or 'arm'}, {arm.size} joints",
         what: f"{len(data):,}",
-        "recorded beside": ", ".join(sorted(data.covariates)) or "nothing",
+        "covariates": ", ".join(sorted(data.covariates)) or "none",
         "geometry alone": f"{length_text(report.fit.rms_after)} (rms, 3-D, fitted)",
         "noise": f"{length_text(report.noise)} per axis, by {bare(report.noise_source)}",
     }
@@ -78,25 +77,37 @@ def headline(report: Diagnosis) -> str:
     """The verdict in one line."""
     title = VERDICTS[report.verdict][0]
     if report.verdict == "named":
-        return f"{title}: {_causes(report.effects)}."
+        return f"{title}: {causes_text(report.effects)}."
     if report.verdict == "ambiguous" and report.ambiguous:
         groups = groups_of(report)
         if sure_in_the_main(report):
             lesser = (
                 "a lesser choice is" if len(groups) == 1 else f"{len(groups)} lesser choices are"
             )
-            return f"{title}: in the main {_causes(settled(report))}. {upper(lesser)} open."
-        told = [_any_of([str(cause.words) for cause in group]) for group in groups[:_MOST_TOLD]]
-        return f"{title}: {listed(told + _more(groups, 'choice'), '; ')}."
+            return f"{title}: mainly {causes_text(settled(report))}. {upper(lesser)} open."
+        choices = [any_text(group) for group in groups[:_MOST_LISTED]]
+        return f"{title}: {listed(choices + _more(groups, 'choice'), '; ')}."
     if report.verdict == "unknown":
-        return f"{title}: something is there that no cause of the library explains."
+        return f"{title}: no cause in the library explains {_unexplained(report)}."
     if report.verdict == "clean":
-        return f"{title}: nothing beyond noise."
+        return f"{title}: geometry explains the data to within noise."
     return f"{title}: {lower(VERDICTS[report.verdict][1])}"
 
 
+def causes_text(causes: Sequence[Any]) -> str:
+    """Causes by name, all at once: "a wave along joint 3; and 2 more"."""
+    names = [str(cause.words) for cause in causes[:_MOST_LISTED]]
+    rest = len(causes) - len(names)
+    return listed(names + ([f"{rest} more"] if rest else []), "; ") if names else "no cause"
+
+
+def any_text(causes: Sequence[Any]) -> str:
+    """Causes by name, one of them: "a slip, a shift or any of 3 others"."""
+    return _any_of([str(cause.words) for cause in causes])
+
+
 def groups_of(report: Diagnosis) -> list[list[Any]]:
-    """Causes that the data cannot tell apart, group by group: each begins with the one that was
+    """Causes that the data cannot distinguish, group by group: each begins with the one that was
     chosen."""
     chosen = {_key(effect) for effect in report.effects}
     groups: list[list[Any]] = []
@@ -108,13 +119,13 @@ def groups_of(report: Diagnosis) -> list[list[Any]]:
 
 
 def settled(report: Diagnosis) -> list[Any]:
-    """Causes that have no rival among those that cannot be told apart."""
-    doubtful = {_key(cause) for cause in report.ambiguous}
-    return [effect for effect in report.effects if _key(effect) not in doubtful]
+    """Causes without an alternative that fits as well."""
+    undecided = {_key(cause) for cause in report.ambiguous}
+    return [effect for effect in report.effects if _key(effect) not in undecided]
 
 
 def sure_in_the_main(report: Diagnosis) -> bool:
-    """Whether a cause without rivals does more than any of those that cannot be told apart."""
+    """Whether a cause without alternatives has a larger effect than any undecided one."""
     sizes = {_key(effect): effect.size for effect in report.effects if not is_of_noise(effect)}
     sure = [sizes[_key(effect)] for effect in settled(report) if _key(effect) in sizes]
     open_ones = [sizes.get(_key(group[0]), 0.0) for group in groups_of(report)]
@@ -129,16 +140,16 @@ def effect_text(effect: Any) -> str:
     """A cause with its numbers: "a wave of order 2 along joint 3 with amplitude 0.03°, …"."""
     if len(effect.rows):
         return f"{effect.words} ({_rows(effect.rows)})"
-    told = [
+    numbers = [
         f"{parameter_name(name)} {estimate_text(name, estimate)}"
         for name, estimate in effect.parameters.items()
         if not is_setting(estimate)
     ]
-    if len(told) > _MOST_PARAMETERS:
-        return f"{effect.words}, told by {len(told)} numbers"
+    if len(numbers) > _MOST_PARAMETERS:
+        return f"{effect.words}, with {len(numbers)} parameters"
     amplitude = amplitude_text(effect)
-    told = [f"amplitude {amplitude}", *told] if amplitude else told
-    return f"{effect.words} with {', '.join(told)}" if told else str(effect.words)
+    numbers = [f"amplitude {amplitude}", *numbers] if amplitude else numbers
+    return f"{effect.words} with {', '.join(numbers)}" if numbers else str(effect.words)
 
 
 def amplitude_text(effect: Any) -> str:
@@ -151,26 +162,26 @@ def amplitude_text(effect: Any) -> str:
 
 
 def gain_text(report: Diagnosis) -> str:
-    """What the causes bring on data that were not used."""
+    """What the causes gain on held-out data."""
     held = report.held_out
     text = (
         f"On data held out ({lower(bare(held.how))}) the error falls from "
-        f"{length_text(held.rms_before)} to {length_text(held.rms_after)} (3-D rms), with a "
-        f"floor of {length_text(held.noise)} by noise"
+        f"{length_text(held.rms_before)} to {length_text(held.rms_after)} (3-D rms; noise alone "
+        f"{length_text(held.noise)})"
     )
     if math.isfinite(report.gain):
-        text += f": {share_text(report.gain)} of the variance above noise is gone"
-    return f"{text}; that this is luck has {chance_text(held.p_value)}."
+        text += f": {share_text(report.gain)} of the variance above noise is explained"
+    return f"{text} ({chance_text(held.p_value)})."
 
 
 def evidence_texts(report: Diagnosis) -> list[str]:
-    """Of each cause a sentence: what it takes from data held out, and what else might do it."""
+    """Of each cause a sentence: what it explains of held-out data, and the best alternative."""
     return [sentence(_evidence(effect)) for effect in report.effects]
 
 
 def is_of_noise(effect: Any) -> bool:
-    """Whether a cause works on the noise, or on single rows, and takes nothing from the error
-    held out: likelihood judges it."""
+    """Whether a cause is of the noise, or of single rows, and does not reduce the held-out error:
+    it is decided by likelihood."""
     return effect.name in ("outliers", "range_noise", "quantisation")
 
 
@@ -184,28 +195,28 @@ def _evidence(effect: Any) -> str:
     )
     if not effect.rivals:
         return text
-    best = max(effect.rivals, key=lambda rival: rival.odds)
-    return f"{text}; next best: {best.words}, {odds_text(best.odds)}"
+    best = max(effect.rivals, key=lambda alternative: alternative.odds)
+    return f"{text}; best alternative: {best.words}, {odds_text(best.odds)}"
 
 
 def noise_evidence(effect: Any) -> str:
-    """Why a cause that works on the noise was named."""
+    """Why a cause of the noise was named."""
     if len(effect.rows):
-        return "so far off that noise does not make them"
+        return "farther off than noise explains"
     return f"the log likelihood of data held out gains {figures(effect.gain)}"
 
 
 def leftover_text(report: Diagnosis) -> str:
-    """What the named causes leave."""
+    """What the named causes do not explain."""
     left = report.leftover
     if left is None or left.size <= 0 or not left.is_beyond_noise:
-        return "Nothing beyond noise is left over."
-    text = f"Left over: {bare(left.words)}"
+        return "Nothing beyond noise remains unexplained."
+    text = f"Unexplained: {bare(left.words)}"
     return f"{text} ({length_text(left.size)} per axis, {chance_text(left.p_value)})."
 
 
 def structure_text(shown: Any) -> str:
-    """A dependence of the residuals, with its size and chance."""
+    """A dependence of the residuals, with its size and p-value."""
     return (
         f"{bare(shown.words)} ({length_text(shown.size)} per axis, {share_text(shown.share)} of "
         f"the variance above noise, {chance_text(shown.p_value)})"
@@ -221,47 +232,49 @@ def significant(shown: Iterable[Any]) -> list[Any]:
 
 
 def _named(report: Diagnosis) -> list[str]:
-    return [_told(report.effects, VERDICTS["named"][0]), gain_text(report), leftover_text(report)]
+    return [
+        _with_numbers(report.effects, VERDICTS["named"][0]),
+        gain_text(report),
+        leftover_text(report),
+    ]
 
 
 def _clean(report: Diagnosis) -> list[str]:
     least = min(report.shown, key=lambda s: s.p_value, default=None)
     suspect = (
-        f"no structure that was looked for has a chance below {BEYOND_NOISE}, all tests counted"
+        f"no dependence has a p-value below {BEYOND_NOISE}, corrected for all tests"
         if least is None
-        else f"the most suspect, against {against_text(least)}, has {chance_text(least.p_value)}"
+        else f"the strongest dependence, on {least.against}, has {chance_text(least.p_value)}"
     )
     held = report.held_out
     return [
-        f"Clean: {len(report.data):,} poses show nothing beyond noise that geometry does not "
-        f"explain; {suspect}.",
-        f"What moves the tip by {length_text(report.detectable)} or more per axis would have been "
-        f"seen; {noise_text(report)}.",
-        f"Geometry alone foretells data that were held out to {length_text(held.rms_before)} "
-        f"(3-D rms), with a floor of {length_text(held.noise)} by noise.",
+        f"Clean: geometry explains {len(report.data):,} poses to within noise; {suspect}.",
+        f"An effect that moves the tip by {length_text(report.detectable)} or more per axis would "
+        f"have been detected; {noise_text(report)}.",
+        f"Geometry alone predicts held-out data to {length_text(held.rms_before)} "
+        f"(3-D rms; noise alone {length_text(held.noise)}).",
     ]
 
 
 def noise_text(report: Diagnosis) -> str:
-    """How large the noise is, and by what."""
+    """How large the noise is, and what determines it."""
     return f"noise is {length_text(report.noise)} per axis, by {bare(report.noise_source)}"
 
 
 def _ambiguous(report: Diagnosis) -> list[str]:
-    told = []
+    choices = []
     groups = groups_of(report)
-    for first, *others in groups[:_MOST_TOLD]:
+    for first, *others in groups[:_MOST_LISTED]:
         odds = [first.words, *(f"{cause.words} ({odds_text(cause.odds)})" for cause in others)]
-        told.append(_any_of(odds))
-    told += _more(groups, "choice")
-    apart, sure = listed(told, "; "), settled(report)
-    stand = "stands" if len(sure) == 1 else "stand"
+        choices.append(_any_of(odds))
+    choices += _more(groups, "choice")
+    apart, sure = listed(choices, "; "), settled(report)
     found = (
-        [_told(sure, f"Ambiguous, but in the main this {stand}"),
-         f"Among lesser causes these data cannot tell apart: {apart}."]
+        [_with_numbers(sure, "Ambiguous, but mainly"),
+         f"Among lesser causes these data cannot distinguish: {apart}."]
         if sure_in_the_main(report)
-        else [f"Ambiguous, these data cannot tell apart: {apart}.",
-              _told(sure, f"Beside them {stand}")]
+        else [f"Ambiguous, these data cannot distinguish: {apart}.",
+              _with_numbers(sure, "Certain is")]
     )  # fmt: skip
     return [*found, gain_text(report), leftover_text(report)]
 
@@ -282,13 +295,13 @@ def _unknown(report: Diagnosis) -> list[str]:
             headline(report),
             f"{looks}." if looks else "",
             shown,
-            f"Geometry alone foretells data that were held out to {length_text(held.rms_before)} "
-            f"(3-D rms), with a floor of {length_text(held.noise)} by noise.",
+            f"Geometry alone predicts held-out data to {length_text(held.rms_before)} "
+            f"(3-D rms; noise alone {length_text(held.noise)}).",
         ]
     return [
         headline(report),
         f"{looks}." if looks else "",
-        _told(report.effects, "A part of it may be"),
+        _with_numbers(report.effects, "A part of it may be"),
         "A cause that explains a part is not the cause.",
         gain_text(report),
     ]
@@ -299,10 +312,11 @@ def _none(report: Diagnosis) -> list[str]:
     why = bare(held.how) if held is not None and held.how else "the data are too few"
     found = significant(report.shown)
     shown = f"What the residuals show: {structure_text(found[0])}." if found else (
-        "Within the data themselves nothing stands out.")  # fmt: skip
+        "The residuals show no dependence beyond noise.")  # fmt: skip
     return [
         f"No verdict, no data could be held out: {why}.",
-        f"Without data held out, a cause cannot be told from luck, so none is named. {shown}",
+        f"Without held-out data a cause cannot be distinguished from chance, so none is named. "
+        f"{shown}",
     ]
 
 
@@ -315,42 +329,43 @@ _FOUND = {
 }
 
 
-def _told(effects: Sequence[Any], how: str) -> str:
+def _with_numbers(effects: Sequence[Any], how: str) -> str:
     """Causes with their numbers."""
-    told = [
+    texts = [
         f"{effect_text(e)} (moves the tip by {length_text(e.size)} per axis)"
         if not is_of_noise(e)
         else effect_text(e)
-        for e in effects[:_MOST_TOLD]
+        for e in effects[:_MOST_LISTED]
     ]
-    if len(effects) > _MOST_TOLD:
-        told.append(f"{len(effects) - _MOST_TOLD} more with smaller numbers")
-    return f"{how}: {listed(told, '; ')}." if told else ""
+    if len(effects) > _MOST_LISTED:
+        texts.append(f"{len(effects) - _MOST_LISTED} more with smaller numbers")
+    return f"{how}: {listed(texts, '; ')}." if texts else ""
 
 
 # Grammar ------------------------------------------------------------------------------------------
 
 
-def _causes(effects: Sequence[Any]) -> str:
-    told = [str(effect.words) for effect in effects[:_MOST_TOLD]]
-    rest = len(effects) - len(told)
-    return listed(told + ([f"{rest} more"] if rest else []), "; ") if told else "no cause"
+def _unexplained(report: Diagnosis) -> str:
+    rest = report.leftover
+    if rest is None or rest.size <= 0:
+        return "what is beyond noise"
+    return f"{length_text(rest.size)} per axis beyond noise"
 
 
 def _rows(rows: Sequence[int]) -> str:
-    told = ", ".join(str(row) for row in rows[:_MOST_ROWS])
+    shown = ", ".join(str(row) for row in rows[:_MOST_ROWS])
     rest = len(rows) - _MOST_ROWS
-    return f"rows {told}" + (f" and {rest} more" if rest > 0 else "")
+    return f"rows {shown}" + (f" and {rest} more" if rest > 0 else "")
 
 
 def _any_of(causes: Sequence[str]) -> str:
-    rest = len(causes) - _MOST_TOLD
+    rest = len(causes) - _MOST_LISTED
     if rest > 0:
-        causes = [*causes[:_MOST_TOLD], f"any of {counted(rest, 'other')}"]
+        causes = [*causes[:_MOST_LISTED], f"any of {counted(rest, 'other')}"]
     return listed(causes, last=" or ")
 
 
-def _more(told: Sequence[Any], what: str) -> list[str]:
-    """What stands for those that are not told one by one."""
-    rest = len(told) - _MOST_TOLD
+def _more(items: Sequence[Any], what: str) -> list[str]:
+    """The number of those that are not listed one by one."""
+    rest = len(items) - _MOST_LISTED
     return [counted(rest, f"more {what}")] if rest > 0 else []

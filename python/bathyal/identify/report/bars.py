@@ -17,10 +17,10 @@ from bathyal.view.palette import INK, STATUSES
 from bathyal.view.text import number
 
 _MOST_LINES = 40
-# Shares of the table's width: right ends of the columns of numbers, the bars, the words.
+# Shares of the table's width: right ends of the columns of numbers, the bars, the status.
 _NOMINAL, _VALUE, _CHANGE = 0.175, 0.282, 0.458
 _BARS = (0.470, 0.185)
-_WORDS, _TRADES = 0.668, 0.812
+_STATUS_AT, _TRADES = 0.668, 0.812
 _TRADES_WIDE = 40
 
 
@@ -51,8 +51,8 @@ def _shown(table: list[Line]) -> list[Line]:
     """All that fit on the sheet; those that are held go first."""
     if len(table) <= _MOST_LINES:
         return table
-    told = [line for line in table if line.status not in ("gauge", "fixed")]
-    return told[:_MOST_LINES]
+    free = [line for line in table if line.status not in ("gauge", "fixed")]
+    return free[:_MOST_LINES]
 
 
 def _draw_bar(axes: Axes, row: int, line: Line) -> None:
@@ -74,7 +74,7 @@ def _write_line(axes: Axes, row: int, line: Line, size: float) -> None:
     put(_NOMINAL, row, f"{number(line.nominal)} {line.unit}", "right", INK)
     put(_VALUE, row, f"{number(line.value)} {line.unit}", "right", INK)
     put(_CHANGE, row, line.changed, "right", INK)
-    put(_WORDS, row, STATUS[line.status], "left", STATUSES[line.status])
+    put(_STATUS_AT, row, STATUS[line.status], "left", STATUSES[line.status])
     trades = f"with {line.trades}" if line.trades else ""
     if len(trades) > _TRADES_WIDE:
         trades = trades[: _TRADES_WIDE - 1].rsplit(", ", 1)[0] + " …"
@@ -85,7 +85,7 @@ def _write_titles(axes: Axes, size: float) -> None:
     put = _writer(axes, size)
     for at, text, side in (
         (0.0, "parameter", "left"), (_NOMINAL, "nominal", "right"), (_VALUE, "found", "right"),
-        (_CHANGE, "change ± std", "right"), (_WORDS, "the data", "left"),
+        (_CHANGE, "change ± std", "right"), (_STATUS_AT, "the data", "left"),
         (_TRADES, "moves unseen", "left"),
     ):  # fmt: skip
         put(at, -1.0, text, side, INK, weight="bold")

@@ -35,7 +35,7 @@ class Curve:
 
 @dataclass(frozen=True)
 class Curves:
-    """Those of all points beside each other, and what they are."""
+    """Those of all points in one plot, and what they are."""
 
     curves: list[Curve]
     what: str

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The picture of an identification: one sheet with what was found, how surely, what is left."""
+"""The picture of an identification: one sheet with what was found, how surely, and residuals."""
 
 from __future__ import annotations
 
@@ -44,9 +44,9 @@ _MOST_TITLES = 8  # of points side by side
 def fit_figure(fit: ArmFit, data: Touches | Tracked, *, title: str = "") -> Figure:
     """Draw an identification on one sheet.
 
-    Warnings and the fit's own words; distances of every pair of touches of one point before and
+    Warnings and the fit's own summary; distances of every pair of touches of one point before and
     after (figure 4 of Yukhimets, Gubankov 2023), of tracked poses from where they were seen; the
-    singular values; each parameter's change with its 95 % interval; what is left, against each
+    singular values; each parameter's change with its 95 % interval; residuals against each
     joint.
 
     Parameters
@@ -72,7 +72,7 @@ def fit_figure(fit: ArmFit, data: Touches | Tracked, *, title: str = "") -> Figu
     """
     figure = Figure(figsize=_SIZE_IN, dpi=_DPI, facecolor="white")
     FigureCanvasAgg(figure)
-    top = _write_words(figure, fit, data, title)
+    top = _write_text(figure, fit, data, title)
     height = top - _FOOT - 2 * _GAP
     width = _RIGHT - _LEFT
 
@@ -87,7 +87,7 @@ def fit_figure(fit: ArmFit, data: Touches | Tracked, *, title: str = "") -> Figu
     return figure
 
 
-def _write_words(figure: Figure, fit: ArmFit, data: Touches | Tracked, title: str) -> float:
+def _write_text(figure: Figure, fit: ArmFit, data: Touches | Tracked, title: str) -> float:
     """Title, warnings, paragraphs; returns where the plots may begin."""
     top = _TOP
     if title:
@@ -118,7 +118,7 @@ def _write(figure: Figure, top: float, paragraphs: Sequence[tuple[str, str]]) ->
 
 
 def _draw_curves(axes: Axes, curves: Curves) -> None:
-    """Before and after, one mark a pair or a pose, group beside group."""
+    """Before and after, one mark a pair or a pose, group after group."""
     start = 0
     style: dict[str, Any] = {"ls": "none", "marker": ".", "ms": 2.0, "rasterized": True}
     edges = [0]
@@ -169,7 +169,7 @@ def _draw_singular_values(axes: Axes, fit: ArmFit) -> None:
 def _draw_residuals(
     figure: Figure, fit: ArmFit, data: Touches | Tracked, place: tuple[float, float, float, float]
 ) -> None:
-    """One panel a joint: the three components of what is left."""
+    """One panel a joint: the three components of the residuals."""
     left, bottom, width, height = place
     joints = joint_values(fit.arm, data)[:_MOST_PANELS]
     rows = thinned(len(data))
@@ -187,7 +187,7 @@ def _draw_residuals(
         axes.axhline(0, color="#bbbbbb", lw=0.6, zorder=0)
         axes.set(ylim=(-limit, limit))
         axes.xaxis.set_major_locator(MaxNLocator(3))
-        _dress(axes, f"{joint.name} [{joint.unit}]", "what is left [mm]" if k == 0 else "")
+        _dress(axes, f"{joint.name} [{joint.unit}]", "residual [mm]" if k == 0 else "")
         if k > 0:
             axes.set_yticklabels([])
         else:

@@ -35,7 +35,7 @@ def write_page(
     title: str = "",
     facts: Mapping[str, str] | None = None,
 ) -> None:
-    """Save an identification as one page: warnings first, then words, drawings and tables.
+    """Save an identification as one page: warnings first, then text, drawings and tables.
 
     Parameters
     ----------
@@ -47,7 +47,7 @@ def write_page(
         none of it.
     title : str
     facts : mapping of str to str, optional
-        Lines for the box beside the words.
+        Lines for the box to the right of the text.
     """
     page = _PAGE.format(
         title=html.escape(title),
@@ -106,11 +106,11 @@ def _distances(fit: ArmFit, data: Touches | Tracked) -> str:
     if not known:
         return ""
     rows = "".join(
-        f"<tr><td>{html.escape(d.first)} – {html.escape(d.second)}</td><td>{1e3 * d.told:.3f}</td>"
-        f"<td>{1e3 * d.found:.3f}</td><td>{number(1e3 * (d.found - d.told), 3, '+')}</td></tr>"
+        f"<tr><td>{html.escape(d.first)} – {html.escape(d.second)}</td><td>{1e3 * d.given:.3f}</td>"
+        f"<td>{1e3 * d.found:.3f}</td><td>{number(1e3 * (d.found - d.given), 3, '+')}</td></tr>"
         for d in known
     )
-    head = "<tr><th>distance</th><th>told [mm]</th><th>found [mm]</th><th>off [mm]</th></tr>"
+    head = "<tr><th>distance</th><th>given [mm]</th><th>found [mm]</th><th>off [mm]</th></tr>"
     return f"<table class='numbers'>{head}{rows}</table>"
 
 
@@ -145,7 +145,7 @@ def _parameter(line: Line, limit: float) -> str:
     found = "" if held else f"{number(line.value, 4)} {line.unit}"
     trades = f"with {line.trades}" if line.trades else ""
     return (
-        f"<tr><td title='{html.escape(line.words)}'>{html.escape(line.name)}</td>"
+        f"<tr><td title='{html.escape(line.description)}'>{html.escape(line.name)}</td>"
         f"<td>{number(line.nominal, 4)} {line.unit}</td><td>{found}</td>"
         f"<td>{line.changed}</td><td class='bar'>{_bar(line, limit, colour)}</td>"
         f"<td style='color:{colour}'>{STATUS[line.status]}</td>"
@@ -169,7 +169,7 @@ def _bar(line: Line, limit: float, colour: str) -> str:
 
 def _unseen(fit: ArmFit) -> str:
     if not fit.unseen:
-        return "<p>Every direction is told.</p>"
+        return "<p>The data determine every direction.</p>"
     rows = "".join(f"<li>{html.escape(text.replace('-', '−'))}</li>" for text in fit.unseen)
     return (
         "<p>Moving along any of these, the touches stay as they are. Each number is in the "
@@ -191,9 +191,9 @@ h1 {{ font-size: 22px; margin: 0 0 10px; }}
 h2 {{ font-size: 16px; margin: 30px 0 6px; border-bottom: 1px solid #ddd; }}
 .warnings p {{ margin: 4px 0; padding: 6px 12px; border-left: 4px solid {red}; color: {red};
   background: #fdf0ef; }}
-.words {{ display: flex; gap: 32px; align-items: flex-start; flex-wrap: wrap; }}
-.words > div {{ flex: 1 1 480px; }}
-.words h2 {{ margin-top: 12px; }}
+.summary {{ display: flex; gap: 32px; align-items: flex-start; flex-wrap: wrap; }}
+.summary > div {{ flex: 1 1 480px; }}
+.summary h2 {{ margin-top: 12px; }}
 p, ul {{ margin: 6px 0; }}
 table {{ border-collapse: collapse; font-variant-numeric: tabular-nums; font-size: 13px; }}
 th {{ text-align: left; font-weight: 500; opacity: 0.7; padding: 2px 14px 2px 0; }}
@@ -218,7 +218,7 @@ td {{ padding: 2px 14px 2px 0; }}
 <body>
 <h1>{title}</h1>
 <div class="warnings">{warnings}</div>
-<div class="words">
+<div class="summary">
 <div>
 <h2>What was found</h2><p>{found}</p>
 <h2>How surely</h2><p>{surely}</p>
@@ -234,9 +234,9 @@ td {{ padding: 2px 14px 2px 0; }}
 <table id="parameters"><thead><tr><th>parameter</th><th>nominal</th><th>found</th>
 <th>change ± std</th><th></th><th>the data</th><th>moves unseen</th></tr></thead>
 <tbody>{parameters}</tbody></table>
-<h2>What is left, against each joint</h2>
+<h2>Residuals against each joint</h2>
 {residuals}
-<h2>What the data can tell</h2>
+<h2>What the data determine</h2>
 <div class="two"><div>{values}</div><div>{unseen}</div></div>
 <h2>The arm that was found</h2>
 {arm}

@@ -49,11 +49,11 @@ class Pairs:
 
 @dataclass(frozen=True)
 class Line:
-    """A parameter as the table tells it: lengths in mm, angles in degrees; what it changed by and
+    """A parameter as the table lists it: lengths in mm, angles in degrees; what it changed by and
     its standard deviation in mm and mrad, which move a tip a metre away alike."""
 
     name: str
-    words: str
+    description: str
     is_length: bool
     nominal: float
     value: float
@@ -81,7 +81,7 @@ class Distance:
 
     first: str
     second: str
-    told: float
+    given: float
     found: float
 
 
@@ -145,7 +145,7 @@ def pair_distances(fit: ArmFit, data: Touches) -> list[Pairs]:
 
 
 def distances(fit: ArmFit, data: Touches | Tracked) -> list[Distance]:
-    """Known distances told and found; as `groups`."""
+    """Known distances, given and found; as `groups`."""
     _need_own(fit, data)
     if isinstance(data, Tracked):
         return []
@@ -201,7 +201,7 @@ def _line(p: FitParameter) -> Line:
     shown = 1e3 if is_length else math.degrees(1.0)
     return Line(
         name=p.name,
-        words=p.words,
+        description=p.words,
         is_length=is_length,
         nominal=shown * p.nominal,
         value=shown * p.value,
@@ -213,7 +213,7 @@ def _line(p: FitParameter) -> Line:
 
 
 def _trades(p: FitParameter) -> str:
-    """ "a_3 +0.93, tool_z −0.43": what moves along with it, unseen, per unit of its own."""
-    told = [f"{trade.name} {trade.factor:+.2g}".replace("-", "−") for trade in p.trades]
-    rest = len(told) - _MOST_TRADES
-    return ", ".join(told[:_MOST_TRADES]) + (f" and {rest} more" if rest > 0 else "")
+    """ "a_3 +0.93, tool_z −0.43": what moves with it in the null space, per unit of its own."""
+    partners = [f"{trade.name} {trade.factor:+.2g}".replace("-", "−") for trade in p.trades]
+    rest = len(partners) - _MOST_TRADES
+    return ", ".join(partners[:_MOST_TRADES]) + (f" and {rest} more" if rest > 0 else "")

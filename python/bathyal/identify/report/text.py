@@ -17,79 +17,88 @@ Floats = NDArray[np.float64]
 # What a status of `FitParameter` says.
 STATUS = {
     "identified": "identified",
-    "gauge": "base or tool does it",
-    "prior": "rests on a prior",
-    "not_identifiable": "not told",
-    "fixed": "held on request",
-    "pruned": "put back to nominal",
+    "gauge": "redundant",
+    "prior": "with a prior",
+    "not_identifiable": "not determined",
+    "fixed": "fixed on request",
+    "pruned": "set to nominal",
 }
 
-_LOOKS = 4000  # poses at which the foretold tip is asked for
+_LOOKS = 4000  # poses at which the tip is predicted
 _STILL = math.radians(30.0)  # a turning joint that moved less hardly moved
 _STILL_SHARE = 0.15  # of a sliding joint's way
 _FEW = 20  # degrees of freedom below which noise is known to worse than 16 %
-_MOST_TOLD = 4  # known distances, one by one
-_WEAK = 1e-3  # standard deviation of what is hardly told [m, rad] …
+_MOST_LISTED = 4  # known distances, one by one
+_WEAK = 1e-3  # standard deviation of what is hardly determined [m, rad] …
 _WEAK_SHARE = 20.0  # … and so many times the median of all
 _FINE = 3.0  # the worst pose is worth a touch where it is so many times the median
 
 
 def surely_text(fit: ArmFit) -> str:
-    """How far the arm that was found may be trusted over the whole of its limits."""
+    """How accurate the identified arm is over the whole of its limits."""
     _, std = _looks(fit)
     share = float(np.mean(np.isinf(std)))
     text = []
     if share < 1.0:
         median, most = np.quantile(std[np.isfinite(std)], [0.5, 0.95])
         text.append(
-            f"Over the arm's limits its tip is foretold to {_mm(median)} (standard deviation, all "
+            f"Over the arm's limits its tip is predicted to {_mm(median)} (standard deviation, all "
             f"axes together; median), and to {_mm(most)} or better in 95 of 100 poses."
         )
     if share > 0.0:
         where = "Everywhere" if share == 1.0 else f"In {share:.0%} of its poses"
         text.append(
-            f"{where} the tip moves by something that nobody told, and no standard deviation can "
-            "be said."
+            f"{where} the tip depends on what the data do not determine, and has no standard "
+            "deviation."
         )
     return " ".join(text)
 
 
+def predicted_tip(fit: ArmFit) -> str:
+    """The same in short: "0.277 mm (median; 0.426 mm in 95 of 100 poses)"."""
+    _, std = _looks(fit)
+    if not np.isfinite(std).all():
+        return "no accuracy known: it depends on what the data do not determine"
+    median, most = np.quantile(std, [0.5, 0.95])
+    return f"{_mm(median)} (1 sigma, median over the limits; 95 of 100 poses: {_mm(most)})"
+
+
 def known_text(fit: ArmFit, data: Touches | Tracked) -> str:
-    """Known distances told and found; empty where there are none."""
+    """Known distances, given and found; empty where there are none."""
     known = distances(fit, data)
     if not known:
         return ""
-    if len(known) > _MOST_TOLD:
-        off = [1e3 * (d.found - d.told) for d in known]
+    if len(known) > _MOST_LISTED:
+        off = [1e3 * (d.found - d.given) for d in known]
         ends = f"{number(min(off), sign='+')} … {number(max(off), sign='+')}"
         return f"{len(known)} known distances were found, off by {ends} mm."
-    told = [
-        f"{d.first} to {d.second} told {1e3 * d.told:.3f} mm, found {1e3 * d.found:.3f} mm"
+    listed = [
+        f"{d.first} to {d.second} given {1e3 * d.given:.3f} mm, found {1e3 * d.found:.3f} mm"
         for d in known
     ]
-    return f"Known distances: {'; '.join(told)}."
+    return f"Known distances: {'; '.join(listed)}."
 
 
 def next_touches(fit: ArmFit, data: Touches | Tracked) -> list[str]:
-    """What would tell more, the most important first; how to check the arm when nothing would."""
-    wanting = [
+    """What to measure next, the most important first; how to check the arm where all is well."""
+    needed = [
         *_about_size(fit, data),
         *_about_still_joints(fit.arm, data),
-        *_about_lost(fit, data),
+        *_about_undetermined(fit, data),
         *_about_weak(fit),
         *_about_worst_pose(fit, data),
         *_about_count(fit, data),
     ]
-    if wanting:
-        return wanting
+    if needed:
+        return needed
     if fit.warnings:
-        return ["Look into what the warnings say before you touch more."]
+        return ["Resolve the warnings before you touch more."]
     check = (
-        "measure a dozen poses that were no part of this, and compare"
+        "measure a dozen poses that were not used, and compare"
         if isinstance(data, Tracked)
-        else "touch a point that was no part of this, in a dozen poses, and see that they agree"
+        else "touch a point that was not used in a dozen poses, and see that they agree"
     )
-    return [f"Nothing in particular is wanting. To check the arm, {check}."]
+    return [f"To check the arm, {check}."]
 
 
 def _about_size(fit: ArmFit, data: Touches | Tracked) -> list[str]:
@@ -97,53 +106,52 @@ def _about_size(fit: ArmFit, data: Touches | Tracked) -> list[str]:
         return []
     if len(fit.point_labels) < 2:
         return [
-            "Touch a second point at a distance that you know, and tell it as a known distance: "
-            "touches of one point cannot tell an arm from a smaller one."
+            "Touch a second point at a distance that you measured, and give it as a known distance."
         ]
     first, second = (point_name(data, label) for label in fit.point_labels[:2])
     return [
-        f"Measure one distance between touched points, say {first} to {second}, and tell it as a "
-        "known distance: touches alone cannot tell an arm from a smaller one."
+        f"Measure one distance between touched points, say {first} to {second}, and give it as a "
+        "known distance."
     ]
 
 
 def _about_still_joints(arm: Arm, data: Touches | Tracked) -> list[str]:
     moved = np.ptp(data.q, axis=0)
-    told = []
+    still = []
     for name, kind, much, way in zip(
         arm.joint_names, arm.joint_types, moved, arm.upper - arm.lower, strict=True
     ):
         if kind == "revolute" and much < _STILL:
-            told.append(f"{name} moved over {math.degrees(much):.3g}°")
+            still.append(f"{name} moved over {math.degrees(much):.3g}°")
         elif kind == "prismatic" and math.isfinite(way) and much < _STILL_SHARE * way:
-            told.append(f"{name} moved over {_mm(much)} of its {_mm(way)}")
-    if not told:
+            still.append(f"{name} moved over {_mm(much)} of its {_mm(way)}")
+    if not still:
         return []
-    return [f"Spread the joints further: {', '.join(told)}."]
+    return [f"Spread the joints further: {', '.join(still)}."]
 
 
-def _about_lost(fit: ArmFit, data: Touches | Tracked) -> list[str]:
+def _about_undetermined(fit: ArmFit, data: Touches | Tracked) -> list[str]:
     lost = [p for p in fit.parameters if p.status == "not_identifiable"]
     if not lost:
         return []
     names = ", ".join(p.name for p in lost)
     return [
-        f"Nothing tells {names}: {_more(data)}, with every joint far from where it was, or tell "
-        "the maker's tolerances as priors."
+        f"The data do not determine {names}: {_more(data)}, with every joint far from where it "
+        "was, or give the maker's tolerances as priors."
     ]
 
 
 def _about_weak(fit: ArmFit) -> list[str]:
-    told = [p for p in fit.parameters if p.status == "identified" and p.std > 0]
-    if not told:
+    identified = [p for p in fit.parameters if p.status == "identified" and p.std > 0]
+    if not identified:
         return []
-    median = float(np.median([p.std for p in told]))
-    weak = [p.name for p in told if p.std > max(_WEAK, _WEAK_SHARE * median)]
+    median = float(np.median([p.std for p in identified]))
+    weak = [p.name for p in identified if p.std > max(_WEAK, _WEAK_SHARE * median)]
     if not weak:
         return []
     return [
-        f"The data hardly tell {', '.join(weak)} apart: joints turned further from where they "
-        "were would, or the maker's tolerances as priors."
+        f"The data hardly determine {', '.join(weak)}: turn the joints further from where they "
+        "were, or give the maker's tolerances as priors."
     ]
 
 
@@ -159,7 +167,7 @@ def _about_worst_pose(fit: ArmFit, data: Touches | Tracked) -> list[str]:
         for value, kind in zip(q[worst], fit.arm.joint_types, strict=True)
     )
     return [
-        f"The tip is least surely foretold, to {_mm(std[worst])}, near the pose ({pose}): "
+        f"The tip is predicted least accurately, to {_mm(std[worst])}, near the pose ({pose}): "
         f"{_more(data)} about there{_planned(data)}."
     ]
 
@@ -172,13 +180,13 @@ def _about_count(fit: ArmFit, data: Touches | Tracked) -> list[str]:
     if fit.degrees_of_freedom >= _FEW:
         return []
     return [
-        f"{fit.degrees_of_freedom:.0f} degrees of freedom are left to tell the noise by, so that "
-        f"every standard deviation is a guess: {_more(data)}."
+        f"Only {fit.degrees_of_freedom:.0f} degrees of freedom remain to estimate the noise, so "
+        f"that standard deviations are rough: {_more(data)}."
     ]
 
 
 def _looks(fit: ArmFit) -> tuple[Floats, Floats]:
-    """Poses over the arm's limits, the same every time, and the foretold tip's std at each [m]."""
+    """Poses over the arm's limits, the same every time, and the predicted tip's std at each [m]."""
     lower, upper = np.maximum(fit.arm.lower, -np.pi), np.minimum(fit.arm.upper, np.pi)
     q = np.random.default_rng(0).uniform(lower, upper, (_LOOKS, fit.arm.size))
     return q, np.asarray(fit.tip_std(q))

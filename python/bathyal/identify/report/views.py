@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """An identification in plotly figures that answer to the mouse: the arm among its touches, pairs
-before and after, singular values, what is left against each joint."""
+before and after, singular values, residuals against each joint."""
 
 from __future__ import annotations
 
@@ -60,7 +60,7 @@ def show_touches(fit: ArmFit, data: Touches | Tracked) -> go.Figure:
 
 
 def show_before_and_after(fit: ArmFit, data: Touches | Tracked) -> go.Figure:
-    """Distances of every pair of touches of one point before and after, point beside point (figure
+    """Distances of every pair of touches of one point before and after, point after point (figure
     4 of Yukhimets, Gubankov 2023); of tracked poses, from where they were seen [mm]."""
     curves = curves_of(fit, data)
     figure = go.Figure()
@@ -101,12 +101,12 @@ def show_singular_values(fit: ArmFit) -> go.Figure:
     values, low = rank_gap(fit)
     place = np.arange(1, len(values) + 1)
     figure = go.Figure()
-    for some, colour, name in (
-        (place <= fit.rank, AFTER, "told"), (place > fit.rank, GAP, "not told"),
+    for mask, colour, name in (
+        (place <= fit.rank, AFTER, "determined"), (place > fit.rank, GAP, "not determined"),
     ):  # fmt: skip
         figure.add_trace(
             go.Scatter(
-                x=place[some], y=values[some], mode="markers", name=name,
+                x=place[mask], y=values[mask], mode="markers", name=name,
                 marker={"color": colour, "size": 7}, hovertemplate="%{y:.3g}<extra></extra>",
             )
         )  # fmt: skip
@@ -119,7 +119,7 @@ def show_singular_values(fit: ArmFit) -> go.Figure:
 
 
 def show_residuals(fit: ArmFit, data: Touches | Tracked) -> go.Figure:
-    """What is left, by axis, against each joint [mm]: a pattern is no matter of geometry."""
+    """Residuals by axis against each joint [mm]: a pattern is not due to geometry."""
     joints = joint_values(fit.arm, data)
     abreast = min(_PANELS_ABREAST, len(joints))
     down = -(-len(joints) // abreast)
@@ -142,7 +142,7 @@ def show_residuals(fit: ArmFit, data: Touches | Tracked) -> go.Figure:
                 **cell,
             )  # fmt: skip
         figure.update_xaxes(title=f"{joint.name} [{joint.unit}]", **cell)
-    figure.update_yaxes(title="what is left [mm]", col=1)
+    figure.update_yaxes(title="residual [mm]", col=1)
     return _dressed(figure, _PANEL * down + 60)
 
 

@@ -45,7 +45,7 @@ def _first_word_that_is_none(text: bytes | str) -> str:
 
 
 def refuse_truth_values(value: Any, where: str = "") -> None:
-    """Raise `Error` for true and false anywhere in what JSON told: Python counts them as 1 and 0.
+    """Raise `Error` for true and false anywhere in what JSON gave: Python counts them as 1 and 0.
 
     No file of numbers that is read here has a key for one.
     """

@@ -8,10 +8,10 @@
 #include "bathyal/base/error.hpp"
 #include "bathyal/base/text.hpp"
 
-namespace bathyal {
+namespace bathyal::diagnosis {
 namespace {
 
-std::string joint_words(int coordinate, const Arm& arm) {
+std::string joint_description(int coordinate, const Arm& arm) {
   std::string text = "joint " + std::to_string(coordinate + 1);
   for (const Joint& joint : arm.joints()) {
     if (joint.type != JointType::kFixed && joint.coordinate == coordinate) {
@@ -24,7 +24,7 @@ std::string joint_words(int coordinate, const Arm& arm) {
   return text;
 }
 
-std::string session_words(const EffectVariant& variant, const std::string& what) {
+std::string session_description(const EffectVariant& variant, const std::string& what) {
   const auto from = variant.settings.find("from");
   if (from == variant.settings.end()) return what + " in each session by itself";
   return what + " from session " + to_text(from->second) + " on";
@@ -32,8 +32,8 @@ std::string session_words(const EffectVariant& variant, const std::string& what)
 
 }  // namespace
 
-std::string words_of(const EffectVariant& variant, const Arm& arm) {
-  const std::string joint = variant.joint >= 0 ? joint_words(variant.joint, arm) : "";
+std::string description_of(const EffectVariant& variant, const Arm& arm) {
+  const std::string joint = variant.joint >= 0 ? joint_description(variant.joint, arm) : "";
   const auto setting = [&](const char* name) {
     const auto at = variant.settings.find(name);
     return at == variant.settings.end() ? 0.0 : at->second;
@@ -45,20 +45,22 @@ std::string words_of(const EffectVariant& variant, const Arm& arm) {
       {"joint_scale", [&] { return "a wrong scale of " + joint; }},
       {"joint_coupling",
        [&] {
-         return joint + " moved along by " + joint_words(static_cast<int>(setting("by")), arm);
+         return joint + " moved along by " +
+                joint_description(static_cast<int>(setting("by")), arm);
        }},
       {"backlash", [&] { return "play in " + joint; }},
       {"joint_compliance", [&] { return joint + " giving way under gravity"; }},
       {"link_compliance",
        [&] { return "the link that " + joint + " moves bending under its load"; }},
-      {"payload", [&] { return std::string("a load at the tool that nobody told of"); }},
-      {"base_shift", [&] { return session_words(variant, "the base, or the tracker, moved"); }},
+      {"payload", [&] { return std::string("an unreported load at the tool"); }},
+      {"base_shift",
+       [&] { return session_description(variant, "the base, or the tracker, moved"); }},
       {"base_compliance", [&] { return std::string("the base tilting under the arm's weight"); }},
       {"tool_slip",
        [&] {
          return "the tool slipping after row " + three_digits(setting("moment")) + " in time";
        }},
-      {"tool_change", [&] { return session_words(variant, "the tool sitting otherwise"); }},
+      {"tool_change", [&] { return session_description(variant, "the tool sitting otherwise"); }},
       {"thermal", [&] { return std::string("links growing with temperature"); }},
       {"drift", [&] { return std::string("the base, or the tracker, drifting with time"); }},
       {"clock_shift", [&] { return std::string("clocks of joints and tracker out of step"); }},
@@ -73,4 +75,4 @@ bool has_whole_order(const EffectVariant& variant) {
   return order != variant.settings.end() && order->second == std::round(order->second);
 }
 
-}  // namespace bathyal
+}  // namespace bathyal::diagnosis

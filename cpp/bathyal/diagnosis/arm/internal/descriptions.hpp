@@ -6,12 +6,12 @@
 #include "bathyal/arm/arm.hpp"
 #include "bathyal/effects/effect.hpp"
 
-namespace bathyal {
+namespace bathyal::diagnosis {
 
-/// "a wave of order 2 along joint 3 (elbow)": a form for people, who count joints from 1.
-std::string words_of(const EffectVariant& variant, const Arm& arm);
+/// "a wave of order 2 along joint 3 (elbow)": joints counted from 1.
+std::string description_of(const EffectVariant& variant, const Arm& arm);
 
 /// Whether it has an order, and that is a whole number.
 bool has_whole_order(const EffectVariant& variant);
 
-}  // namespace bathyal
+}  // namespace bathyal::diagnosis

@@ -3,21 +3,23 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <memory>
 #include <numbers>
 
-namespace bathyal {
+#include "bathyal/diagnosis/internal/seconds.hpp"
+
+namespace bathyal::diagnosis {
 namespace {
 
-using Functions = Eigen::MatrixXd;  ///< (N, k) a function of something in each column
+using Kind = Dependence::Kind;
+using Functions = Eigen::MatrixXd;  ///< (N, k) one function per column
 
-/// Frames whose axes a shift is told along.
+/// Frames whose axes a shift is resolved along.
 enum class Axes { kBase, kFlange };
 
 std::string number(int coordinate) { return std::to_string(coordinate + 1); }
 
-/// -1 … 1 over the data; all 0 for what never changes.
+/// Scaled to -1 … 1 over the data; 0 for a constant.
 Eigen::VectorXd spread_out(const Eigen::VectorXd& values) {
   const double low = values.minCoeff(), high = values.maxCoeff();
   if (!(high > low)) return Eigen::VectorXd::Zero(values.size());
@@ -32,7 +34,7 @@ Functions curve(const Eigen::VectorXd& u) {
   return out;
 }
 
-/// cos(π m t), t from 0 to 1, m = 1 … count: what wanders slowly.
+/// cos(π m t), t from 0 to 1, m = 1 … count: slow drift.
 Functions waves(const Eigen::VectorXd& u, int count) {
   Functions out(u.size(), count);
   for (int m = 1; m <= count; ++m) {
@@ -51,9 +53,9 @@ Functions products(const Functions& a, const Functions& b) {
   return out;
 }
 
-class ProbeMaker {
+class LackOfFitTermMaker {
  public:
-  ProbeMaker(const EffectData& data, const Eigen::Matrix3Xd& position)
+  LackOfFitTermMaker(const EffectData& data, const Eigen::Matrix3Xd& position)
       : data_(data), position_(position) {
     for (const Joint& joint : data.arm->joints()) {
       if (joint.type == JointType::kFixed ||
@@ -67,14 +69,14 @@ class ProbeMaker {
     if (data.has("time")) when_ = data.covariate("time").col(0);
   }
 
-  std::vector<Probe> make() {
+  std::vector<LackOfFitTerm> make() {
     if (position_.cols() > 0) of_position();
     of_joints();
     of_pairs();
     of_time();
     of_approach();
     of_covariates();
-    return std::move(probes_);
+    return std::move(lack_of_fit_terms_);
   }
 
  private:
@@ -93,41 +95,42 @@ class ProbeMaker {
     return out;
   }
 
-  void along_axes(std::string against, std::string words, Axes axes, double trials,
+  void along_axes(Dependence dependence, std::string description, Axes axes, double multiplicity,
                   std::function<Functions()> functions, int family = -1) {
     const int frame = axes == Axes::kBase ? 0 : static_cast<int>(data_.arm->joints().size()) + 1;
-    probes_.push_back({std::move(against), std::move(words), family, trials,
-                       [frame, functions = std::move(functions)] {
-                         const Functions f = functions();
-                         std::vector<Perturbation> out;
-                         for (Eigen::Index c = 0; c < f.cols(); ++c) {
-                           for (int axis = 0; axis < 3; ++axis) {
-                             Perturbation perturbation{PerturbationSite::kFrame, frame,
-                                                       RowMatrix::Zero(f.rows(), 6)};
-                             perturbation.values.col(axis) = f.col(c);
-                             out.push_back(std::move(perturbation));
-                           }
-                         }
-                         return out;
-                       }});
+    lack_of_fit_terms_.push_back({std::move(dependence), -1, std::move(description), family,
+                                  multiplicity, [frame, functions = std::move(functions)] {
+                                    const Functions f = functions();
+                                    std::vector<Perturbation> out;
+                                    for (Eigen::Index c = 0; c < f.cols(); ++c) {
+                                      for (int axis = 0; axis < 3; ++axis) {
+                                        Perturbation perturbation{PerturbationSite::kFrame, frame,
+                                                                  RowMatrix::Zero(f.rows(), 6)};
+                                        perturbation.values.col(axis) = f.col(c);
+                                        out.push_back(std::move(perturbation));
+                                      }
+                                    }
+                                    return out;
+                                  }});
   }
 
-  void on_joint(std::string against, std::string words, int joint, double trials,
+  void on_joint(Dependence dependence, std::string description, int joint, double multiplicity,
                 std::function<Functions()> functions, int family = -1) {
-    probes_.push_back({std::move(against), std::move(words), family, trials,
-                       [joint, functions = std::move(functions)] {
-                         const Functions f = functions();
-                         std::vector<Perturbation> out;
-                         for (Eigen::Index c = 0; c < f.cols(); ++c) {
-                           out.push_back({PerturbationSite::kJoint, joint, RowMatrix(f.col(c))});
-                         }
-                         return out;
-                       }});
+    lack_of_fit_terms_.push_back(
+        {std::move(dependence), joint, std::move(description), family, multiplicity,
+         [joint, functions = std::move(functions)] {
+           const Functions f = functions();
+           std::vector<Perturbation> out;
+           for (Eigen::Index c = 0; c < f.cols(); ++c) {
+             out.push_back({PerturbationSite::kJoint, joint, RowMatrix(f.col(c))});
+           }
+           return out;
+         }});
   }
 
   void of_position() {
     for (const int degree : {2, 3}) {
-      along_axes("position", "a field over the tip's position", Axes::kBase, 2.0, [=, this] {
+      along_axes({Kind::kPosition}, "a field over the tip's position", Axes::kBase, 2.0, [=, this] {
         Functions u(position_.cols(), 3);
         for (int axis = 0; axis < 3; ++axis)
           u.col(axis) = spread_out(position_.row(axis).transpose());
@@ -153,14 +156,15 @@ class ProbeMaker {
     const int n = static_cast<int>(data_.q.cols());
     for (int i = 0; i < n; ++i) {
       const auto functions = [=, this] { return of_joint(i, true); };
-      const std::string name = "joint " + number(i);
-      along_axes(name, "what shifts the tip in the base's axes with " + name, Axes::kBase, 2.0 * n,
+      const Dependence on{Kind::kJoints, {i}};
+      const std::string name = to_text(on);
+      along_axes(on, "what shifts the tip in the base's axes with " + name, Axes::kBase, 2.0 * n,
                  functions);
-      along_axes(name, "what shifts the tip in the tool's axes with " + name, Axes::kFlange,
-                 2.0 * n, functions);
+      along_axes(on, "what shifts the tip in the tool's axes with " + name, Axes::kFlange, 2.0 * n,
+                 functions);
       for (int j = 0; j < n; ++j) {
         if (j == i) continue;
-        on_joint(name, "what moves joint " + number(j) + " with " + name, j, n * (n - 1.0),
+        on_joint(on, "what moves joint " + number(j) + " with " + name, j, n * (n - 1.0),
                  functions);
       }
     }
@@ -171,14 +175,15 @@ class ProbeMaker {
     const double pairs = 0.5 * n * (n - 1);
     for (int i = 0; i < n; ++i) {
       for (int j = i + 1; j < n; ++j) {
-        const std::string name = "joints " + number(i) + " and " + number(j);
+        const Dependence on{Kind::kJoints, {i, j}};
+        const std::string name = to_text(on);
         const auto functions = [=, this] {
           return products(of_joint(i, false), of_joint(j, false));
         };
-        along_axes(name, "what shifts the tip with " + name + " together", Axes::kBase, pairs,
+        along_axes(on, "what shifts the tip with " + name + " together", Axes::kBase, pairs,
                    functions);
         for (int k = 0; k < n; ++k) {
-          on_joint(name, "what moves joint " + number(k) + " with " + name + " together", k,
+          on_joint(on, "what moves joint " + number(k) + " with " + name + " together", k,
                    pairs * n, functions);
         }
       }
@@ -188,40 +193,39 @@ class ProbeMaker {
   void of_time() {
     const Eigen::VectorXd u = spread_out(when_);
     if (u.isZero()) return;
-    const std::string name = data_.has("time") ? "time" : "the order of the rows";
+    const Dependence on{data_.has("time") ? Kind::kTime : Kind::kOrder};
+    const std::string name = to_text(on);
     const int n = static_cast<int>(data_.q.cols());
-    along_axes(name, "what wanders with " + name, Axes::kBase, 1.0, [=] { return waves(u, 6); });
+    along_axes(on, "what wanders with " + name, Axes::kBase, 1.0, [=] { return waves(u, 6); });
     for (int j = 0; j < n; ++j) {
-      on_joint(name, "a zero of joint " + number(j) + " that wanders with " + name, j, n,
+      on_joint(on, "a zero of joint " + number(j) + " that wanders with " + name, j, n,
                [=] { return waves(u, 8); });
     }
     if (data_.has("time")) of_periods();
   }
 
-  /// Up to one period in two poses, in steps that a recording of this length tells apart.
+  /// Up to one period in two poses, at the frequency resolution of a recording of this length.
   void of_periods() {
     const double whole = when_.maxCoeff() - when_.minCoeff();
-    const int count = static_cast<int>(std::min<Index>(data_.rows(), kMostPeriods));
+    const int count = static_cast<int>(std::min<Index>(data_.rows(), kMaxPeriods));
     const int n = static_cast<int>(data_.q.cols());
     const double most = static_cast<double>(data_.rows()) / 2.0;
     for (int site = -1; site < n; ++site) {
       for (int step = 2; step < count; ++step) {
         const double cycles = most * step / count;
         const double rate = 2.0 * std::numbers::pi * cycles / whole;
-        char period[32];
-        std::snprintf(period, sizeof period, "%.4g s", whole / cycles);
+        const Dependence on{Kind::kTime, {}, whole / cycles};
+        const std::string period = seconds(*on.period);
         const auto functions = [=, this] {
           Functions out(when_.size(), 2);
           out.col(0) = (rate * (when_.array() - when_[0])).cos();
           out.col(1) = (rate * (when_.array() - when_[0])).sin();
           return out;
         };
-        const std::string against = std::string("time, period ") + period;
         if (site < 0) {
-          along_axes(against, std::string("a vibration of period ") + period, Axes::kBase, count,
-                     functions, 0);
+          along_axes(on, "a vibration of period " + period, Axes::kBase, count, functions, 0);
         } else {
-          on_joint(against, "a vibration of joint " + number(site) + " of period " + period, site,
+          on_joint(on, "a vibration of joint " + number(site) + " of period " + period, site,
                    static_cast<double>(count) * n, functions, 1 + site);
         }
       }
@@ -232,7 +236,7 @@ class ProbeMaker {
     const int n = static_cast<int>(data_.q.cols());
     const std::vector<int>& row = data_.order;
     for (int j = 0; j < n; ++j) {
-      on_joint("the last move of joint " + number(j),
+      on_joint({Kind::kApproach, {j}},
                "a play of joint " + number(j) + " that depends on where it came from", j, n,
                [=, this] {
                  Functions sign = Functions::Zero(data_.rows(), 1);
@@ -259,29 +263,31 @@ class ProbeMaker {
       for (Eigen::Index c = 0; c < table.cols(); ++c) {
         const Eigen::VectorXd u = spread_out(table.col(c));
         if (u.isZero()) continue;
-        const std::string what = table.cols() > 1 ? name + " " + std::to_string(c + 1) : name;
+        Dependence on{Kind::kCovariate, {}, {}, name};
+        if (table.cols() > 1) on.component = static_cast<int>(c);
+        const std::string what = to_text(on);
         const auto functions = [=] { return curve(u); };
-        along_axes(what, "what shifts the tip in the base's axes with " + what, Axes::kBase, 2.0,
+        along_axes(on, "what shifts the tip in the base's axes with " + what, Axes::kBase, 2.0,
                    functions);
-        along_axes(what, "what shifts the tip in the tool's axes with " + what, Axes::kFlange, 2.0,
+        along_axes(on, "what shifts the tip in the tool's axes with " + what, Axes::kFlange, 2.0,
                    functions);
         for (int j = 0; j < n; ++j) {
-          on_joint(what, "what moves joint " + number(j) + " with " + what, j, n, functions);
+          on_joint(on, "what moves joint " + number(j) + " with " + what, j, n, functions);
         }
       }
     }
   }
 
-  /// A joint whose zero is another in each session.
+  /// A zero of a joint that differs between sessions.
   void of_sessions(const Eigen::VectorXd& session) {
     std::vector<double> names(session.data(), session.data() + session.size());
     std::sort(names.begin(), names.end());
     names.erase(std::unique(names.begin(), names.end()), names.end());
-    if (names.size() < 2 || names.size() > kMostSessions) return;
+    if (names.size() < 2 || names.size() > kMaxSessions) return;
     const int n = static_cast<int>(data_.q.cols());
     for (int j = 0; j < n; ++j) {
-      on_joint("session", "a zero of joint " + number(j) + " that is another in each session", j, n,
-               [=] {
+      on_joint({Kind::kSession},
+               "a zero of joint " + number(j) + " that is another in each session", j, n, [=] {
                  Functions out(session.size(), static_cast<Eigen::Index>(names.size()) - 1);
                  for (std::size_t s = 1; s < names.size(); ++s) {
                    out.col(static_cast<Eigen::Index>(s) - 1) =
@@ -292,28 +298,29 @@ class ProbeMaker {
     }
   }
 
-  static constexpr Index kMostPeriods = 400;
-  static constexpr std::size_t kMostSessions = 20;
+  static constexpr Index kMaxPeriods = 400;
+  static constexpr std::size_t kMaxSessions = 20;
 
   const EffectData& data_;
   const Eigen::Matrix3Xd position_;
   std::vector<bool> slides_;
   Eigen::VectorXd when_;
-  std::vector<Probe> probes_;
+  std::vector<LackOfFitTerm> lack_of_fit_terms_;
 };
 
 }  // namespace
 
-std::vector<Probe> make_probes(const EffectData& data, const Eigen::Matrix3Xd& position) {
-  auto maker = std::make_shared<ProbeMaker>(data, position);
-  std::vector<Probe> probes = maker->make();
-  for (Probe& probe : probes) {
-    // The maker's arrays live as long as any probe.
-    probe.perturbations = [maker, perturbations = std::move(probe.perturbations)] {
+std::vector<LackOfFitTerm> make_lack_of_fit_terms(const EffectData& data,
+                                                  const Eigen::Matrix3Xd& position) {
+  auto maker = std::make_shared<LackOfFitTermMaker>(data, position);
+  std::vector<LackOfFitTerm> probes = maker->make();
+  for (LackOfFitTerm& term : probes) {
+    // The maker's arrays live as long as any term.
+    term.perturbations = [maker, perturbations = std::move(term.perturbations)] {
       return perturbations();
     };
   }
   return probes;
 }
 
-}  // namespace bathyal
+}  // namespace bathyal::diagnosis

@@ -15,19 +15,19 @@
 #include "bathyal/identify/model/effect_parameters.hpp"
 #include "bathyal/selection/folds.hpp"
 
-namespace bathyal {
+namespace bathyal::diagnosis {
 namespace {
 
-constexpr double kTwins = 1e-3;          ///< [rad] or [m]: poses nearer than this are one pose
-constexpr std::size_t kScanFrom = 9;     ///< so many forms of one cause of one effect are a scan
-constexpr double kSeenDirection = 1e-5;  ///< of the largest singular value, per mm and mrad
-constexpr double kOrdinaryMove = 1e-3;   ///< [m]
+constexpr double kReplicateDistance = 1e-3;  ///< [rad] or [m]: nearer poses are replicates
+constexpr std::size_t kScanFrom = 9;        ///< so many terms of an effect's alias group are a scan
+constexpr double kMinSingularValue = 1e-5;  ///< of the largest singular value, per mm and mrad
+constexpr double kOrdinaryMove = 1e-3;      ///< [m]
 constexpr double kRounding = 1e-7;
 constexpr int kMomentsNear = 8;       ///< on either side
-constexpr double kPlausible = 100.0;  ///< of a parameter's scale, where nobody told
-/// Of the equations more than unknowns, that one effect may use up: beyond a third, freedom that
-/// explains nothing costs less than it seems to gain.
-constexpr double kMostOfFreedom = 0.25;
+constexpr double kPlausible = 100.0;  ///< of a parameter's scale, where the effect gives none
+/// Of the residual degrees of freedom, that one effect may use: beyond a third, the penalty of
+/// parameters that explain nothing is less than their apparent gain.
+constexpr double kMaxShareOfDof = 0.25;
 
 std::vector<int> numbered(const Eigen::VectorXd& values) {
   std::map<double, int> known;
@@ -39,8 +39,8 @@ std::vector<int> numbered(const Eigen::VectorXd& values) {
   return out;
 }
 
-/// Of rows in their order in time, the place of each.
-std::vector<int> places_of(const std::vector<int>& order) {
+/// The rank in time of each row.
+std::vector<int> ranks_of(const std::vector<int>& order) {
   std::vector<int> out(order.size());
   for (std::size_t i = 0; i < order.size(); ++i) out[order[i]] = static_cast<int>(i);
   return out;
@@ -48,40 +48,40 @@ std::vector<int> places_of(const std::vector<int>& order) {
 
 }  // namespace
 
-ArmSubject::ArmSubject(const Arm& arm, const Measurement& measurement,
-                       std::unique_ptr<const Measurement>&& own, const IdentifyOptions& options)
+ArmModel::ArmModel(const Arm& arm, const Measurement& measurement,
+                   std::unique_ptr<const Measurement>&& own, const IdentifyOptions& options)
     : nominal_(arm),
       own_(std::move(own)),
       m_(measurement),
       problem_(arm, measurement, options),
-      seen_(observe(*problem_.system, problem_.start)),
+      observability_(observe(*problem_.system, problem_.start)),
       fit_(arm),
       effects_arm_(arm) {
-  if (problem_.drop_scale_prior(seen_.null_space))
-    seen_ = observe(*problem_.system, problem_.start);
-  start_ = search(problem_, seen_);
-  fit_ = make_arm_fit(problem_, seen_, start_);
+  if (problem_.drop_scale_prior(observability_.null_space))
+    observability_ = observe(*problem_.system, problem_.start);
+  start_ = search(problem_, observability_);
+  fit_ = make_arm_fit(problem_, observability_, start_);
   effects_arm_ = fit_.arm;
   geometry_ = problem_.parameters.parameters.size();
-  free_what_is_seen();
+  free_observable_directions();
 }
 
-ArmSubject::ArmSubject(const Arm& arm, const Measurement& measurement, const Covariates& covariates,
-                       const IdentifyOptions& options, const Effects& effects)
-    : ArmSubject(arm, measurement, nullptr, options) {
-  geometry_doubts_ = run_checks(measurement, *problem_.system, arm, fit_);
+ArmModel::ArmModel(const Arm& arm, const Measurement& measurement, const Covariates& covariates,
+                   const IdentifyOptions& options, const Effects& effects)
+    : ArmModel(arm, measurement, nullptr, options) {
+  geometry_warnings_ = run_checks(measurement, *problem_.system, arm, fit_);
   gather_data(covariates);
-  gather_units();
-  gather_forms(effects);
-  gather_noise_forms();
+  gather_observations();
+  gather_terms(effects);
+  gather_variance_components();
   evaluate_effects_at(x_);
-  stand_at(x_);
+  linearize_at(x_);
 }
 
-/// All that the caller does not hold, along the directions that the data or priors see where the
-/// search ended. What identification leaves to base and tool as superfluous in general need not be
-/// so for an arm of special angles: columns that depend do no harm here.
-void ArmSubject::free_what_is_seen() {
+/// Frees all that the caller does not fix, along the directions that data or priors determine at
+/// the end of the search. Parameters that are redundant in general need not be so for an arm of
+/// special angles, and collinear columns do no harm here.
+void ArmModel::free_observable_directions() {
   for (int c = 0; c < static_cast<int>(geometry_); ++c) {
     if (std::find(problem_.fixed.begin(), problem_.fixed.end(), c) == problem_.fixed.end()) {
       base_free_.push_back(c);
@@ -93,66 +93,67 @@ void ArmSubject::free_what_is_seen() {
   x_ = start_.x;
   exact_ = consistent_joints(system, x_);
   const RankReport rank =
-      numerical_rank(qr_factor(derivatives(x_), system.num_threads()), kSeenDirection);
-  held_ = rank.directions.leftCols(rank.rank);
+      numerical_rank(qr_factor(derivatives(x_), system.num_threads()), kMinSingularValue);
+  observable_ = rank.directions.leftCols(rank.rank);
 }
 
-void ArmSubject::gather_data(const Covariates& covariates) {
+void ArmModel::gather_data(const Covariates& covariates) {
   data_ = make_effect_data(effects_arm_, m_.q, covariates, m_.has_rotation());
 }
 
-void ArmSubject::gather_units() {
-  units_.order = places_of(data_.order);
-  units_.timed = data_.has("time");
-  units_.twin = find_twins(m_.q, kTwins);
-  units_.session = m_.station;
-  if (data_.has("session")) units_.session = numbered(data_.covariate("session").col(0));
-  units_.point = m_.point;
+void ArmModel::gather_observations() {
+  observations_.order = ranks_of(data_.order);
+  observations_.timed = data_.has("time");
+  observations_.replicate = selection::find_replicates(m_.q, kReplicateDistance);
+  observations_.session = m_.station;
+  if (data_.has("session")) observations_.session = numbered(data_.covariate("session").col(0));
+  observations_.group = m_.point;
 }
 
-void ArmSubject::gather_noise_forms() {
+void ArmModel::gather_variance_components() {
   if (m_.tracked) {
-    // Where the model has the tip: what was measured holds the very errors that are looked at.
+    // Tips of the model: measured ones contain the errors themselves.
     const std::vector<Vec3> world = tips();
     Eigen::MatrixXd loads(3 * m_.rows(), 3);
     for (Index i = 0; i < m_.rows(); ++i) {
       const double range = world[static_cast<std::size_t>(i)].norm();
       loads.middleRows<3>(3 * i) = std::sqrt(m_.weights[i]) * range * Eigen::Matrix3d::Identity();
     }
-    noise_forms_.push_back(
+    variance_components_.push_back(
         {"range_noise", "noise that grows with the range", "rate", "1", 1.0, std::move(loads)});
   }
-  const double step = logged_step(m_.q, nominal_);
+  const double step = quantisation_step(m_.q, nominal_);
   if (!(step > 0.0)) return;
   Eigen::MatrixXd loads(3 * m_.rows(), m_.q.cols());
   const ChainDerivatives walk(problem_.parameters, x_, {});
   ChainFrames frames;
   Vec3 tip;
   for (Index i = 0; i < m_.rows(); ++i) {
-    const double evenly = std::sqrt(m_.weights[i] / 12.0);  // over a step of 1
+    const double evenly = std::sqrt(m_.weights[i] / 12.0);  // uniform over a step of 1
     loads.middleRows<3>(3 * i) =
         evenly * walk.joint_jacobian(m_.q.row(i).data(), i, m_.tool[i], m_.station[i], frames, tip);
   }
-  noise_forms_.push_back(
+  variance_components_.push_back(
       {"quantisation", "joint values logged in steps", "step", "rad", 1.0, std::move(loads)});
-  noise_forms_.back().known = step;
+  variance_components_.back().known = step;
 }
 
-void ArmSubject::gather_forms(const Effects& effects) {
+void ArmModel::gather_terms(const Effects& effects) {
   for (const auto& effect : effects) {
     std::vector<EffectVariant> variants = effect->variants(data_);
     std::erase_if(variants, [this](const EffectVariant& variant) { return is_too_wide(variant); });
-    std::map<std::pair<int, std::string>, std::vector<int>> by_cause;
+    std::map<std::pair<int, std::string>, std::vector<int>> by_alias_group;
     for (EffectVariant& variant : variants) {
-      by_cause[{variant.joint, variant.alias_group}].push_back(static_cast<int>(forms_.size()));
-      forms_.push_back({variant.effect, variant.joint, variant.alias_group,
-                        words_of(variant, nominal_), static_cast<double>(variants.size()),
+      by_alias_group[{variant.joint, variant.alias_group}].push_back(
+          static_cast<int>(terms_.size()));
+      terms_.push_back({variant.effect, variant.joint, variant.alias_group,
+                        description_of(variant, nominal_), static_cast<double>(variants.size()),
                         has_whole_order(variant)});
-      forms_.back().shares = effect->info().combinable;
-      forms_.back().moves = variant.settings.contains("order") && !has_whole_order(variant);
+      terms_.back().combinable = effect->info().combinable;
+      terms_.back().continuous = variant.settings.contains("order") && !has_whole_order(variant);
       sources_.push_back({effect, std::move(variant), -1});
     }
-    for (auto& [cause, family] : by_cause) {
+    for (auto& [cause, family] : by_alias_group) {
       if (family.size() < kScanFrom) continue;
       for (std::size_t i = 0; i < family.size(); ++i) {
         neighbours_[family[i]] = {i > 0 ? family[i - 1] : -1,
@@ -161,21 +162,23 @@ void ArmSubject::gather_forms(const Effects& effects) {
       scans_.push_back(std::move(family));
     }
   }
-  probes_ = make_probes(data_, m_.tracked ? tips_from_base() : Eigen::Matrix3Xd());
+  lack_of_fit_terms_ =
+      make_lack_of_fit_terms(data_, m_.tracked ? tips_from_base() : Eigen::Matrix3Xd());
   std::map<int, std::vector<int>> families;
-  for (int p = 0; p < static_cast<int>(probes_.size()); ++p) {
-    const Probe& probe = probes_[p];
-    if (probe.family >= 0) families[probe.family].push_back(static_cast<int>(forms_.size()));
-    forms_.push_back({probe.against, -1, "probe " + probe.words, probe.words, probe.trials});
-    forms_.back().probe = true;
+  for (int p = 0; p < static_cast<int>(lack_of_fit_terms_.size()); ++p) {
+    const LackOfFitTerm& about = lack_of_fit_terms_[p];
+    if (about.family >= 0) families[about.family].push_back(static_cast<int>(terms_.size()));
+    terms_.push_back({to_text(about.dependence), -1, "lack of fit " + about.description,
+                      about.description, about.multiplicity});
+    terms_.back().lack_of_fit = true;
     sources_.push_back({nullptr, {}, p});
   }
   for (auto& [number, family] : families) scans_.push_back(std::move(family));
 }
 
-bool ArmSubject::is_too_wide(const EffectVariant& variant) {
+bool ArmModel::is_too_wide(const EffectVariant& variant) {
   const auto wide = static_cast<double>(variant.parameters.size());
-  if (wide <= kMostOfFreedom * fit_.degrees_of_freedom) return false;
+  if (wide <= kMaxShareOfDof * fit_.degrees_of_freedom) return false;
   const long left = std::max(0L, std::lround(fit_.degrees_of_freedom));
   const std::string text = variant.effect + " was not tried with " +
                            counted(static_cast<long>(variant.parameters.size()), "number") +
@@ -187,39 +190,39 @@ bool ArmSubject::is_too_wide(const EffectVariant& variant) {
   return true;
 }
 
-std::vector<int> ArmSubject::finer(int form) {
-  const auto found = neighbours_.find(form);
+std::vector<int> ArmModel::refine(int term) {
+  const auto found = neighbours_.find(term);
   if (found == neighbours_.end()) return {};
   const int lower = found->second.first, upper = found->second.second;
   std::vector<int> chain;
   const auto add_between = [&](int from, int to) {
     if (from < 0 || to < 0) return;
-    const Source here = sources_[form];
+    const Source here = sources_[term];
     for (EffectVariant& variant : here.effect->between(sources_[from].variant, sources_[to].variant,
                                                        record_ ? *record_ : data_)) {
-      Form about = forms_[form];
-      about.words = words_of(variant, nominal_);
-      about.plain = has_whole_order(variant);
-      about.moves = variant.settings.contains("order") && !about.plain;
-      chain.push_back(static_cast<int>(forms_.size()));
-      forms_.push_back(std::move(about));
+      selection::Term about = terms_[term];
+      about.description = description_of(variant, nominal_);
+      about.preferred = has_whole_order(variant);
+      about.continuous = variant.settings.contains("order") && !about.preferred;
+      chain.push_back(static_cast<int>(terms_.size()));
+      terms_.push_back(std::move(about));
       sources_.push_back({here.effect, std::move(variant), -1});
     }
   };
   if (lower >= 0) chain.push_back(lower);
-  add_between(lower, form);
-  chain.push_back(form);
-  add_between(form, upper);
+  add_between(lower, term);
+  chain.push_back(term);
+  add_between(term, upper);
   if (upper >= 0) chain.push_back(upper);
   for (std::size_t i = 0; i < chain.size(); ++i) {
     if (chain[i] == lower || chain[i] == upper) continue;
     neighbours_[chain[i]] = {i > 0 ? chain[i - 1] : -1, i + 1 < chain.size() ? chain[i + 1] : -1};
   }
-  std::erase_if(chain, [&](int f) { return f == lower || f == upper || f == form; });
-  if (!chain.empty() || forms_[form].moves || forms_[form].plain) return chain;
-  // There is nothing between moments that follow one another: the next ones themselves.
+  std::erase_if(chain, [&](int f) { return f == lower || f == upper || f == term; });
+  if (!chain.empty() || terms_[term].continuous || terms_[term].preferred) return chain;
+  // There is nothing between consecutive moments: the neighbours themselves.
   for (const bool below : {true, false}) {
-    int at = form;
+    int at = term;
     for (int step = 0; step < kMomentsNear; ++step) {
       at = below ? neighbours_[at].first : neighbours_[at].second;
       if (at < 0) break;
@@ -229,35 +232,35 @@ std::vector<int> ArmSubject::finer(int form) {
   return chain;
 }
 
-std::vector<std::vector<Perturbation>> ArmSubject::perturbations_of(int form) const {
-  const Source& source = sources_[form];
-  if (source.probe < 0) return perturbations_of(*source.effect, source.variant);
+std::vector<std::vector<Perturbation>> ArmModel::perturbations_of(int term) const {
+  const Source& source = sources_[term];
+  if (source.lack_of_fit < 0) return perturbations_of(*source.effect, source.variant);
   std::vector<std::vector<Perturbation>> out;
-  for (Perturbation& perturbation : probes_[source.probe].perturbations())
+  for (Perturbation& perturbation : lack_of_fit_terms_[source.lack_of_fit].perturbations())
     out.push_back({std::move(perturbation)});
   return out;
 }
 
-/// Largest size of a parameter, as far as it has not been learned; `scale` is that of its column,
-/// which tells where the effect's description does not.
-double ArmSubject::plausible(int form, std::size_t parameter, double scale) const {
-  const Source& source = sources_[form];
-  const auto learned = sizes_.find(family_of(form));
-  const double size = learned != sizes_.end() ? learned->second : 1.0;
-  double told = std::numeric_limits<double>::infinity();
+/// Prior standard deviation of a parameter, times the scale estimated for its family; `scale` of
+/// its column is the basis where the effect gives no plausible size.
+double ArmModel::prior_std(int term, std::size_t parameter, double scale) const {
+  const Source& source = sources_[term];
+  const auto learned = prior_scales_.find(family_of(term));
+  const double scale_of_family = learned != prior_scales_.end() ? learned->second : 1.0;
+  double size = std::numeric_limits<double>::infinity();
   if (source.effect) {
-    told = plausible_size(source.effect->info(), source.variant.parameters[parameter]);
+    size = plausible_size(source.effect->info(), source.variant.parameters[parameter]);
   }
-  return size * (std::isfinite(told) ? told : kPlausible * scale);
+  return scale_of_family * (std::isfinite(size) ? size : kPlausible * scale);
 }
 
-std::vector<Eigen::MatrixXd> ArmSubject::columns(std::span<const int> forms) const {
+std::vector<Eigen::MatrixXd> ArmModel::columns(std::span<const int> terms) const {
   std::vector<ActingVariant> acting;
-  for (const int form : forms) {
-    EffectVariant variant = sources_[form].variant;
-    std::vector<std::vector<Perturbation>> perturbations = perturbations_of(form);
-    if (sources_[form].probe >= 0) {
-      variant.effect = forms_[form].words;
+  for (const int term : terms) {
+    EffectVariant variant = sources_[term].variant;
+    std::vector<std::vector<Perturbation>> perturbations = perturbations_of(term);
+    if (sources_[term].lack_of_fit >= 0) {
+      variant.effect = terms_[term].description;
       for (std::size_t c = 0; c < perturbations.size(); ++c) {
         variant.parameters.push_back({std::to_string(c), "", 1.0});
       }
@@ -266,16 +269,16 @@ std::vector<Eigen::MatrixXd> ArmSubject::columns(std::span<const int> forms) con
   }
   std::vector<Eigen::MatrixXd> out;
   for (ParameterColumns& one : columns_of(std::move(acting))) {
-    const int form = forms[out.size()];
+    const int term = terms[out.size()];
     for (Index p = 0; p < one.scale.size(); ++p) {
-      one.columns.col(p) *= plausible(form, static_cast<std::size_t>(p), one.scale[p]);
+      one.columns.col(p) *= prior_std(term, static_cast<std::size_t>(p), one.scale[p]);
     }
     out.push_back(std::move(one.columns));
   }
   return out;
 }
 
-std::vector<ArmSubject::ParameterColumns> ArmSubject::columns_of(
+std::vector<ArmModel::ParameterColumns> ArmModel::columns_of(
     std::vector<ActingVariant> acting) const {
   ArmParameters parameters = problem_.parameters;
   const auto before = static_cast<Index>(parameters.parameters.size());
@@ -294,11 +297,10 @@ std::vector<ArmSubject::ParameterColumns> ArmSubject::columns_of(
   system.set_noise(problem_.system->noise(), x);
   system.set_joints(exact_);
   system.set_free(wanted);
-  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(linearization_.misfit.size(), first.back());
+  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(linearization_.residual.size(), first.back());
   all.topRows(system.data_rows()) = system.jacobian(x).topRows(system.data_rows());
-  // A column in units of its scale moves tips by about a millimetre. One that moves residuals by
-  // next to nothing of that has been taken from them whole (a shift of a touched point), and what
-  // is left of it is rounding.
+  // A column in units of its scale moves tips by about a millimetre. One with hardly any of that in
+  // the residuals was eliminated from them (a shift of a touched point), and the rest is rounding.
   const double ordinary = kOrdinaryMove / system.noise().position * std::sqrt(double(m_.rows()));
   Eigen::VectorXd scale(all.cols());
   for (Index c = 0; c < all.cols(); ++c) {
@@ -317,7 +319,7 @@ std::vector<ArmSubject::ParameterColumns> ArmSubject::columns_of(
   return out;
 }
 
-std::vector<Vec3> ArmSubject::tips() const {
+std::vector<Vec3> ArmModel::tips() const {
   std::vector<Vec3> tips;
   const ChainDerivatives walk(problem_.parameters, x_, {});
   ChainFrames frames;
@@ -329,7 +331,7 @@ std::vector<Vec3> ArmSubject::tips() const {
   return tips;
 }
 
-Eigen::Matrix3Xd ArmSubject::tips_from_base() const {
+Eigen::Matrix3Xd ArmModel::tips_from_base() const {
   const std::vector<Vec3> world = tips();
   Eigen::Matrix3Xd out(3, m_.rows());
   for (Index i = 0; i < m_.rows(); ++i) {
@@ -338,4 +340,4 @@ Eigen::Matrix3Xd ArmSubject::tips_from_base() const {
   return out;
 }
 
-}  // namespace bathyal
+}  // namespace bathyal::diagnosis

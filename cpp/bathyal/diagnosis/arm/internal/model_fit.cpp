@@ -11,18 +11,18 @@
 #include "bathyal/estimation/orthogonal.hpp"
 #include "bathyal/identify/model/effect_parameters.hpp"
 
-// Geometry and effects, fitted together.
+// Joint fit of geometry and effects.
 
-namespace bathyal {
+namespace bathyal::diagnosis {
 namespace {
 
-constexpr int kMostEvaluations = 6;      ///< of effects, each at the arm that the last fit found
-constexpr double kSameResiduals = 3e-3;  ///< rms, in units of noise: evaluated anew they are these
-constexpr int kMostRounds = 12;          ///< of finding values, their noise and their sizes
-constexpr int kMostSteps = 20;
+constexpr int kMaxEvaluations = 6;       ///< of effects, each at the arm of the last fit
+constexpr double kSameResiduals = 3e-3;  ///< rms change after a new evaluation [noise]
+constexpr int kMaxRounds = 12;           ///< of values, noise and prior scales
+constexpr int kMaxSteps = 20;
 constexpr double kFirstDamping = 1e-2;  ///< 1 / (10 mm or mrad)²
-constexpr double kLeastDamping = 1e-6;
-constexpr double kMostDamping = 1e8;
+constexpr double kMinDamping = 1e-6;
+constexpr double kMaxDamping = 1e8;
 constexpr double kSettledStep = 1e-6;  ///< in units of the columns' scale: nm and nrad
 constexpr double kSettledCost = 1e-2;  ///< of the mean square of a row
 constexpr int kOrderRounds = 4;
@@ -32,50 +32,51 @@ constexpr double kOrderStep = 1e-4;     ///< relative
 
 }  // namespace
 
-void ArmSubject::settle(const std::vector<int>& forms) {
+void ArmModel::fit(const std::vector<int>& terms) {
   for (int round = 0; round < kOrderRounds; ++round) {
-    fit(forms);
-    if (!move_orders()) break;
+    fit_at_settings(terms);
+    if (!update_orders()) break;
   }
 }
 
-/// A step of Gauss and Newton for the orders of waves that stand, beside all else that is fitted.
-bool ArmSubject::move_orders() {
-  const Eigen::MatrixXd by_order = by_scanned();
+/// A Gauss–Newton step for the orders of active waves, given all else that is fitted.
+bool ArmModel::update_orders() {
+  const Eigen::MatrixXd by_order = setting_derivatives();
   if (by_order.cols() == 0) return false;
   const int threads = problem_.system->num_threads();
-  Eigen::MatrixXd basis = linearization_.base.leftCols(held_.cols());
-  append(basis, by_standing_);
+  Eigen::MatrixXd basis = linearization_.jacobian.leftCols(observable_.cols());
+  append(basis, effect_jacobian_);
   normalize_columns(basis);
   Eigen::MatrixXd square = inner_products(basis, threads);
   square.diagonal().array() += kCollinearityTolerance * kCollinearityTolerance;
-  Eigen::MatrixXd beside = by_order;
-  add_product(basis, -square.llt().solve(inner_products(basis, by_order, threads)), beside,
+  Eigen::MatrixXd projected = by_order;
+  add_product(basis, -square.llt().solve(inner_products(basis, by_order, threads)), projected,
               threads);
   Eigen::VectorXd residuals(problem_.system->rows());
   problem_.system->evaluate(problem_.system->scaled(x_).data(), residuals.data(), nullptr);
   const Eigen::VectorXd change =
-      -inner_products(beside, threads).ldlt().solve(beside.transpose() * residuals);
-  const Eigen::VectorXd sure = beside.colwise().norm();  // 1 / standard deviation
+      -inner_products(projected, threads).ldlt().solve(projected.transpose() * residuals);
+  const Eigen::VectorXd precision = projected.colwise().norm();  // 1 / standard deviation
   bool moved = false;
   Index at = 0;
-  for (const int form : standing_) {
-    EffectVariant& variant = sources_[form].variant;
+  for (const int term : active_) {
+    EffectVariant& variant = sources_[term].variant;
     if (!variant.settings.contains("order") || has_whole_order(variant)) continue;
     const double step = change[at];
     const double far =
         kFarOrder / (data_.q.col(variant.joint).maxCoeff() - data_.q.col(variant.joint).minCoeff());
     const double order = variant.settings["order"] + step;
-    // Two that meet are one.
-    const bool alone = std::none_of(standing_.begin(), standing_.end(), [&](int other) {
-      const EffectVariant& beside = sources_[other].variant;
-      const auto own = beside.settings.find("order");
-      return other != form && beside.joint == variant.joint && own != beside.settings.end() &&
+    // Two waves of one order are one.
+    const bool alone = std::none_of(active_.begin(), active_.end(), [&](int other) {
+      const EffectVariant& neighbour = sources_[other].variant;
+      const auto own = neighbour.settings.find("order");
+      return other != term && neighbour.joint == variant.joint && own != neighbour.settings.end() &&
              std::abs(own->second - order) < 0.5 * far;
     });
-    if (std::abs(step) * sure[at] > kOrderSettled && std::abs(step) < far && order > 0.0 && alone) {
+    if (std::abs(step) * precision[at] > kOrderSettled && std::abs(step) < far && order > 0.0 &&
+        alone) {
       variant.settings["order"] = order;
-      forms_[form].words = words_of(variant, nominal_);
+      terms_[term].description = description_of(variant, nominal_);
       moved = true;
     }
     ++at;
@@ -83,64 +84,64 @@ bool ArmSubject::move_orders() {
   return moved;
 }
 
-void ArmSubject::fit(const std::vector<int>& forms) {
-  // Values of forms that stay are where their search starts.
+void ArmModel::fit_at_settings(const std::vector<int>& terms) {
+  // Terms that stay start from their present values.
   std::map<int, Eigen::VectorXd> known;
   auto at = static_cast<Index>(geometry_);
-  for (const int form : standing_) {
-    const auto wide = static_cast<Index>(sources_[form].variant.parameters.size());
-    known[form] = x_.segment(at, wide);
+  for (const int term : active_) {
+    const auto wide = static_cast<Index>(sources_[term].variant.parameters.size());
+    known[term] = x_.segment(at, wide);
     at += wide;
   }
-  standing_ = forms;
+  active_ = terms;
   const auto families = large_families();
-  std::erase_if(sizes_, [&](const auto& size) { return !families.contains(size.first); });
-  stand_with(forms);
+  std::erase_if(prior_scales_, [&](const auto& size) { return !families.contains(size.first); });
+  activate(terms);
   Eigen::VectorXd x = x_.head(static_cast<Index>(geometry_));
-  for (const int form : forms) {
-    const auto wide = static_cast<Index>(sources_[form].variant.parameters.size());
+  for (const int term : terms) {
+    const auto wide = static_cast<Index>(sources_[term].variant.parameters.size());
     x.conservativeResize(x.size() + wide);
     x.tail(wide).setZero();
-    if (known.contains(form)) x.tail(wide) = known[form];
+    if (known.contains(term)) x.tail(wide) = known[term];
   }
-  for (int evaluation = 0; evaluation < kMostEvaluations; ++evaluation) {
+  for (int evaluation = 0; evaluation < kMaxEvaluations; ++evaluation) {
     bool other_noise = true;
-    for (int round = 0; round < kMostRounds; ++round) {
-      if (!learn_sizes(x) && !other_noise) break;
-      x = nearest_minimum(std::move(x));
-      if (!m_.tracked) x = without_size_draw(std::move(x));
+    for (int round = 0; round < kMaxRounds; ++round) {
+      if (!learn_prior_scales(x) && !other_noise) break;
+      x = minimize(std::move(x));
+      if (!m_.tracked) x = remove_scale_bias(std::move(x));
       x_ = x;
       other_noise = update_noise();
     }
     if (evaluate_effects_at(x) < kSameResiduals) break;
   }
-  stand_at(x);
-  if (forms.empty()) bare_ = deviations();
+  linearize_at(x);
+  if (terms.empty()) before_ = deviations();
 }
 
-/// The columns of `forms` behind those of the geometry, held to what is plausible.
-void ArmSubject::stand_with(const std::vector<int>& forms) {
-  standing_ = forms;
+/// Appends the parameters of `terms`, with their priors, to those of the geometry.
+void ArmModel::activate(const std::vector<int>& terms) {
+  active_ = terms;
   truncate_parameters(problem_.parameters, geometry_);
   std::vector<int> free = base_free_;
-  for (const int form : forms) {
+  for (const int term : terms) {
     const int begin =
-        add_effect(problem_.parameters, sources_[form].variant, perturbations_of(form));
+        add_effect(problem_.parameters, sources_[term].variant, perturbations_of(term));
     const auto end = static_cast<int>(problem_.parameters.parameters.size());
     for (int c = begin; c < end; ++c) {
       Parameter& column = problem_.parameters.parameters[c];
-      column.prior_std = plausible(form, static_cast<std::size_t>(c - begin), column.scale);
+      column.prior_std = prior_std(term, static_cast<std::size_t>(c - begin), column.scale);
       free.push_back(c);
     }
   }
   problem_.system->set_free(std::move(free));
 }
 
-double ArmSubject::evaluate_effects_at(const Eigen::VectorXd& x) {
+double ArmModel::evaluate_effects_at(const Eigen::VectorXd& x) {
   const ArmResiduals& system = *problem_.system;
   effects_arm_ = arm_at(x);
   exact_ = consistent_joints(system, x);
-  // What follows recorded joints would follow their scatter, and explain it by itself.
+  // Effects evaluated at recorded joints would follow their scatter, and so explain it.
   if (!m_.tracked) data_.q = exact_;
   if (!effects_changed()) return 0.0;
   const auto residuals = [&] {
@@ -149,20 +150,20 @@ double ArmSubject::evaluate_effects_at(const Eigen::VectorXd& x) {
     return Eigen::VectorXd(out.head(system.data_rows()));
   };
   const Eigen::VectorXd before = residuals();
-  stand_with(standing_);
+  activate(active_);
   return (residuals() - before).norm() / std::sqrt(static_cast<double>(before.size()));
 }
 
-/// Whether those that stand do another thing by now than their columns say.
-bool ArmSubject::effects_changed() const {
+/// Whether the perturbations of active effects differ from those that were fitted.
+bool ArmModel::effects_changed() const {
   const auto same = [](const Perturbation& a, const Perturbation& b) {
     return a.values == b.values;
   };
   std::size_t column = 0;
-  for (const int form : standing_) {
-    for (const std::vector<Perturbation>& perturbations : perturbations_of(form)) {
-      const std::vector<Perturbation>& stands = *problem_.parameters.perturbations[column++];
-      if (!std::equal(perturbations.begin(), perturbations.end(), stands.begin(), stands.end(),
+  for (const int term : active_) {
+    for (const std::vector<Perturbation>& perturbations : perturbations_of(term)) {
+      const std::vector<Perturbation>& active = *problem_.parameters.perturbations[column++];
+      if (!std::equal(perturbations.begin(), perturbations.end(), active.begin(), active.end(),
                       same)) {
         return true;
       }
@@ -171,74 +172,74 @@ bool ArmSubject::effects_changed() const {
   return false;
 }
 
-/// All that a fit finds.
-struct ArmSubject::ArmPlace final : Place {
-  ArmPlace(Arm arm, RowMatrix q, RowMatrix joints)
+/// All that a fit estimates.
+struct ArmModel::ArmCheckpoint final : Checkpoint {
+  ArmCheckpoint(Arm arm, RowMatrix q, RowMatrix joints)
       : effects_arm(std::move(arm)), effects_q(std::move(q)), exact(std::move(joints)) {}
 
-  std::vector<int> standing;
-  std::vector<EffectVariant> variants;  ///< of those: orders move
-  std::map<Family, double> sizes;
+  std::vector<int> active;
+  std::vector<EffectVariant> variants;  ///< of those: their orders are fitted
+  std::map<Family, double> prior_scales;
   Eigen::VectorXd x;
   Arm effects_arm;      ///< at which they are evaluated
-  RowMatrix effects_q;  ///< the same
+  RowMatrix effects_q;  ///< likewise
   RowMatrix exact;
-  std::vector<double> trust;
+  std::vector<double> weights;
   ArmResiduals::Whitening whitening;
   Noise noise;
 };
 
-std::shared_ptr<const Subject::Place> ArmSubject::place() const {
-  auto out = std::make_shared<ArmPlace>(effects_arm_, data_.q, exact_);
-  out->standing = standing_;
-  for (const int form : standing_) out->variants.push_back(sources_[form].variant);
-  out->sizes = sizes_;
+std::shared_ptr<const selection::Model::Checkpoint> ArmModel::save() const {
+  auto out = std::make_shared<ArmCheckpoint>(effects_arm_, data_.q, exact_);
+  out->active = active_;
+  for (const int term : active_) out->variants.push_back(sources_[term].variant);
+  out->prior_scales = prior_scales_;
   out->x = x_;
-  out->trust = problem_.system->observation_weights();
+  out->weights = problem_.system->observation_weights();
   out->whitening = problem_.system->row_whitening();
   out->noise = problem_.system->noise();
   return out;
 }
 
-void ArmSubject::return_to(const Place& place) {
-  const auto& to = dynamic_cast<const ArmPlace&>(place);
-  for (std::size_t i = 0; i < to.standing.size(); ++i) {
-    sources_[to.standing[i]].variant = to.variants[i];
-    forms_[to.standing[i]].words = words_of(to.variants[i], nominal_);
+void ArmModel::restore(const Checkpoint& checkpoint) {
+  const auto& to = dynamic_cast<const ArmCheckpoint&>(checkpoint);
+  for (std::size_t i = 0; i < to.active.size(); ++i) {
+    sources_[to.active[i]].variant = to.variants[i];
+    terms_[to.active[i]].description = description_of(to.variants[i], nominal_);
   }
-  sizes_ = to.sizes;
+  prior_scales_ = to.prior_scales;
   effects_arm_ = to.effects_arm;
   data_.q = to.effects_q;
   exact_ = to.exact;
-  stand_with(to.standing);
-  problem_.system->set_observation_weights(to.trust);
+  activate(to.active);
+  problem_.system->set_observation_weights(to.weights);
   problem_.system->set_row_whitening(to.whitening);
   problem_.system->set_noise(to.noise, to.x);
-  stand_at(to.x);
+  linearize_at(to.x);
 }
 
-/// Derivatives of exact touches: scatter would pass for information about the arm's size (see
-/// arm_search.cpp).
-Eigen::MatrixXd ArmSubject::derivatives(const Eigen::VectorXd& x) const {
+/// Derivatives at consistent joint values: at the recorded ones, scatter would pass for information
+/// on the arm's scale (see identify/fit/calibration_search.cpp).
+Eigen::MatrixXd ArmModel::derivatives(const Eigen::VectorXd& x) const {
   ArmResiduals exact = *problem_.system;
   exact.set_joints(exact_);
   return exact.jacobian(x);
 }
 
-/// Least squares of touches lie at an arm too small; steps along the derivatives of exact touches
-/// end where what is known of the size is met.
-Eigen::VectorXd ArmSubject::without_size_draw(Eigen::VectorXd x) {
+/// Least squares of touches underestimates the arm's scale; steps along the derivatives at
+/// consistent joint values converge where the known lengths are met.
+Eigen::VectorXd ArmModel::remove_scale_bias(Eigen::VectorXd x) {
   const ArmResiduals& system = *problem_.system;
   const Eigen::VectorXd least = x;
   Eigen::VectorXd residuals(system.rows());
   double last = std::numeric_limits<double>::infinity();
-  for (int step = 0; step < kMostSteps; ++step) {
+  for (int step = 0; step < kMaxSteps; ++step) {
     exact_ = consistent_joints(system, x);
     const Eigen::VectorXd y = system.scaled(x);
     system.evaluate(y.data(), residuals.data(), nullptr);
     Eigen::MatrixXd both(system.rows(), system.columns() + 1);
     both << derivatives(x), residuals;
-    const Eigen::VectorXd move = step_of(inner_products(both, system.num_threads()), 0.0);
+    const Eigen::VectorXd move = damped_step(inner_products(both, system.num_threads()), 0.0);
     if (!(move.norm() < last)) return step < 2 ? least : x;
     last = move.norm();
     x = system.values(y + move);
@@ -247,11 +248,11 @@ Eigen::VectorXd ArmSubject::without_size_draw(Eigen::VectorXd x) {
   return x;
 }
 
-/// The step that Gauss and Newton would take, from [J r]ᵀ[J r]. What hardly moves the residuals by
-/// itself is damped, and nothing runs off.
-Eigen::VectorXd ArmSubject::step_of(const Eigen::MatrixXd& square, double damping) const {
+/// The Gauss–Newton step from [J r]ᵀ[J r], with `damping` of all parameters, and of nearly
+/// collinear ones at least kCollinearityTolerance.
+Eigen::VectorXd ArmModel::damped_step(const Eigen::MatrixXd& square, double damping) const {
   const Index wide = square.cols() - 1;
-  const Eigen::MatrixXd to_free = moves();
+  const Eigen::MatrixXd to_free = admissible_changes();
   Eigen::MatrixXd own =
       inner_products(to_free, product(square.topLeftCorner(wide, wide), to_free, 1), 1);
   own.diagonal().array() += damping;
@@ -259,47 +260,47 @@ Eigen::VectorXd ArmSubject::step_of(const Eigen::MatrixXd& square, double dampin
       [](double value) { return value > 0.0 ? 1.0 / std::sqrt(value) : 0.0; });
   own = scale.asDiagonal() * own * scale.asDiagonal();
   own.diagonal().array() += kCollinearityTolerance * kCollinearityTolerance;
-  const Eigen::VectorXd against =
+  const Eigen::VectorXd gradient =
       scale.asDiagonal() * (to_free.transpose() * square.col(wide).head(wide));
-  return to_free * (scale.asDiagonal() * own.ldlt().solve(-against));
+  return to_free * (scale.asDiagonal() * own.ldlt().solve(-gradient));
 }
 
-/// Levenberg's way. Damping is the same for all unknowns, in units of their scales: what the rows
-/// hardly tell (a valley that is curved, along which a full step leads out of it) goes no farther
-/// than arms differ, and all else goes as Gauss and Newton have it.
-Eigen::VectorXd ArmSubject::nearest_minimum(Eigen::VectorXd x) const {
+/// Levenberg's method: damping is the same for all parameters in units of their scales, so that
+/// steps along a curved valley stay within plausible changes, and all others are Gauss–Newton's.
+Eigen::VectorXd ArmModel::minimize(Eigen::VectorXd x) const {
   const ArmResiduals& system = *problem_.system;
   Eigen::VectorXd y = system.scaled(x);
   double damping = kFirstDamping;
-  for (int step = 0; step < kMostSteps; ++step) {
+  for (int step = 0; step < kMaxSteps; ++step) {
     const Eigen::MatrixXd square = system.normal_equations(y.data());
     const double before = square(square.rows() - 1, square.cols() - 1);
     Eigen::VectorXd next;
     double after = std::numeric_limits<double>::infinity();
-    for (; damping < kMostDamping; damping *= 10.0) {
-      next = y + step_of(square, damping);
+    for (; damping < kMaxDamping; damping *= 10.0) {
+      next = y + damped_step(square, damping);
       after = system.cost(next.data());
       if (after <= before) break;
     }
     if (!(after <= before)) break;
     y = next;
     if (before - after < kSettledCost * before / static_cast<double>(system.data_rows())) break;
-    damping = std::max(damping / 10.0, kLeastDamping);
+    damping = std::max(damping / 10.0, kMinDamping);
   }
   return system.values(y);
 }
 
-/// (free, k): what may change of the free unknowns. Those of the base model move along the
-/// directions that data or priors hold, effects one by one.
-Eigen::MatrixXd ArmSubject::moves() const {
-  const Index effects = problem_.system->columns() - held_.rows();
-  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(held_.rows() + effects, held_.cols() + effects);
-  out.topLeftCorner(held_.rows(), held_.cols()) = held_;
+/// (free, k): admissible changes of the free parameters. Those of the base model change along the
+/// directions that data or priors determine, effects one by one.
+Eigen::MatrixXd ArmModel::admissible_changes() const {
+  const Index effects = problem_.system->columns() - observable_.rows();
+  Eigen::MatrixXd out =
+      Eigen::MatrixXd::Zero(observable_.rows() + effects, observable_.cols() + effects);
+  out.topLeftCorner(observable_.rows(), observable_.cols()) = observable_;
   out.bottomRightCorner(effects, effects).setIdentity();
   return out;
 }
 
-void ArmSubject::stand_at(const Eigen::VectorXd& x) {
+void ArmModel::linearize_at(const Eigen::VectorXd& x) {
   x_ = x;
   ArmResiduals& system = *problem_.system;
   const Index rows = system.rows();
@@ -308,47 +309,47 @@ void ArmSubject::stand_at(const Eigen::VectorXd& x) {
   const Eigen::VectorXd y = system.scaled(x);
   system.evaluate(y.data(), residuals.data(), nullptr);
   const Eigen::MatrixXd jacobian = derivatives(x);
-  by_standing_ = jacobian.rightCols(system.columns() - wide);
-  linearization_.misfit = by_standing_ * y.tail(y.size() - wide);
-  linearization_.misfit -= residuals;
+  effect_jacobian_ = jacobian.rightCols(system.columns() - wide);
+  linearization_.residual = effect_jacobian_ * y.tail(y.size() - wide);
+  linearization_.residual -= residuals;
   const Index points = m_.tracked ? 0 : m_.points();
-  const Index seen = held_.cols();
-  linearization_.base = Eigen::MatrixXd::Zero(rows, seen + 3 * points);
-  linearization_.base.leftCols(seen) =
-      product(jacobian.leftCols(wide), held_, system.num_threads());
-  linearization_.unit.assign(static_cast<std::size_t>(rows), -1);
-  // Rows that hold effects to what is plausible measure nothing.
-  linearization_.lost = static_cast<double>(system.columns() - wide);
+  const Index seen = observable_.cols();
+  linearization_.jacobian = Eigen::MatrixXd::Zero(rows, seen + 3 * points);
+  linearization_.jacobian.leftCols(seen) =
+      product(jacobian.leftCols(wide), observable_, system.num_threads());
+  linearization_.observation.assign(static_cast<std::size_t>(rows), -1);
+  // Prior rows of effects measure nothing.
+  linearization_.constrained_dof = static_cast<double>(system.columns() - wide);
   linearization_.noise_rows = system.position_rows();
   for (Index i = 0; i < m_.rows(); ++i) {
     const bool plane = !m_.tracked && m_.plane[i] >= 0;
     const double kinds = m_.has_rotation() ? 2.0 : 1.0;
-    if (is_left_out(i)) {
-      linearization_.lost += plane ? 1.0 : 3.0 * kinds;
+    if (is_excluded(i)) {
+      linearization_.constrained_dof += plane ? 1.0 : 3.0 * kinds;
     }
-    if (plane) linearization_.lost += 2.0;  // rows that hold nothing
+    if (plane) linearization_.constrained_dof += 2.0;  // rows without information
     for (Index axis = 0; axis < 3; ++axis) {
-      linearization_.unit[3 * i + axis] = static_cast<int>(i);
+      linearization_.observation[3 * i + axis] = static_cast<int>(i);
       if (m_.has_rotation()) {
-        linearization_.unit[3 * m_.rows() + 3 * i + axis] = static_cast<int>(i);
+        linearization_.observation[3 * m_.rows() + 3 * i + axis] = static_cast<int>(i);
       }
     }
-    // Where a point is, is free: what the centroid takes of the rows, as columns.
+    // A touched point's position is free: three columns in place of the centroid.
     if (!m_.tracked && m_.point[i] >= 0) {
-      linearization_.base.block<3, 3>(3 * i, seen + 3 * m_.point[i]) = system.row_factor(i);
+      linearization_.jacobian.block<3, 3>(3 * i, seen + 3 * m_.point[i]) = system.row_factor(i);
     }
   }
 }
 
-/// What a change of each standing order does to the residuals: the values beside it are no surer
-/// than the order is.
-Eigen::MatrixXd ArmSubject::by_scanned() const {
+/// (M, orders) d modelled / d order of active waves: the uncertainty of an order is part of that of
+/// the values.
+Eigen::MatrixXd ArmModel::setting_derivatives() const {
   std::vector<ActingVariant> acting;
   std::vector<Eigen::VectorXd> values;
   std::vector<double> changes;
   auto at = static_cast<Index>(geometry_);
-  for (const int form : standing_) {
-    const EffectVariant& here = sources_[form].variant;
+  for (const int term : active_) {
+    const EffectVariant& here = sources_[term].variant;
     const auto wide = static_cast<Index>(here.parameters.size());
     const auto order = here.settings.find("order");
     if (order != here.settings.end() && !has_whole_order(here)) {
@@ -357,13 +358,13 @@ Eigen::MatrixXd ArmSubject::by_scanned() const {
       for (const double change : {changes.back(), -changes.back()}) {
         EffectVariant other = here;
         other.settings["order"] += change;
-        auto perturbations = perturbations_of(*sources_[form].effect, other);
+        auto perturbations = perturbations_of(*sources_[term].effect, other);
         acting.push_back({std::move(other), std::move(perturbations)});
       }
     }
     at += wide;
   }
-  Eigen::MatrixXd out(linearization_.misfit.size(), static_cast<Index>(values.size()));
+  Eigen::MatrixXd out(linearization_.residual.size(), static_cast<Index>(values.size()));
   if (values.empty()) return out;
   const std::vector<ParameterColumns> moved = columns_of(std::move(acting));
   for (std::size_t i = 0; i < values.size(); ++i) {
@@ -373,4 +374,4 @@ Eigen::MatrixXd ArmSubject::by_scanned() const {
   return out;
 }
 
-}  // namespace bathyal
+}  // namespace bathyal::diagnosis

@@ -4,12 +4,12 @@
 
 #include "bathyal/diagnosis/arm/internal/model.hpp"
 
-// A subject beside some rows of another's.
+// A model of a subset of another's rows.
 
-namespace bathyal {
+namespace bathyal::diagnosis {
 namespace {
 
-EffectData some_of(const EffectData& all, const std::vector<int>& rows) {
+EffectData subset_of(const EffectData& all, const std::vector<int>& rows) {
   EffectData out = all;
   out.q = all.q(rows, Eigen::all);
   out.gravity = all.gravity(rows, Eigen::all);
@@ -31,38 +31,38 @@ std::unique_ptr<const Measurement> own_rows(const Measurement& all, const std::v
 
 }  // namespace
 
-ArmSubject::ArmSubject(const ArmSubject& whole, const std::vector<int>& rows)
-    : ArmSubject(whole, rows, own_rows(whole.m_, rows)) {}
+ArmModel::ArmModel(const ArmModel& whole, const std::vector<int>& rows)
+    : ArmModel(whole, rows, own_rows(whole.m_, rows)) {}
 
-ArmSubject::ArmSubject(const ArmSubject& whole, const std::vector<int>& rows,
-                       std::unique_ptr<const Measurement>&& some)
-    : ArmSubject(whole.nominal_, *some, std::move(some), whole.problem_.options) {
-  data_ = some_of(whole.data_, rows);
+ArmModel::ArmModel(const ArmModel& whole, const std::vector<int>& rows,
+                   std::unique_ptr<const Measurement>&& own)
+    : ArmModel(whole.nominal_, *own, std::move(own), whole.problem_.options) {
+  data_ = subset_of(whole.data_, rows);
   record_ = whole.data_;
   data_.arm = record_->arm = &effects_arm_;
   rows_ = rows;
-  gather_units();
-  take_forms(whole);
-  find_those_that_need_the_record();
+  gather_observations();
+  take_terms(whole);
+  find_record_effects();
   evaluate_effects_at(x_);
-  stand_at(x_);
+  linearize_at(x_);
 }
 
-void ArmSubject::take_forms(const ArmSubject& some) {
-  forms_ = some.forms_;
-  sources_ = some.sources_;
-  scans_ = some.scans_;
-  neighbours_ = some.neighbours_;
+void ArmModel::take_terms(const ArmModel& subset) {
+  terms_ = subset.terms_;
+  sources_ = subset.sources_;
+  scans_ = subset.scans_;
+  neighbours_ = subset.neighbours_;
 }
 
-std::vector<std::vector<Perturbation>> ArmSubject::perturbations_of(
+std::vector<std::vector<Perturbation>> ArmModel::perturbations_of(
     const Effect& effect, const EffectVariant& variant) const {
   if (!needs_record_.contains(&effect)) return bathyal::perturbations_of(effect, variant, data_);
   return perturbations_in_record(effect, variant);
 }
 
-/// Of a row that is seen among all rows of the record.
-std::vector<std::vector<Perturbation>> ArmSubject::perturbations_in_record(
+/// Evaluated with all rows of the record.
+std::vector<std::vector<Perturbation>> ArmModel::perturbations_in_record(
     const Effect& effect, const EffectVariant& variant) const {
   std::vector<std::vector<Perturbation>> out = bathyal::perturbations_of(effect, variant, *record_);
   for (std::vector<Perturbation>& perturbations : out) {
@@ -72,12 +72,12 @@ std::vector<std::vector<Perturbation>> ArmSubject::perturbations_in_record(
   return out;
 }
 
-/// Effects whose rows look at others (speeds, places in a list): their first and last forms are
-/// tried.
-void ArmSubject::find_those_that_need_the_record() {
-  std::map<const Effect*, std::vector<const EffectVariant*>> forms;
+/// Effects that depend on neighbouring rows (speeds, positions in a list), by their first and last
+/// variants.
+void ArmModel::find_record_effects() {
+  std::map<const Effect*, std::vector<const EffectVariant*>> terms;
   for (const Source& source : sources_) {
-    if (source.effect) forms[source.effect.get()].push_back(&source.variant);
+    if (source.effect) terms[source.effect.get()].push_back(&source.variant);
   }
   const auto same = [](const std::vector<std::vector<Perturbation>>& a,
                        const std::vector<std::vector<Perturbation>>& b) {
@@ -87,7 +87,7 @@ void ArmSubject::find_those_that_need_the_record() {
           [](const Perturbation& x, const Perturbation& y) { return x.values == y.values; });
     });
   };
-  for (const auto& [effect, variants] : forms) {
+  for (const auto& [effect, variants] : terms) {
     for (const EffectVariant* variant : {variants.front(), variants.back()}) {
       if (!same(bathyal::perturbations_of(*effect, *variant, data_),
                 perturbations_in_record(*effect, *variant))) {
@@ -97,4 +97,4 @@ void ArmSubject::find_those_that_need_the_record() {
   }
 }
 
-}  // namespace bathyal
+}  // namespace bathyal::diagnosis

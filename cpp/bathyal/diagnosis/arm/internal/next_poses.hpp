@@ -4,10 +4,11 @@
 #include "bathyal/diagnosis/arm/internal/model.hpp"
 #include "bathyal/selection/selection.hpp"
 
-namespace bathyal {
+namespace bathyal::diagnosis {
 
-/// Poses (m, n) at which explanations that these data cannot tell apart foretell tips that lie
-/// furthest from each other. The subject stands where it stood when they are found.
-RowMatrix next_poses(ArmSubject& subject, const Examination& found, double rival_odds, int count);
+/// Poses (m, n) at which alternatives that these data cannot distinguish predict tips furthest from
+/// each other. The model is left fitted with the selected terms.
+RowMatrix next_poses(ArmModel& arm_model, const selection::SelectionResult& found,
+                     double rival_odds, int count);
 
-}  // namespace bathyal
+}  // namespace bathyal::diagnosis

@@ -5,16 +5,16 @@
 #include <cmath>
 #include <vector>
 
-namespace bathyal {
+namespace bathyal::diagnosis {
 namespace {
 
-constexpr double kLeastStep = 1e-5;  ///< [rad]; finer ones move no tip by what can be measured
+constexpr double kMinStep = 1e-5;  ///< [rad]; finer ones move tips less than can be measured
 constexpr double kDigitTolerance =
-    2e-8;                        ///< [rad] that Euclid's steps may make of a value's last digits
-constexpr double kWhole = 1e-2;  ///< how far from a whole number a multiple may lie
-constexpr std::size_t kFewest = 20;  ///< different values: fewer lie on a grid by chance
+    2e-8;  ///< [rad] rounding of a value's last digits, grown by Euclid's steps
+constexpr double kWhole = 1e-2;      ///< largest distance of a multiple from a whole number
+constexpr std::size_t kFewest = 20;  ///< different values: fewer may be on a grid by chance
 
-/// Values but 0, by rising size, each once.
+/// Absolute values but 0, ascending, each once.
 std::vector<double> sizes(const RowMatrix& q, const Arm& arm) {
   std::vector<bool> turns(static_cast<std::size_t>(arm.size()), false);
   for (const Joint& joint : arm.joints()) {
@@ -43,15 +43,15 @@ double common_measure(double a, double b, double tolerance) {
 
 }  // namespace
 
-double logged_step(const RowMatrix& q, const Arm& arm) {
+double quantisation_step(const RowMatrix& q, const Arm& arm) {
   const std::vector<double> values = sizes(q, arm);
   if (values.size() < kFewest) return 0.0;
   double step = values.front();
   for (const double value : values) {
     step = common_measure(value, step, kDigitTolerance);
-    if (step < kLeastStep) return 0.0;
+    if (step < kMinStep) return 0.0;
   }
-  // The smallest value knows the step with its own rounding only: larger ones sharpen it.
+  // The smallest value gives the step with its own rounding: larger ones are more precise.
   for (const double value : values) {
     const double multiple = std::round(value / step);
     if (std::abs(value / step - multiple) > 0.1) return 0.0;
@@ -63,4 +63,4 @@ double logged_step(const RowMatrix& q, const Arm& arm) {
   return step;
 }
 
-}  // namespace bathyal
+}  // namespace bathyal::diagnosis

@@ -4,10 +4,10 @@
 #include "bathyal/arm/arm.hpp"
 #include "bathyal/effects/measurements.hpp"
 
-namespace bathyal {
+namespace bathyal::diagnosis {
 
-/// The step [rad] of which every logged value of every turning joint is a whole multiple; 0 when
-/// there is none. The longest one: what divides it divides them too.
-double logged_step(const RowMatrix& q, const Arm& arm);
+/// The longest step [rad] of which every logged value of every revolute joint is a whole multiple;
+/// 0 when there is none.
+double quantisation_step(const RowMatrix& q, const Arm& arm);
 
-}  // namespace bathyal
+}  // namespace bathyal::diagnosis

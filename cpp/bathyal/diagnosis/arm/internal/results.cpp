@@ -6,15 +6,15 @@
 #include "bathyal/estimation/orthogonal.hpp"
 #include "bathyal/identify/model/effect_parameters.hpp"
 
-// What is told of the fit where the subject stands.
+// Results at the current estimate.
 
-namespace bathyal {
+namespace bathyal::diagnosis {
 
-std::vector<FoundEffect> ArmSubject::found() const {
+std::vector<FoundEffect> ArmModel::found() const {
   std::vector<FoundEffect> out;
   auto at = static_cast<Index>(geometry_);
-  for (const int form : standing_) {
-    const Source& source = sources_[form];
+  for (const int term : active_) {
+    const Source& source = sources_[term];
     const auto wide = static_cast<Index>(source.variant.parameters.size());
     out.push_back({source.effect, source.variant, x_.segment(at, wide)});
     at += wide;
@@ -22,19 +22,19 @@ std::vector<FoundEffect> ArmSubject::found() const {
   return out;
 }
 
-double ArmSubject::freedom() const {
-  const Eigen::MatrixXd& base = linearization_.base;
+double ArmModel::dof() const {
+  const Eigen::MatrixXd& base = linearization_.jacobian;
   const auto effects = static_cast<Index>(problem_.parameters.parameters.size() - geometry_);
-  return static_cast<double>(base.rows() - base.cols() - effects) - linearization_.lost;
+  return static_cast<double>(base.rows() - base.cols() - effects) - linearization_.constrained_dof;
 }
 
-Eigen::MatrixXd ArmSubject::covariance() const {
+Eigen::MatrixXd ArmModel::covariance() const {
   const ArmResiduals& system = *problem_.system;
   const Eigen::MatrixXd jacobian = derivatives(x_);
-  const Index effects = jacobian.cols() - held_.rows();
-  const Eigen::MatrixXd scanned = by_scanned();
-  Eigen::MatrixXd all(jacobian.rows(), held_.cols() + effects + scanned.cols());
-  all << product(jacobian, moves(), system.num_threads()), scanned;
+  const Index effects = jacobian.cols() - observable_.rows();
+  const Eigen::MatrixXd scanned = setting_derivatives();
+  Eigen::MatrixXd all(jacobian.rows(), observable_.cols() + effects + scanned.cols());
+  all << product(jacobian, admissible_changes(), system.num_threads()), scanned;
   Eigen::VectorXd scale(all.cols());
   for (Index c = 0; c < scale.size(); ++c) {
     const double length = all.col(c).norm();
@@ -45,23 +45,23 @@ Eigen::MatrixXd ArmSubject::covariance() const {
       numerical_rank(qr_factor(all, system.num_threads()), kCollinearityTolerance);
   const Eigen::MatrixXd root = scale.asDiagonal() * rank.directions.leftCols(rank.rank) *
                                rank.singular_values.head(rank.rank).cwiseInverse().asDiagonal();
-  Eigen::MatrixXd own = root.middleRows(held_.cols(), effects);
+  Eigen::MatrixXd own = root.middleRows(observable_.cols(), effects);
   for (Index i = 0; i < effects; ++i) {
     own.row(i) *= problem_.parameters.parameters[geometry_ + static_cast<std::size_t>(i)].scale;
   }
   const Eigen::VectorXd y = system.scaled(x_);
   double squares = system.cost(y.data());
-  for (Index i = 0; i < effects; ++i) {  // what holds them measures nothing
+  for (Index i = 0; i < effects; ++i) {  // less the prior penalty
     const Parameter& column =
         problem_.parameters.parameters[geometry_ + static_cast<std::size_t>(i)];
-    squares -= std::pow(y[held_.rows() + i] * column.scale / column.prior_std, 2);
+    squares -= std::pow(y[observable_.rows() + i] * column.scale / column.prior_std, 2);
   }
-  return squares / freedom() * (own * own.transpose());
+  return squares / dof() * (own * own.transpose());
 }
 
-Arm ArmSubject::arm() const { return arm_at(x_); }
+Arm ArmModel::arm() const { return arm_at(x_); }
 
-Arm ArmSubject::arm_at(const Eigen::VectorXd& x) const {
+Arm ArmModel::arm_at(const Eigen::VectorXd& x) const {
   const ArmState state = state_at(problem_.parameters, x);
   Arm arm = state.arm;
   arm.set_base(state.bases[0]);
@@ -69,14 +69,14 @@ Arm ArmSubject::arm_at(const Eigen::VectorXd& x) const {
   return arm;
 }
 
-Eigen::Matrix3Xd ArmSubject::deviations() const {
-  if (m_.tracked || standing_.empty()) return problem_.system->deviations(x_);
+Eigen::Matrix3Xd ArmModel::deviations() const {
+  if (m_.tracked || active_.empty()) return problem_.system->deviations(x_);
   EffectData recorded = data_;
   recorded.q = m_.q;
   ArmParameters parameters = problem_.parameters;
   truncate_parameters(parameters, geometry_);
-  for (const int form : standing_) {
-    const Source& source = sources_[form];
+  for (const int term : active_) {
+    const Source& source = sources_[term];
     add_effect(parameters, source.variant,
                bathyal::perturbations_of(*source.effect, source.variant, recorded));
   }
@@ -86,7 +86,7 @@ Eigen::Matrix3Xd ArmSubject::deviations() const {
   return system.deviations(x_);
 }
 
-Eigen::Matrix3Xd ArmSubject::in_metres(const Eigen::VectorXd& rows) const {
+Eigen::Matrix3Xd ArmModel::in_metres(const Eigen::VectorXd& rows) const {
   Eigen::Matrix3Xd out(3, m_.rows());
   for (Index i = 0; i < m_.rows(); ++i) {
     out.col(i) = problem_.system->row_factor(i).ldlt().solve(rows.segment<3>(3 * i));
@@ -94,24 +94,24 @@ Eigen::Matrix3Xd ArmSubject::in_metres(const Eigen::VectorXd& rows) const {
   return out;
 }
 
-double ArmSubject::mean_noise() const {
+double ArmModel::mean_noise() const {
   double variances = 0.0, rows = 0.0;
   for (Index i = 0; i < m_.rows(); ++i) {
-    if (is_left_out(i)) continue;
+    if (is_excluded(i)) continue;
     variances += m_.weights[i] * problem_.system->row_factor(i).inverse().squaredNorm();
     rows += 3.0;
   }
   return rows > 0.0 ? std::sqrt(variances / rows) : noise();
 }
 
-double ArmSubject::mean_unit() const {
+double ArmModel::mean_unit() const {
   double precisions = 0.0, rows = 0.0;
   for (Index i = 0; i < m_.rows(); ++i) {
-    if (is_left_out(i)) continue;
+    if (is_excluded(i)) continue;
     precisions += problem_.system->row_factor(i).squaredNorm() / m_.weights[i];
     rows += 3.0;
   }
   return rows > 0.0 ? std::sqrt(rows / precisions) : noise();
 }
 
-}  // namespace bathyal
+}  // namespace bathyal::diagnosis

@@ -18,7 +18,7 @@ from bathyal.io.formats.meshes.transforms import TRANSFORMS
 from bathyal.io.formats.numbers import numbers_of_text
 from bathyal.io.formats.xml.safe import parse_xml
 
-# A few nodes that instance one another can stand for more than any machine holds.
+# A few nodes that instance one another can expand to more than any machine holds.
 _MOST_NODES = 100_000
 _POLYGONS = ("triangles", "polylist", "polygons", "tristrips", "trifans")
 

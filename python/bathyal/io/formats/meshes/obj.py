@@ -58,7 +58,7 @@ def _check_keywords(content: str) -> None:
     if words:
         word = min(words)
         before = re.split(rf"(?m)^[ \t]*{re.escape(word)}(?!\S)", content)[0]
-        line = 1 + before.count("\n") + before.count("\v")  # which stands for a continued line
+        line = 1 + before.count("\n") + before.count("\v")  # which marks a continued line
         raise Error(f"line {line}: {word[:40]!r} is not read")
 
 

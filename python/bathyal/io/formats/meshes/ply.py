@@ -105,8 +105,8 @@ def write_ply(
             raise argument_error("attributes", "names other than those of coordinates", repr(name))
         columns.append((quote(name, safe="/()[]+:"), _stored_type(name, values), values))
     header.append(f"element vertex {len(points)}")
-    words = {"<f8": "double", "u1": "uchar"}
-    header += [f"property {words[kind]} {name}" for name, kind, _ in columns]
+    types = {"<f8": "double", "u1": "uchar"}
+    header += [f"property {types[kind]} {name}" for name, kind, _ in columns]
     vertices = np.empty(len(points), [(name, kind) for name, kind, _ in columns])
     for name, _, values in columns:
         vertices[name] = values

@@ -103,8 +103,8 @@ def triangles_of_strips(strips: Cells) -> Integers:
     """(T, 3): every second triangle of a strip is turned round, so that all face one way."""
     _check_corners("strip", strips)
     first, step = _windows(strips)
-    odd = step % 2
-    corners = np.column_stack([first + step, first + step + 1 + odd, first + step + 2 - odd])
+    parity = step % 2
+    corners = np.column_stack([first + step, first + step + 1 + parity, first + step + 2 - parity])
     return np.take(strips.connectivity, corners)
 
 

@@ -16,7 +16,7 @@ from bathyal.io.formats.numbers import numbers_of_text
 _FACET = np.dtype([("normal", "<f4", (3,)), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
 _BINARY_LOSS = 1e-5  # m
 _HEADER = 84  # bytes: 80 of anything and the number of facets
-# What a facet is made of and how often; a word comes before those that are part of it.
+# What a facet is made of and how often; a keyword comes before those that are part of it.
 _KEYWORDS = {
     b"endfacet": 1, b"endloop": 1, b"facet": 1, b"normal": 1, b"outer": 1, b"loop": 1, b"vertex": 3,
 }  # fmt: skip

@@ -30,7 +30,7 @@ _UTM_EPSG = {("wgs84", True): 32600, ("wgs84", False): 32700, ("nad83", True): 2
 
 @dataclass(frozen=True)
 class _Frame:
-    """Where the nodes stand: the south-west one at (west, south), the next ones dx, dy apart."""
+    """Where the nodes lie: the south-west one at (west, south), the next ones dx, dy apart."""
 
     west: float
     south: float
@@ -53,7 +53,7 @@ def read_bag(path: PathLike) -> Soundings:
     with opened(path) as (stream, size), reading(path, "BAG"):
         if stream.read(8) != b"\x89HDF\r\n\x1a\n":
             raise Error("it is not an HDF5 file")
-        # The file that was looked at, not what may stand under its name by now.
+        # The file that was looked at, not what may have its name by now.
         with h5py.File(stream, "r") as file:
             root = _member(file, "BAG_root")
             if "varres_refinements" in root:
@@ -72,7 +72,7 @@ def read_bag(path: PathLike) -> Soundings:
 
 
 def _member(group: Any, name: str) -> Any:
-    """What stands under a name in this very file: HDF5 can also point into others."""
+    """What a name refers to in this very file: HDF5 can also point into others."""
     link = group.get(name, getlink=True)
     elsewhere = link is not None and type(link).__name__ != "HardLink"
     member = None if elsewhere else group[name]  # a link is not followed even to look at it

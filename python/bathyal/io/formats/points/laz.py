@@ -49,7 +49,7 @@ def check_chunks(stream: BinaryIO, size: int, first_point: int, record: int, cou
 
 
 def _check_table(stream: BinaryIO, size: int, first_point: int, record: int) -> None:
-    """Where the points start, or at the end of the file, stands where the table of chunks is."""
+    """Where the points start, or at the end of the file, is the offset of the table of chunks."""
     stream.seek(first_point)
     where = int.from_bytes(stream.read(8), "little", signed=True)
     if where == -1:

@@ -22,7 +22,7 @@ class Soundings:
 
     `depth` is how the file calls its third coordinate where it calls it a depth; `unit` is the unit
     it names for a column or band where that is not the metre; `units` are those of its reference
-    system, where more is known of them than `crs` and `vertical_datum` tell.
+    system, where more is known of them than `crs` and `vertical_datum` hold.
     """
 
     points: NDArray[np.float64]

@@ -190,7 +190,7 @@ def _numbers(data: bytes, dtype: np.dtype[Any]) -> NDArray[Any]:
 
 
 def _inline_text(element: Element) -> str:
-    """An element's own text, before and behind what else stands in it (InformationKey)."""
+    """An element's own text, before and behind what else is in it (InformationKey)."""
     return (element.text or "") + "".join(child.tail or "" for child in element)
 
 

@@ -21,7 +21,7 @@ Diagnose = Callable[[Case], Any]
 
 
 @dataclass
-class Judged:
+class Evaluated:
     """One case: what was asked and what came back, in few enough numbers to be sent about."""
 
     seed: int
@@ -34,38 +34,38 @@ class Judged:
     exact: bool = False  # the verdict asked for, with the very set of causes
     holds: bool = False  # ambiguous, and its list holds the truth
     listed: int = 0  # of ambiguous: how many
-    partial: int = 0  # false names that stand beside `unknown`
+    partial: int = 0  # false names that are listed with `unknown`
     pairs: list[tuple[str, str]] = field(default_factory=list)  # true name, name that was given
     inside: list[tuple[str, float, bool]] = field(default_factory=list)  # parameter, z, covered
-    error: float = float("nan")  # rms of foretold tips against the truth, in noises
-    told: float = float("nan")  # the same of a refit that is told the causes
+    error: float = float("nan")  # rms of predicted tips against the truth, in noises
+    refit_error: float = float("nan")  # the same of a refit that is given the causes
     held_out: float = float("nan")  # rms per axis on blocks held out, in noises
     seconds: float = 0.0
     failure: str = ""
 
 
 def engine(case: Case) -> Any:
-    """The diagnosis under test, one thread: cases run beside each other."""
+    """The diagnosis under test, one thread: cases run in parallel."""
     import bathyal
 
     return bathyal.diagnose(case.bathyal_arm(), case.data(), num_threads=1)
 
 
-def judge(seed: int, diagnose: Diagnose = engine) -> Judged:
+def evaluate(seed: int, diagnose: Diagnose = engine) -> Evaluated:
     case = draw_case(seed)
     answer = case.answer
     start = perf_counter()
     try:
         report = diagnose(case)
     except Exception as error:
-        out = Judged(seed, answer.kind, answer.size, answer.outside, [], "failed", [])
+        out = Evaluated(seed, answer.kind, answer.size, answer.outside, [], "failed", [])
         out.failure = f"{type(error).__name__}: {error}"
         return out
     seconds = perf_counter() - start
     failure = _other_model(report, case)
     truth = {_true_cause(e): e for e in answer.effects}
-    named = {_as_told(_named_cause(e), e, truth): e for e in report.effects}
-    out = Judged(
+    named = {_as_reported(_named_cause(e), e, truth): e for e in report.effects}
+    out = Evaluated(
         seed,
         answer.kind,
         answer.size,
@@ -82,7 +82,7 @@ def judge(seed: int, diagnose: Diagnose = engine) -> Judged:
         for cause, fact in truth.items():
             out.inside += _covered(fact, named[cause])
     if getattr(report, "residuals_after", None) is not None:
-        out.error, out.told = _errors(case, np.asarray(report.residuals_after))
+        out.error, out.refit_error = _errors(case, np.asarray(report.residuals_after))
         out.held_out = float(report.held_out.rms_after / np.sqrt(3) / answer.noise)
     return out
 
@@ -97,7 +97,7 @@ def _other_model(report: Any, case: Case) -> str:
 
 
 def _verdict(
-    out: Judged,
+    out: Evaluated,
     answer: Answer,
     truth: dict[Cause, Any],
     named: dict[Cause, Any],
@@ -115,7 +115,7 @@ def _verdict(
         out.holds = out.verdict == "ambiguous" and all(c[:2] in could for c in truth)
     elif answer.kind == "confounded":
         names = {name for name, _ in listed}
-        out.exact = out.verdict == "ambiguous" and set(answer.rivals) <= names
+        out.exact = out.verdict == "ambiguous" and set(answer.alternatives) <= names
     else:
         out.exact = out.verdict == answer.verdict
         out.partial = len(named) if out.verdict == "unknown" else 0
@@ -133,7 +133,7 @@ def _named_cause(effect: Any) -> Cause:
     return cause_of(effect.name, effect.joint)
 
 
-def _as_told(cause: Cause, effect: Any, truth: dict[Cause, Any]) -> Cause:
+def _as_reported(cause: Cause, effect: Any, truth: dict[Cause, Any]) -> Cause:
     """A base that gives way and a link that bends count as one cause."""
     for true, fact in truth.items():
         bending = cause[0] == true[0] == "bending"
@@ -205,8 +205,8 @@ def _covered(fact: dict[str, Any], effect: Any) -> list[tuple[str, float, bool]]
 
 
 def _errors(case: Case, residuals: Array) -> tuple[float, float]:
-    """Model less measurement, less the error of the measurement: what is foretold wrongly. Touches
-    leave the tip less its point, whose error has the other sign."""
+    """Model less measurement, less the error of the measurement: the error of the prediction.
+    Touches leave the tip less its point, whose error has the other sign."""
     sealed = case.sealed
     keep = np.ones(len(residuals), bool)
     for fact in case.answer.effects:
@@ -223,9 +223,9 @@ def _errors(case: Case, residuals: Array) -> tuple[float, float]:
         wrong = residuals - error
         if np.sum(wrong[keep] ** 2) > np.sum((residuals + error)[keep] ** 2):
             wrong = residuals + error
-    told = sealed.told_error()
+    refit = sealed.refit_error()
     noise = case.answer.noise
     return (
         float(np.sqrt(np.mean(wrong[keep] ** 2)) / noise),
-        float(np.sqrt(np.mean(told[keep] ** 2)) / noise),
+        float(np.sqrt(np.mean(refit[keep] ** 2)) / noise),
     )
