@@ -84,21 +84,23 @@ Capsule placed(const Arm& arm, const LinkCapsule& capsule, const RowFrames& fram
           frame_of_link(arm, capsule.link, frames) * capsule.end, capsule.radius};
 }
 
-double displacement_bound(const Arm& arm, const RowFrames& frames, int link, const Capsule& placed,
-                          std::span<const double> change) {
+double displacement_bound(const Arm& arm, const RowFrames& frames, int link, int observer,
+                          const Capsule& placed, std::span<const double> change) {
   double bound = 0.0;
-  for (int k = link - 1; k >= 0; --k) {
-    const auto row = static_cast<std::size_t>(k);
+  const auto move = [&](int joint_index) {
+    const auto row = static_cast<std::size_t>(joint_index);
     const Joint& joint = arm.joints()[row];
-    if (joint.type == JointType::kFixed) continue;
+    if (joint.type == JointType::kFixed) return;
     const double by =
         std::abs(joint.multiplier) * change[static_cast<std::size_t>(joint.coordinate)];
     const Pose& frame = frames.world_from_row[row];
-    bound +=
-        joint.type == JointType::kPrismatic
-            ? by
-            : by * (distance_from_axis(placed, frame.translation(), frame.linear().col(2)) + bound);
-  }
+    bound += joint.type == JointType::kPrismatic
+                 ? by
+                 : by * (distance_from_axis(placed, frame.translation(), frame.linear().col(2)) +
+                         bound);
+  };
+  for (int k = link - 1; k >= observer; --k) move(k);
+  for (int k = link; k < observer; ++k) move(k);
   return bound;
 }
 

@@ -36,14 +36,14 @@ std::vector<LinkCapsule> capsules_of_links(const Arm& arm,
 /// The capsules of a pose: start and end from the frames of the rows, in their common frame.
 Capsule placed(const Arm& arm, const LinkCapsule& capsule, const RowFrames& frames);
 
-/// How far any point of a capsule of the link can move while each coordinate moves by at most
-/// `change` from the pose that the frames are of [m].
+/// How far any point of a capsule of `link` can move, seen from `observer` (a link; 0 is the foot),
+/// while each coordinate changes by at most `change` from the pose that the frames are of [m].
 ///
-/// The joints are moved one after the other, the last first. Each turns the point about its own
-/// axis, by no more than the angle times the distance from that axis: the distance in the pose
-/// given, plus what the joints behind it have moved the point by (arc over chord, triangle
-/// inequality). Sliding joints move it by their change.
-double displacement_bound(const Arm& arm, const RowFrames& frames, int link, const Capsule& placed,
-                          std::span<const double> change);
+/// The joints between the two are moved one after the other, the nearest to the capsule first. Each
+/// turns the point about its own axis, by no more than the angle times the distance from that axis:
+/// the distance in the pose given, plus what the joints before it have moved the point by (arc over
+/// chord, triangle inequality). Sliding joints move it by their change.
+double displacement_bound(const Arm& arm, const RowFrames& frames, int link, int observer,
+                          const Capsule& placed, std::span<const double> change);
 
 }  // namespace bathyal

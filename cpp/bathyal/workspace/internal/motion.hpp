@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "bathyal/workspace/internal/bodies.hpp"
+
+namespace bathyal::workspace {
+
+/// Workspace::check_motion.
+MotionCheck first_contact(const Bodies& bodies, const JointView& q);
+
+}  // namespace bathyal::workspace

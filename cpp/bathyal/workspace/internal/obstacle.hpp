@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Geometry>
+#include <limits>
+#include <string>
+#include <variant>
+
+#include "bathyal/scene/scene.hpp"
+#include "bathyal/workspace/capsule.hpp"
+#include "bathyal/workspace/hull.hpp"
+#include "bathyal/workspace/keepout.hpp"
+
+namespace bathyal::workspace {
+
+/// Where a capsule comes nearest to an obstacle, in the obstacle's frame.
+struct Nearness {
+  /// From surface to surface [m]. Where the capsule's axis meets the obstacle's surface or lies
+  /// inside: minus the radius and the depth of the deeper end (of a convex keep-out: of the deepest
+  /// point of the axis).
+  double distance = std::numeric_limits<double>::infinity();
+  Vec3 axis_point = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
+  Vec3 surface_point = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
+};
+
+/// The frame that an obstacle is fixed to: a link's index, or one of these.
+inline constexpr int kVehicleFrame = -1;
+inline constexpr int kWorldFrame = -2;
+
+/// One thing that an arm must not touch.
+class Obstacle {
+ public:
+  explicit Obstacle(Hull hull);
+  Obstacle(KeepOut keepout, int frame);
+  /// The bottom and what lies on it. Below a surface that faces up is inside: of the bottom, and of
+  /// closed bodies.
+  explicit Obstacle(Scene scene);
+
+  const std::string& name() const { return name_; }
+  int frame() const { return frame_; }
+
+  /// Of a capsule in the obstacle's frame. What is farther than `within` is not looked for.
+  Nearness nearest(const Capsule& capsule,
+                   double within = std::numeric_limits<double>::infinity()) const;
+
+ private:
+  bool holds(const Vec3& point) const;
+  Nearness nearest_of_surface(const Scene& surface, const Capsule& capsule, double within) const;
+
+  std::string name_;
+  int frame_;
+  std::variant<Hull, KeepOut, Scene> body_;
+  Eigen::AlignedBox3d box_;  ///< of hull or scene
+};
+
+}  // namespace bathyal::workspace
