@@ -3029,7 +3029,7 @@ class Verification:
         """
 class Estimate:
     """
-    A number and the interval that holds it in 95 of 100 cases; float() gives the number.
+    A number with its 95 % confidence interval; float() gives the number.
     """
     def __float__(self) -> float:
         ...
@@ -3040,11 +3040,13 @@ class Estimate:
     @property
     def interval(self) -> tuple[float, float]:
         """
-        (low, high) that holds the truth in 95 of 100 cases.
+        (low, high): 95 % confidence interval.
         """
     @property
     def name(self) -> str:
-        ...
+        """
+        Of the parameter.
+        """
     @property
     def std(self) -> float:
         """
@@ -3052,22 +3054,30 @@ class Estimate:
         """
     @property
     def unit(self) -> str:
-        ...
+        """
+        SI; "" of a setting, "1" of a number.
+        """
     @property
     def value(self) -> float:
-        ...
+        """
+        In `unit`.
+        """
 class Cause:
     """
-    A cause by name, as lists of rivals hold it.
+    A cause by name, as lists of alternatives hold it.
     """
     def __repr__(self) -> str:
         ...
     @property
     def joint(self) -> int | None:
-        ...
+        """
+        Coordinate in error, from 0, or None.
+        """
     @property
     def name(self) -> str:
-        ...
+        """
+        Of the effect.
+        """
     @property
     def odds(self) -> float:
         """
@@ -3075,7 +3085,9 @@ class Cause:
         """
     @property
     def words(self) -> str:
-        ...
+        """
+        Description.
+        """
 class NamedEffect:
     """
     A cause that was found, with its evidence.
@@ -3085,7 +3097,7 @@ class NamedEffect:
     @property
     def gain(self) -> float:
         """
-        Share of the held-out variance above noise that it removes; of effects on the noise itself: held-out log likelihood.
+        Share of the held-out variance above noise that it explains; of effects on the noise itself: held-out log likelihood.
         """
     @property
     def held_out_after(self) -> float:
@@ -3104,11 +3116,13 @@ class NamedEffect:
         """
     @property
     def name(self) -> str:
-        ...
+        """
+        Of the effect.
+        """
     @property
     def p_value(self) -> float:
         """
-        Of its F test among the others, corrected for all that was tried.
+        Of its F test given the others, corrected for multiplicity.
         """
     @property
     def parameters(self) -> dict:
@@ -3118,7 +3132,7 @@ class NamedEffect:
     @property
     def rivals(self) -> list[Cause]:
         """
-        Cause: the best other explanations of it.
+        Cause: the best alternatives to it.
         """
     @property
     def rows(self) -> list[int]:
@@ -3128,50 +3142,90 @@ class NamedEffect:
     @property
     def size(self) -> float:
         """
-        rms of what it moves beside all else that was fitted, per axis [m].
+        rms contribution given all else that was fitted, per axis [m].
         """
     @property
     def words(self) -> str:
-        ...
+        """
+        Description.
+        """
 class Structure:
     """
-    A dependence of residuals, made by chance or not.
+    A lack-of-fit test: a dependence of the residuals, significant or not.
     """
     def __repr__(self) -> str:
         ...
     @property
     def against(self) -> str:
-        ...
+        """
+        The dependence as text, joints counted from 1: "joints 2 and 3"; "" of kind "none".
+        """
+    @property
+    def component(self) -> int | None:
+        """
+        Column of a covariate that has several, from 0; else None.
+        """
+    @property
+    def coordinates(self) -> list[int]:
+        """
+        Of kind "joints" (one or two) and "approach" (one): the joints' coordinates, from 0.
+        """
+    @property
+    def covariate(self) -> str | None:
+        """
+        Of kind "covariate": its name; else None.
+        """
     @property
     def is_beyond_noise(self) -> bool:
         """
         Whether `p_value` is at most 0.002.
         """
     @property
+    def joint(self) -> int | None:
+        """
+        Coordinate that is in error, from 0; None where the tip is.
+        """
+    @property
+    def kind(self) -> str:
+        """
+        What the residuals depend on: "position" of the tip, "joints" (one, or two together), "time",
+        "order" of the rows (where no times are recorded), "approach" (the direction of a joint's last
+        move), "session" or "covariate"; "none" where nothing was found.
+        """
+    @property
     def p_value(self) -> float:
         """
-        Corrected for all that was asked.
+        Corrected for all tests that were made.
+        """
+    @property
+    def period(self) -> float | None:
+        """
+        Of kind "time": period of a vibration [s]; None of a drift.
         """
     @property
     def share(self) -> float:
         """
-        Of the residuals' variance, noise taken out.
+        Of the residuals' variance, less noise.
         """
     @property
     def size(self) -> float:
         """
-        rms per axis, noise taken out [m].
+        rms per axis, less noise [m].
         """
     @property
     def words(self) -> str:
-        ...
+        """
+        Description of the dependence.
+        """
 class HeldOutPart:
     """
     One session, or one touched point.
     """
     @property
     def name(self) -> str:
-        ...
+        """
+        "session 2", "point 0", "all".
+        """
     @property
     def rms_after(self) -> float:
         """
@@ -3184,10 +3238,12 @@ class HeldOutPart:
         """
     @property
     def rows(self) -> int:
-        ...
+        """
+        How many rows it has.
+        """
 class HeldOut:
     """
-    Errors of rows that were foretold by all others.
+    Prediction errors of held-out rows.
     """
     @property
     def after(self) -> numpy.ndarray:
@@ -3201,11 +3257,13 @@ class HeldOut:
         """
     @property
     def blocks(self) -> int:
-        ...
+        """
+        Number of folds.
+        """
     @property
     def how(self) -> str:
         """
-        What was held out at once.
+        What one fold is.
         """
     @property
     def noise(self) -> float:
@@ -3215,11 +3273,13 @@ class HeldOut:
     @property
     def p_value(self) -> float:
         """
-        That the gain is luck, over the blocks.
+        Of the gain, by sign flips of the folds.
         """
     @property
     def parts(self) -> list[HeldOutPart]:
-        ...
+        """
+        HeldOutPart: errors by session or touched point.
+        """
     @property
     def rms_after(self) -> float:
         """
@@ -3232,7 +3292,7 @@ class HeldOut:
         """
 class Diagnosis:
     """
-    What the model of an arm gets wrong, by its measurements; see `diagnose`.
+    Errors of an arm's model, by its measurements; see `diagnose`.
     """
     def __repr__(self) -> str:
         ...
@@ -3258,17 +3318,17 @@ class Diagnosis:
     @property
     def ambiguous(self) -> list[Cause]:
         """
-        Cause: all among which these data cannot choose.
+        Cause: all that these data cannot distinguish.
         """
     @property
     def data(self) -> Touches | Tracked:
         """
-        Touches or Tracked: what it was found from.
+        Touches or Tracked: the data.
         """
     @property
     def detectable(self) -> float:
         """
-        Size of an effect that would have been found, per axis [m].
+        Smallest size of an effect that is found, per axis [m].
         """
     @property
     def effects(self) -> list[NamedEffect]:
@@ -3287,21 +3347,23 @@ class Diagnosis:
         """
     @property
     def held_out(self) -> HeldOut:
-        ...
+        """
+        HeldOut: the cross-validation.
+        """
     @property
     def leftover(self) -> Structure:
         """
-        Structure beside all that was named; its size is 0 when there is none.
+        Structure that the effects do not explain; its size is 0 when there is none.
         """
     @property
     def model(self) -> CorrectedArm:
         """
-        CorrectedArm: geometry and effects, with the support that taught them.
+        CorrectedArm: geometry and effects, with the support of the data.
         """
     @property
     def next_poses(self) -> numpy.ndarray:
         """
-        (m, n) poses that would tell them apart [rad or m].
+        (m, n) poses that would distinguish them [rad or m].
         """
     @property
     def noise(self) -> float:
@@ -3310,7 +3372,9 @@ class Diagnosis:
         """
     @property
     def noise_source(self) -> str:
-        ...
+        """
+        What the noise was estimated from.
+        """
     @property
     def residuals_after(self) -> numpy.ndarray:
         """
@@ -3324,7 +3388,7 @@ class Diagnosis:
     @property
     def shown(self) -> list[Structure]:
         """
-        Structure in the residuals of geometry alone, likeliest first: what is beyond noise; where nothing is, the least unlikely.
+        Structure in the residuals of geometry alone, most significant first: all that is beyond noise; where nothing is, the most significant.
         """
     @property
     def verdict(self) -> str:
@@ -3445,37 +3509,37 @@ def cover_polygon(surface: Scene | Plane, polygon: numpy.typing.ArrayLike, spaci
     """
 def diagnose(arm: Arm, data: Touches | Tracked, *, effects: collections.abc.Iterable[Effect] | None = None, parametrization: str = 'hayati', fixed: collections.abc.Sequence[str] = [], blocks: typing.SupportsInt | typing.SupportsIndex = 10, rival_odds: typing.SupportsFloat | typing.SupportsIndex = 0.05, leftover: typing.SupportsFloat | typing.SupportsIndex = 0.25, num_next_poses: typing.SupportsInt | typing.SupportsIndex = 8, progress: collections.abc.Callable[[float, str], None] | None = None, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> Diagnosis:
     """
-    Show what the best rigid model of an arm gets wrong, name the cause, measure the gain.
+    Find what the best rigid model of an arm gets wrong, name the cause, measure the gain.
     
-    The arm's geometry is identified first. What it leaves is compared with each effect of the library,
-    alone and in growing sets, fitted jointly with the geometry; sets are judged by their likelihood
-    less what their freedom costs, and each name must foretell data that it has not seen. Structure that
-    nothing in the library explains is told as such, without a name.
+    The arm's geometry is identified first. Effects of the library are selected to explain its
+    residuals, alone and in growing sets, fitted jointly with the geometry; sets are compared by their
+    likelihood less a complexity penalty, and each effect must improve the prediction of held-out data.
+    Structure that nothing in the library explains is reported as such, without a name.
     
     Parameters
     ----------
     arm : Arm
-        Nominal; its masses, where they are told, make loads of gravity known.
+        Nominal; its masses, where they are given, make loads of gravity known.
     data : Touches or Tracked
         With any of the covariates `temperature` (N,) [°C], `time` (N,) [s], `payload` (N,) [kg at the
         tool centre point], `direction` (N, n) -1, 0 or 1, `gravity` (N, 3) [m/s², base frame] and
-        `session` (N,); others are looked at for structure. One that is missing (nan) in some rows is
-        not used, and a warning says so. Rows that repeat another to the last digit count once.
+        `session` (N,); others are tested for structure. One that is missing (nan) in some rows is
+        not used, and a warning says so. Rows that duplicate another to the last digit count once.
     effects : list of Effect, optional
-        What may be named; `bathyal.effects.list()` unless given.
+        What may be selected; `bathyal.effects.list()` unless given.
     parametrization : {"hayati", "dh"}
         Of the geometry, as in `identify_arm`.
     fixed : list of str
         Names of geometric parameters to hold at nominal.
     blocks : int
-        How many blocks are held out in turn, 3 to 50.
+        Number of folds of the cross-validation, 3 to 50.
     rival_odds : float
-        Odds of a rival against the best explanation from which the two count as not to be told apart.
+        Odds of an alternative against the best explanation from which the verdict is "ambiguous".
     leftover : float
-        Structure left over, as a share of the variance that the names removed, from which the verdict
-        is "unknown" and the names stand as partial.
+        Unexplained structure, as a share of the variance that the effects explain, from which the
+        verdict is "unknown" and the effects are partial.
     num_next_poses : int
-        How many poses to propose where causes cannot be told apart.
+        How many poses to propose where the verdict is "ambiguous".
     progress : callable, optional
         Called with (share done, what comes next), often within a stage; what it raises ends the run.
     num_threads : int
