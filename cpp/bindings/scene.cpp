@@ -147,7 +147,7 @@ std::vector<Polyline> section_between(const Scene& scene, const ArrayLike& a,
 /// (N, 3), or (3,) as one row.
 Points segment_ends(std::string_view name, const py::object& object) {
   const py::array array = array_argument(name, object, "real numbers of shape (N, 3)");
-  return points_argument(name, array.ndim() == 1 ? array.attr("reshape")(1, -1) : array);
+  return points_argument(name, array.ndim() == 1 ? py::array(array.attr("reshape")(1, -1)) : array);
 }
 
 NearestSegments find_nearest_segments(const Scene& scene, const ArrayLike& start,

@@ -9,7 +9,7 @@ import numpy.typing
 import os
 import plotly.graph_objects
 import typing
-__all__: list[str] = ['Arm', 'ArmFit', 'BEYOND_NOISE', 'Cause', 'CleanReport', 'CleanResult', 'CorrectedArm', 'DhTable', 'Diagnosis', 'Effect', 'EffectRange', 'EffectRows', 'Error', 'Estimate', 'FitParameter', 'FoundEffect', 'HeldOut', 'HeldOutPart', 'Hits', 'InverseResult', 'Link', 'MeshReport', 'NamedEffect', 'Nearest', 'Outlier', 'Plane', 'PlaneFit', 'PointCloud', 'Polyline', 'RigidBody', 'Scene', 'Shape', 'SheetPatch', 'SheetReport', 'Structure', 'Support', 'Targets', 'TextTable', 'ToolPath', 'TouchForecast', 'TouchPlan', 'Touches', 'Tracked', 'Trade', 'TriangleMesh', 'Verification', 'arm_from_chain', 'arm_from_parts', 'arm_parts', 'chain_from_arm', 'check_bytes', 'clean_cloud', 'cover_polygon', 'diagnose', 'find_effect_with', 'find_sheets', 'find_targets', 'fit_plane', 'forecast_touches', 'generate_survey', 'identify_arm', 'intersect_moller_trumbore', 'library_effects', 'mesh_report', 'plan_toolpath', 'plan_touches', 'read_pcd', 'read_text_table', 'set_simd_level', 'simd_level', 'survey_height', 'triangulate', 'triangulate_delaunay', 'verify_positions', 'warn_of_support_with', 'write_xyz']
+__all__: list[str] = ['Arm', 'ArmFit', 'BEYOND_NOISE', 'Cause', 'CleanReport', 'CleanResult', 'CorrectedArm', 'DhTable', 'Diagnosis', 'Effect', 'EffectRange', 'EffectRows', 'Error', 'Estimate', 'FitParameter', 'FoundEffect', 'HeldOut', 'HeldOutPart', 'Hits', 'InverseResult', 'Link', 'MeshReport', 'NamedEffect', 'Nearest', 'NearestSegments', 'Outlier', 'Plane', 'PlaneFit', 'PointCloud', 'Polyline', 'RigidBody', 'Scene', 'Shape', 'SheetPatch', 'SheetReport', 'Structure', 'Support', 'Targets', 'TextTable', 'ToolPath', 'TouchForecast', 'TouchPlan', 'Touches', 'Tracked', 'Trade', 'TriangleMesh', 'Verification', 'arm_from_chain', 'arm_from_parts', 'arm_parts', 'chain_from_arm', 'check_bytes', 'clean_cloud', 'cover_polygon', 'diagnose', 'find_effect_with', 'find_sheets', 'find_targets', 'fit_plane', 'forecast_touches', 'generate_survey', 'identify_arm', 'intersect_moller_trumbore', 'library_effects', 'mesh_report', 'plan_toolpath', 'plan_touches', 'read_pcd', 'read_text_table', 'set_simd_level', 'simd_level', 'survey_height', 'triangulate', 'triangulate_delaunay', 'verify_positions', 'warn_of_support_with', 'write_xyz']
 class Error(RuntimeError):
     """
     A broken file, a solver that failed or a part that is not installed.
@@ -790,7 +790,50 @@ class Nearest:
     @property
     def point(self) -> numpy.ndarray:
         """
-        (N, 3) [m], NaN where there is none.
+        (N, 3) of the scene [m], NaN where there is none.
+        """
+    @property
+    def triangle(self) -> numpy.ndarray:
+        """
+        (N,) triangle of that mesh, −1 where there is none.
+        """
+class NearestSegments:
+    """
+    Where a scene comes closest to each of N segments.
+    """
+    def __len__(self) -> int:
+        ...
+    def __repr__(self) -> str:
+        ...
+    @property
+    def barycentric(self) -> numpy.ndarray:
+        """
+        (N, 3) weights (u, v, w) of corners 1, 2 and 0, as eq 4; NaN where there is none.
+        """
+    @property
+    def distance(self) -> numpy.ndarray:
+        """
+        (N,) [m], 0 where the segment meets a triangle, inf where there is none within reach.
+        """
+    @property
+    def fraction(self) -> numpy.ndarray:
+        """
+        (N,) where along the segment, 0 at its start, 1 at its end; NaN where there is none.
+        """
+    @property
+    def mesh(self) -> numpy.ndarray:
+        """
+        (N,) number of the mesh in the scene, −1 where there is none.
+        """
+    @property
+    def point(self) -> numpy.ndarray:
+        """
+        (N, 3) of the scene [m], NaN where there is none.
+        """
+    @property
+    def segment_point(self) -> numpy.ndarray:
+        """
+        (N, 3) of the segment [m], the same as `point` where they meet; NaN where there is none.
         """
     @property
     def triangle(self) -> numpy.ndarray:
@@ -946,6 +989,47 @@ class Scene:
         >>> near = bathyal.Scene(floor).nearest([[1, 1, 3], [-3, 0, -4]])
         >>> near.distance.tolist(), near.point.tolist()
         ([3.0, 5.0], [[1.0, 1.0, 0.0], [0.0, 0.0, 0.0]])
+        """
+    def nearest_segments(self, start: numpy.typing.ArrayLike, end: numpy.typing.ArrayLike, *, within: typing.SupportsFloat | typing.SupportsIndex = ..., num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> NearestSegments:
+        """
+        Where all triangles come closest to each straight segment.
+        
+        Decided in double; equal distances give the lowest (mesh, triangle). Where a segment meets a
+        triangle, borders and ends included, its distance is exactly 0 and both points are one: decided with
+        exact signs, in the plane of a triangle too. A triangle without area counts as the segment or point
+        that it is; a segment without length is as by nearest. The distance of a capsule is that of its axis
+        less its radius.
+        
+        Parameters
+        ----------
+        start : (N, 3), (1, 3) or (3,) array
+            [m], finite and no further out than 10²⁵ m. One start serves all ends.
+        end : (N, 3) or (3,) array
+            [m], likewise.
+        within : float
+            What is further away is not found [m]; a small distance saves time.
+        num_threads : int
+            0 means all. The result is the same bytes for any number.
+        
+        Returns
+        -------
+        NearestSegments
+            ``.distance`` (N,) [m], ``.point`` (N, 3) of the scene, ``.mesh`` (N,), ``.triangle`` (N,),
+            ``.barycentric`` (N, 3), ``.fraction`` (N,) along the segment and ``.segment_point`` (N, 3).
+            Where nothing lies within reach: inf, NaN and −1.
+        
+        Raises
+        ------
+        ValueError
+            For an end that is not finite or out of range: names the first row at fault.
+        
+        Examples
+        --------
+        >>> import bathyal
+        >>> floor = bathyal.TriangleMesh([[0, 0, 0], [4, 0, 0], [0, 4, 0]], [[0, 1, 2]])
+        >>> near = bathyal.Scene(floor).nearest_segments((1, 1, 3), [[1, 2, 2], [1, 1, -1]])
+        >>> near.distance.tolist(), near.fraction.tolist()
+        ([2.0, 0.0], [1.0, 0.75])
         """
     def occluded(self, from_: numpy.typing.ArrayLike, to: numpy.typing.ArrayLike, *, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> numpy.ndarray:
         """
