@@ -37,7 +37,7 @@ def columns(near):
 
 
 def test_nearest_segments_outside_a_sphere():
-    start, end = random_segments(800, -1.5, 1.5, 1.5, 1)
+    start, end = random_segments(1500, -1.2, 1.2, 0.6, 1)
     near = bathyal.Scene(sphere(rings=96, sectors=192)).nearest_segments(start, end)
     along = end - start
     t = np.clip(-(start * along).sum(1) / (along**2).sum(1), 0, 1)
