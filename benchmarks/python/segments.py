@@ -115,8 +115,8 @@ def run(rounds, poses):
     request = coal.DistanceRequest(True)
     print("## Segments against Coal\n")
     print(
-        "| 14 links | triangles | Coal / ours | Coal / ours with `within` 0.5 m | ours [µs/pose] | Coal "
-        "| overlapping | largest difference [mm] |"
+        "| 14 links | triangles | Coal / ours | Coal / ours with `within` 0.5 m "
+        "| ours [µs/pose] | Coal | overlapping | largest difference [mm] |"
     )
     print("|---|---|---|---|---|---|---|---|")
     for name, lowest, highest in (
