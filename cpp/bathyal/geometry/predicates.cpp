@@ -150,6 +150,25 @@ int general_orient2d(const Point2& a, const Point2& b, const Point2& c) {
   return (left - right).sign();
 }
 
+/// The sign of det(a − d, b − d, c − d), of coordinates over one power of two.
+int general_orient3d(const std::array<Point3, 4>& points) {
+  int unit = std::numeric_limits<int>::max();
+  for (const Point3& p : points) {
+    for (const double value : {p.x, p.y, p.z}) {
+      if (value != 0.0) unit = std::min(unit, last_bit_exponent(value));
+    }
+  }
+  const auto& [a, b, c, d] = points;
+  const BigInteger dx = scaled(d.x, unit), dy = scaled(d.y, unit), dz = scaled(d.z, unit);
+  const BigInteger ax = scaled(a.x, unit) - dx, ay = scaled(a.y, unit) - dy;
+  const BigInteger bx = scaled(b.x, unit) - dx, by = scaled(b.y, unit) - dy;
+  const BigInteger cx = scaled(c.x, unit) - dx, cy = scaled(c.y, unit) - dy;
+  const BigInteger det = (scaled(a.z, unit) - dz) * (bx * cy - cx * by) +
+                         (scaled(b.z, unit) - dz) * (cx * ay - ax * cy) +
+                         (scaled(c.z, unit) - dz) * (ax * by - bx * ay);
+  return det.sign();
+}
+
 int general_incircle(const Point2& a, const Point2& b, const Point2& c, const Point2& d) {
   const int unit = common_unit(std::array{a, b, c, d});
   const BigInteger dx = scaled(d.x, unit), dy = scaled(d.y, unit);
@@ -171,6 +190,14 @@ int orient2d(const Point2& a, const Point2& b, const Point2& c) {
                      subtract_exactly(b.x, c.x, d[2]) & subtract_exactly(b.y, c.y, d[3]);
   if (!exact || !to_integers(d, v)) return general_orient2d(a, b, c);
   return sign_of(Int128{v[0]} * v[3] - Int128{v[1]} * v[2]);
+}
+
+int orient3d(const Point3& a, const Point3& b, const Point3& c, const Point3& d) {
+  // Flat along an axis, as so many faces of drawn hulls are.
+  if (a.x == d.x && b.x == d.x && c.x == d.x) return 0;
+  if (a.y == d.y && b.y == d.y && c.y == d.y) return 0;
+  if (a.z == d.z && b.z == d.z && c.z == d.z) return 0;
+  return -general_orient3d({a, b, c, d});
 }
 
 int incircle(const Point2& a, const Point2& b, const Point2& c, const Point2& d) {

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-// Exact decisions about points of the plane, on doubles taken as they are: survey coordinates of
+// Exact decisions about points of the plane and of space, on doubles taken as they are: survey coordinates of
 // 10⁷ m need no origin subtracted. A floating-point filter decides what is clear, inline; what is
 // not goes to integer arithmetic out of line. The sign is always that of the exact value.
 //
@@ -20,6 +20,14 @@ struct Point2 {
   friend bool operator==(const Point2&, const Point2&) = default;
 };
 
+struct Point3 {
+  double x;
+  double y;
+  double z;
+
+  friend bool operator==(const Point3&, const Point3&) = default;
+};
+
 /// Lexicographic order by x, then y.
 inline bool before(const Point2& a, const Point2& b) {
   return a.x < b.x || (a.x == b.x && a.y < b.y);
@@ -30,17 +38,20 @@ inline constexpr double kLargestCoordinate = 1e75;
 namespace exact {
 
 int orient2d(const Point2& a, const Point2& b, const Point2& c);
+int orient3d(const Point3& a, const Point3& b, const Point3& c, const Point3& d);
 int incircle(const Point2& a, const Point2& b, const Point2& c, const Point2& d);
 
 /// The sign after the tie is broken: never 0 for four distinct points.
 int perturbed_incircle(const Point2& a, const Point2& b, const Point2& c, const Point2& d);
 
-// Errors of the filters relative to the sum of the magnitudes (Shewchuk 1997, "ccwerrboundA" and
-// "iccerrboundA"), and what underflow can add to them within the range above.
+// Errors of the filters relative to the sum of the magnitudes (Shewchuk 1997, "ccwerrboundA",
+// "o3derrboundA" and "iccerrboundA"), and what underflow can add to them within the range above.
 inline constexpr double kUnit = 0x1.0p-53;
 inline constexpr double kOrientError = (3.0 + 16.0 * kUnit) * kUnit;
+inline constexpr double kOrient3dError = (7.0 + 56.0 * kUnit) * kUnit;
 inline constexpr double kIncircleError = (10.0 + 96.0 * kUnit) * kUnit;
 inline constexpr double kOrientUnderflow = 1e-300;
+inline constexpr double kOrient3dUnderflow = 1e-240;
 inline constexpr double kIncircleUnderflow = 1e-170;
 
 }  // namespace exact
@@ -55,6 +66,25 @@ inline int orient2d(const Point2& a, const Point2& b, const Point2& c) {
   if (!(std::fabs(det) > bound)) [[unlikely]]
     return exact::orient2d(a, b, c);
   return det > 0.0 ? 1 : -1;
+}
+
+/// The side of the plane through a, b, c that d lies on: +1 where a, b, c appear counter-clockwise
+/// from d, −1 where they appear clockwise, 0 when all four lie in one plane.
+inline int orient3d(const Point3& a, const Point3& b, const Point3& c, const Point3& d) {
+  const double adx = a.x - d.x, ady = a.y - d.y, adz = a.z - d.z;
+  const double bdx = b.x - d.x, bdy = b.y - d.y, bdz = b.z - d.z;
+  const double cdx = c.x - d.x, cdy = c.y - d.y, cdz = c.z - d.z;
+  const double bc = bdx * cdy, cb = cdx * bdy;
+  const double ca = cdx * ady, ac = adx * cdy;
+  const double ab = adx * bdy, ba = bdx * ady;
+  const double det = adz * (bc - cb) + bdz * (ca - ac) + cdz * (ab - ba);
+  const double magnitude = (std::fabs(bc) + std::fabs(cb)) * std::fabs(adz) +
+                           (std::fabs(ca) + std::fabs(ac)) * std::fabs(bdz) +
+                           (std::fabs(ab) + std::fabs(ba)) * std::fabs(cdz);
+  const double bound = exact::kOrient3dError * magnitude + exact::kOrient3dUnderflow;
+  if (!(std::fabs(det) > bound)) [[unlikely]]
+    return exact::orient3d(a, b, c, d);
+  return det < 0.0 ? 1 : -1;
 }
 
 namespace exact {

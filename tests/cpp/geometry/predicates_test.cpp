@@ -95,6 +95,50 @@ TEST(Predicates, SeeTheLastBit) {
   }
 }
 
+/// Whole numbers over 128 bits are the truth; one in four lies in the plane of the other three.
+TEST(Predicates, Orient3dAgreesWithWholeNumbers) {
+  struct Whole3 {
+    std::int64_t x, y, z;
+  };
+  const auto truth = [](const std::array<Whole3, 4>& w) {
+    std::array<Int128, 9> m;
+    for (std::size_t i = 0; i < 3; ++i) {
+      m[3 * i] = w[i].x - w[3].x;
+      m[3 * i + 1] = w[i].y - w[3].y;
+      m[3 * i + 2] = w[i].z - w[3].z;
+    }
+    return -sign_of(m[0] * (m[4] * m[8] - m[5] * m[7]) - m[1] * (m[3] * m[8] - m[5] * m[6]) +
+                    m[2] * (m[3] * m[7] - m[4] * m[6]));
+  };
+  for (const Place& place : kPlaces) {
+    for (const std::int64_t span : {2, 1000, 1000000}) {
+      RandomStream random(11, static_cast<std::uint64_t>(span));
+      int ties = 0;
+      for (int i = 0; i < 5000; ++i) {
+        std::array<Whole3, 4> w;
+        for (Whole3& p : w) p = {draw(random, span), draw(random, span), draw(random, span)};
+        if (i % 4 == 1) {
+          w[3] = {w[0].x + w[1].x - w[2].x, w[0].y + w[1].y - w[2].y, w[0].z + w[1].z - w[2].z};
+        }
+        std::array<Point3, 4> p;
+        std::transform(w.begin(), w.end(), p.begin(), [&](const Whole3& q) {
+          const Point2 xy = at(place, {q.x, q.y});
+          return Point3{xy.x, xy.y, place.x + place.unit * static_cast<double>(q.z)};
+        });
+        ASSERT_EQ(orient3d(p[0], p[1], p[2], p[3]), truth(w));
+        ASSERT_EQ(orient3d(p[1], p[0], p[2], p[3]), -truth(w));
+        ASSERT_EQ(orient3d(p[3], p[1], p[2], p[0]), -truth(w));
+        ties += truth(w) == 0;
+      }
+      EXPECT_GE(ties, 1250);
+    }
+  }
+  EXPECT_EQ(orient3d({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}), 1);
+  EXPECT_EQ(orient3d({0, 0, 0.1}, {1, 0, 0.1}, {0, 1, 0.1}, {5, 7, 0.1}), 0);
+  const double up = std::nextafter(0.1, 1.0);
+  EXPECT_EQ(orient3d({0, 0, 0.1}, {1e6, 0, 0.1}, {0, 1e6, 0.1}, {5, 7, up}), 1);
+}
+
 /// Coordinates of very different size need more bits than the quick integers have.
 TEST(Predicates, AreExactOverTheWholeRange) {
   const double tiny = 0x1.0p-1074, huge = 1e75;
