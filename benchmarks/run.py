@@ -17,7 +17,7 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 PAGE = HERE / "README.md"
-PYTHON = ["rays", "section", "read_text", "whole_plan", "identify", "intervals"]
+PYTHON = ["rays", "section", "inside", "read_text", "whole_plan", "identify", "intervals"]
 PYTHON += ["diagnose_speed", "diagnose_real", "score_card"]
 CPP = ["bench_delaunay", "bench_greedy", "bench_arm_forward", "bench_arm_inverse"]
 CPP += ["bench_gram"]

@@ -127,7 +127,7 @@ TEST(InsideGrid, AnswersAllButTheSurface) {
       ASSERT_EQ(side == workspace::Side::kInside, expected[static_cast<std::size_t>(i)])
           << one.name << " at " << points.row(i);
     }
-    // A quarter of the points lies within 1e-13 of the size of the surface.
+    // A quarter of the points lies within 1e-13 m of the surface.
     if (open.empty()) {
       EXPECT_LT(unknown, 1200) << one.name;
     }
