@@ -57,8 +57,6 @@ Hull make_hull(const TriangleMesh& mesh, int num_threads) {
   return Hull(mesh.snapshot(), num_threads);
 }
 
-// ---- Hull -------------------------------------------------------------------------------------
-
 void bind_hull_report(py::module_& module) {
   using Report = HullReport;
   py::class_<Report>(module, "HullReport", workspace_docs::kHullReport)
@@ -155,8 +153,7 @@ void bind_hull(py::module_& module) {
             const py::gil_scoped_release release;
             return hull.voxels(size, num_threads);
           },
-          py::arg("size"), py::kw_only(), py::arg("num_threads") = 0,
-          workspace_docs::kHullVoxels)
+          py::arg("size"), py::kw_only(), py::arg("num_threads") = 0, workspace_docs::kHullVoxels)
       .def("__repr__",
            [](const Hull& hull) {
              const Index count = hull.mesh().triangle_count();
@@ -174,8 +171,6 @@ void bind_hull(py::module_& module) {
                              0);
           }));
 }
-
-// ---- KeepOut ----------------------------------------------------------------------------------
 
 using OptionalName = std::optional<std::string>;
 
@@ -272,7 +267,9 @@ void bind_keepout_makers(py::class_<KeepOut>& keepout) {
       .def_static(
           "mesh",
           [](const py::typing::Union<TriangleMesh, Hull>& mesh, std::string frame,
-             OptionalName name) { return mesh_keepout(mesh, {frame, name}); },
+             OptionalName name) {
+            return mesh_keepout(mesh, {frame, name});
+          },
           py::arg("mesh"), py::kw_only(), frame, name, workspace_docs::kMesh);
 }
 
@@ -287,8 +284,8 @@ void bind_keepout_values(py::class_<KeepOut>& keepout) {
       .def_property_readonly(
           "radius",
           [](const KeepOut& k) {
-            const bool has = k.kind() == Kind::kSphere || k.kind() == Kind::kCylinder ||
-                             k.kind() == Kind::kCone;
+            const bool has =
+                k.kind() == Kind::kSphere || k.kind() == Kind::kCylinder || k.kind() == Kind::kCone;
             return only_if(has, k.radius());
           },
           "Of a sphere, cylinder or a cone's end [m]; None of the others.")
@@ -315,9 +312,7 @@ void bind_keepout_values(py::class_<KeepOut>& keepout) {
           "Plane of a half-space, its normal towards the free side; None of the others.")
       .def_property_readonly(
           "hull",
-          [](const KeepOut& k) {
-            return k.hull() ? py::cast(*k.hull()) : py::object(py::none());
-          },
+          [](const KeepOut& k) { return k.hull() ? py::cast(*k.hull()) : py::object(py::none()); },
           "Hull of a mesh; None of the others.")
       .def("__repr__",
            [](const KeepOut& k) {
@@ -379,12 +374,11 @@ void bind_keepout_queries(py::class_<KeepOut>& keepout) {
              int num_threads) {
             const Points from = points_argument("a", a), to = points_argument("b", b);
             const std::vector<double> radii = capsule_radii(radius, from.rows());
-            return unlocked_values([&] {
-              return self.capsule_distance(from.view(), to.view(), radii, num_threads);
-            });
+            return unlocked_values(
+                [&] { return self.capsule_distance(from.view(), to.view(), radii, num_threads); });
           },
-          py::arg("a"), py::arg("b"), py::arg("radius"), py::kw_only(),
-          py::arg("num_threads") = 0, workspace_docs::kCapsuleDistance);
+          py::arg("a"), py::arg("b"), py::arg("radius"), py::kw_only(), py::arg("num_threads") = 0,
+          workspace_docs::kCapsuleDistance);
 }
 
 }  // namespace

@@ -3,9 +3,10 @@
 
 #include <cmath>
 
-// Exact decisions about points of the plane and of space, on doubles taken as they are: survey coordinates of
-// 10⁷ m need no origin subtracted. A floating-point filter decides what is clear, inline; what is
-// not goes to integer arithmetic out of line. The sign is always that of the exact value.
+// Exact decisions about points of the plane and of space, on doubles taken as they are: survey
+// coordinates of 10⁷ m need no origin subtracted. A floating-point filter decides what is clear,
+// inline; what is not goes to integer arithmetic out of line. The sign is always that of the exact
+// value.
 //
 // Range: |coordinate| ≤ kLargestCoordinate and finite, so that no product of the filter overflows
 // and what underflows stays below its absolute margin. Outside it the result is undefined; the

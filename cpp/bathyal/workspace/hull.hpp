@@ -14,8 +14,8 @@ namespace bathyal {
 /// inside voxels). Voxel (i, j, k) is number (i · count[1] + j) · count[2] + k; it reaches from
 /// origin + size · (i, j, k) to origin + size · (i + 1, j + 1, k + 1).
 struct Voxels {
-  Vec3 origin = Vec3::Zero();      ///< [m]
-  double size = 0.0;               ///< of an edge [m]
+  Vec3 origin = Vec3::Zero();  ///< [m]
+  double size = 0.0;           ///< of an edge [m]
   Eigen::Array3i count{0, 0, 0};
   std::shared_ptr<bool[]> inside;  ///< of each voxel
 

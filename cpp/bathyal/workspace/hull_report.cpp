@@ -45,8 +45,8 @@ void measure_triangles(const WeldedMesh& mesh, const EdgeReport& edges, HullRepo
   report.inside_out = total < 0.0;
   report.volume = report.closed ? std::abs(total) : std::numeric_limits<double>::quiet_NaN();
   if (!report.closed) return;
-  report.opposed_parts = std::count_if(volume.begin(), volume.end(),
-                                       [&](double part) { return part * total < 0.0; });
+  report.opposed_parts =
+      std::count_if(volume.begin(), volume.end(), [&](double part) { return part * total < 0.0; });
 }
 
 void count_crossings(const WeldedMesh& mesh, const EdgeReport& edges, int num_threads,
@@ -79,12 +79,12 @@ std::vector<std::string> surface_warnings(const HullReport& r) {
   }
   if (r.inside_out) warnings.push_back("The normals point inwards: the mesh is inside out.");
   if (r.intersecting_pairs > 0) {
-    warnings.push_back("The surface intersects itself: " +
-                       counted(r.intersecting_pairs, "pair") + " of triangles.");
+    warnings.push_back("The surface intersects itself: " + counted(r.intersecting_pairs, "pair") +
+                       " of triangles.");
   }
   if (r.overlapping_parts > 0) {
-    warnings.push_back(counted(r.overlapping_parts, "pair") + " of its " +
-                       std::to_string(r.parts) + " parts overlap: the volume counts twice there.");
+    warnings.push_back(counted(r.overlapping_parts, "pair") + " of its " + std::to_string(r.parts) +
+                       " parts overlap: the volume counts twice there.");
   }
   if (r.opposed_parts > 0) {
     warnings.push_back(counted(r.opposed_parts, "part") +

@@ -27,9 +27,9 @@ struct HullReport {
   Index inconsistent_edges = 0;    ///< whose two triangles run the same way along it
   Index degenerate_triangles = 0;  ///< lower than 1e-12 of their longest edge
 
-  Index parts = 0;             ///< pieces joined by edges
-  Index opposed_parts = 0;     ///< closed pieces wound against the whole: cavities, or mistakes
-  Index overlapping_parts = 0; ///< pairs of pieces whose surfaces cross
+  Index parts = 0;              ///< pieces joined by edges
+  Index opposed_parts = 0;      ///< closed pieces wound against the whole: cavities, or mistakes
+  Index overlapping_parts = 0;  ///< pairs of pieces whose surfaces cross
 
   /// Pairs of triangles that meet other than by a corner or an edge that they share (exact).
   Index intersecting_pairs = 0;

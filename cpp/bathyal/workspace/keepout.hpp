@@ -53,12 +53,12 @@ class KeepOut {
   const std::string& name() const { return name_; }
   bool convex() const { return kind_ != KeepOutKind::kMesh; }
 
-  double radius() const { return radius_; }                        ///< sphere, cylinder, cone [m]
-  double length() const { return length_; }                        ///< cylinder, cone [m]
-  const Vec3& size() const { return size_; }                       ///< box [m]
-  const Pose& pose() const { return frame_from_shape_; }           ///< all but half-space and mesh
-  const Plane& border() const { return border_; }                  ///< half-space
-  const std::optional<Hull>& hull() const { return hull_; }        ///< mesh
+  double radius() const { return radius_; }                  ///< sphere, cylinder, cone [m]
+  double length() const { return length_; }                  ///< cylinder, cone [m]
+  const Vec3& size() const { return size_; }                 ///< box [m]
+  const Pose& pose() const { return frame_from_shape_; }     ///< all but half-space and mesh
+  const Plane& border() const { return border_; }            ///< half-space
+  const std::optional<Hull>& hull() const { return hull_; }  ///< mesh
 
   /// distance() ≤ 0 of each point; of a mesh, Hull::contains.
   /// \throw std::invalid_argument for a point that is not finite, or `inside` of another length.

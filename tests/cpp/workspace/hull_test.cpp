@@ -27,8 +27,7 @@ PointMatrix points_around(const TriangleMesh& mesh, int count, unsigned seed) {
       continue;
     }
     const Index t = static_cast<Index>(random() % static_cast<unsigned>(mesh.triangle_count()));
-    const Vec3 weights =
-        Vec3(uniform(random), uniform(random), uniform(random)).cwiseAbs();
+    const Vec3 weights = Vec3(uniform(random), uniform(random), uniform(random)).cwiseAbs();
     Vec3 point = Vec3::Zero();
     for (int c = 0; c < 3; ++c) point += weights[c] / weights.sum() * mesh.corner(t, c);
     points.row(i) = point + Vec3(normal(random), normal(random), normal(random)) *
@@ -104,8 +103,7 @@ TEST(Hull, ContainsWhatTheWindingNumberSays) {
     EXPECT_EQ(contains(hull, view(points)), expected) << one.name;
     EXPECT_EQ(contains(hull, view(points), 1), expected) << one.name;
     const PointMatrix few = points.topRows(40);
-    EXPECT_EQ(contains(hull, view(few)),
-              std::vector<bool>(expected.begin(), expected.begin() + 40))
+    EXPECT_EQ(contains(hull, view(few)), std::vector<bool>(expected.begin(), expected.begin() + 40))
         << one.name;
   }
 }
@@ -157,8 +155,7 @@ TEST(Hull, SignedDistanceOfABox) {
 TEST(Hull, VoxelsFillTheBox) {
   const Hull hull(test::box({1.0, 0.5, 0.25}, {10.0, 0.0, 0.0}));
   const Voxels voxels = hull.voxels(0.1);
-  EXPECT_EQ(voxels.count[0] * voxels.count[1] * voxels.count[2],
-            static_cast<int>(voxels.total()));
+  EXPECT_EQ(voxels.count[0] * voxels.count[1] * voxels.count[2], static_cast<int>(voxels.total()));
   EXPECT_TRUE((voxels.count == Eigen::Array3i(20, 10, 5)).all());
   EXPECT_TRUE(voxels.origin.isApprox(Vec3(9.0, -0.5, -0.25)));
   for (std::size_t v = 0; v < voxels.total(); ++v) EXPECT_TRUE(voxels.inside[v]);

@@ -16,7 +16,7 @@ namespace {
 
 const double kNan = std::numeric_limits<double>::quiet_NaN();
 
-Pose some_pose() {
+Pose tilted_pose() {
   Pose pose = Pose::Identity();
   pose.rotate(Eigen::AngleAxisd(0.7, Vec3(1.0, 2.0, 3.0).normalized()));
   pose.pretranslate(Vec3(0.3, -0.2, 0.5));
@@ -25,11 +25,11 @@ Pose some_pose() {
 
 std::vector<KeepOut> convex_keepouts() {
   return {KeepOut::sphere(0.5, {0.1, 0.2, 0.3}),
-          KeepOut::box({1.0, 0.6, 0.3}, some_pose()),
-          KeepOut::cylinder(0.3, 1.2, some_pose()),
-          KeepOut::cylinder(0.8, 0.1, some_pose()),
-          KeepOut::cone(0.4, 1.0, some_pose()),
-          KeepOut::cone(2.0, 0.5, some_pose()),
+          KeepOut::box({1.0, 0.6, 0.3}, tilted_pose()),
+          KeepOut::cylinder(0.3, 1.2, tilted_pose()),
+          KeepOut::cylinder(0.8, 0.1, tilted_pose()),
+          KeepOut::cone(0.4, 1.0, tilted_pose()),
+          KeepOut::cone(2.0, 0.5, tilted_pose()),
           KeepOut::half_space(Plane({1.0, -2.0, 0.5}, 0.3))};
 }
 

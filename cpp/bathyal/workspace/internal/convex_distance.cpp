@@ -39,8 +39,8 @@ Vec3 outwards(const Vec3& point, double rho) {
 SignedDistance of_cylinder(const KeepOut& shape, const Vec3& point) {
   const double rho = std::hypot(point.x(), point.y());
   const Intervals<2> profile({rho, point.z()}, {shape.radius(), 0.5 * shape.length()});
-  return {profile.value, profile.gradient[0] * outwards(point, rho) +
-                             profile.gradient[1] * Vec3::UnitZ()};
+  return {profile.value,
+          profile.gradient[0] * outwards(point, rho) + profile.gradient[1] * Vec3::UnitZ()};
 }
 
 /// In the half-plane of distance from the axis and height: the nearer of slanted side and end.
@@ -72,8 +72,7 @@ SignedDistance signed_distance(const KeepOut& shape, const Vec3& point) {
   switch (shape.kind()) {
     case KeepOutKind::kSphere: {
       const double length = point.stableNorm();
-      return {length - shape.radius(),
-              length > 0.0 ? Vec3(point / length) : Vec3(Vec3::UnitX())};
+      return {length - shape.radius(), length > 0.0 ? Vec3(point / length) : Vec3(Vec3::UnitX())};
     }
     case KeepOutKind::kBox: {
       const Intervals<3> box(point, 0.5 * shape.size());

@@ -23,10 +23,10 @@ constexpr double kMargin = 1.3;
 /// References lie off the middle: planes of drawn hulls often pass through middles.
 const Vec3 kReference(0.5137, 0.4789, 0.5073);
 
-/// About 16 voxels a triangle, so that few triangles share a voxel; open edges make each dearer.
+/// Two voxels a triangle: more take longer to fill than they save; open edges make each dearer.
 double voxel_target(std::size_t triangles, bool closed) {
   if (!closed) return 1 << 16;
-  return std::clamp(16.0 * static_cast<double>(triangles), 0x1p17, 0x1p21);
+  return std::clamp(2.0 * static_cast<double>(triangles), 0x1p17, 0x1p21);
 }
 
 }  // namespace
@@ -110,8 +110,7 @@ InsideGrid::Crossings InsideGrid::crossings(const Vec3& from, const Vec3& to, st
     }
     if (least < -edge_tolerance_ && most > edge_tolerance_) continue;  // passes outside of an edge
     const bool through = least > edge_tolerance_ || most < -edge_tolerance_;
-    const bool sides_known =
-        std::abs(start) > facet.tolerance && std::abs(end) > facet.tolerance;
+    const bool sides_known = std::abs(start) > facet.tolerance && std::abs(end) > facet.tolerance;
     if (!through || !sides_known) return {0, false};
     found.count += start < 0.0 ? 1 : -1;
   }
@@ -127,8 +126,8 @@ void InsideGrid::make_facets(const WeldedMesh& mesh, int num_threads) {
       for (std::size_t c = 0; c < 3; ++c) facet.corners[c] = mesh.corner(t, c) - low_;
       const auto& [a, b, c] = facet.corners;
       const Vec3 normal = (b - a).cross(c - a);
-      const double longest =
-          std::sqrt(std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()}));
+      const double longest = std::sqrt(
+          std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()}));
       const double length = normal.norm(), height = length / longest;
       if (!(height > kThin * longest)) {
         facet.normal = Vec3::Zero();
@@ -148,9 +147,8 @@ void InsideGrid::fill_lists() {
   const VoxelFrame frame{size_, count_};
   begin_.assign(static_cast<std::size_t>(count_.prod()) + 1, 0);
   for (const Facet& facet : facets_) {
-    for_each_voxel(frame, facet.corners, facet.normal, [&](int i, int j, int k) {
-      ++begin_[voxel(i, j, k) + 1];
-    });
+    for_each_voxel(frame, facet.corners, facet.normal,
+                   [&](int i, int j, int k) { ++begin_[voxel(i, j, k) + 1]; });
   }
   for (std::size_t v = 1; v < begin_.size(); ++v) begin_[v] += begin_[v - 1];
   list_.resize(begin_.back());
@@ -217,8 +215,7 @@ void InsideGrid::find_windings_of_open(const Scene& scene, const WeldedMesh& mes
       for (const OpenEdge& edge : open) {
         const Vec3 a = mesh.points[static_cast<std::size_t>(edge.from)];
         const Vec3 along = mesh.points[static_cast<std::size_t>(edge.to)] - a;
-        const double t =
-            std::clamp(along.dot(query - a) / along.squaredNorm(), 0.0, 1.0);
+        const double t = std::clamp(along.dot(query - a) / along.squaredNorm(), 0.0, 1.0);
         const double distance = std::max(0.0, (a + t * along - query).norm() - reach);
         gradient += edge.count * along.norm() / (4.0 * std::numbers::pi * distance * distance);
       }

@@ -60,11 +60,11 @@ class InsideGrid {
   double rounding_ = 0.0;        ///< of coordinates [m]
   double edge_tolerance_ = 0.0;  ///< rounding of the triple products of `crossings` [m³]
   std::vector<Facet> facets_;
-  std::vector<std::uint32_t> begin_;     ///< first list entry of each voxel, and the end
-  std::vector<std::int32_t> list_;       ///< facets by voxel, ascending
-  std::vector<Side> side_;               ///< of whole voxels; unknown: look at its facets
-  std::vector<float> winding_;           ///< at the reference points
-  std::vector<float> change_;            ///< how far it may differ in the voxel; empty: closed
+  std::vector<std::uint32_t> begin_;  ///< first list entry of each voxel, and the end
+  std::vector<std::int32_t> list_;    ///< facets by voxel, ascending
+  std::vector<Side> side_;            ///< of whole voxels; unknown: look at its facets
+  std::vector<float> winding_;        ///< at the reference points
+  std::vector<float> change_;         ///< how far it may differ in the voxel; empty: closed
 };
 
 }  // namespace bathyal::workspace

@@ -78,8 +78,8 @@ struct Shadow {
   /// Whether a square of half edge `half` may meet it.
   bool meets(double u, double v, double half) const {
     for (std::size_t c = 0; c < 3; ++c) {
-      const double nearest = out_u[c] * u + out_v[c] * v -
-                             half * (std::abs(out_u[c]) + std::abs(out_v[c]));
+      const double nearest =
+          out_u[c] * u + out_v[c] * v - half * (std::abs(out_u[c]) + std::abs(out_v[c]));
       if (nearest > offset[c]) return false;
     }
     return true;

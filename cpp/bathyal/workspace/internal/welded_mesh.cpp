@@ -36,7 +36,8 @@ std::vector<HalfEdge> sorted_edges(const WeldedMesh& mesh) {
     for (std::size_t c = 0; c < 3; ++c) {
       const std::int32_t a = mesh.triangles[t][c], b = mesh.triangles[t][(c + 1) % 3];
       if (a == b) continue;
-      edges.push_back({std::min(a, b), std::max(a, b), static_cast<std::int32_t>(t), a < b ? 1 : -1});
+      edges.push_back(
+          {std::min(a, b), std::max(a, b), static_cast<std::int32_t>(t), a < b ? 1 : -1});
     }
   }
   std::sort(edges.begin(), edges.end(), [](const HalfEdge& a, const HalfEdge& b) {
@@ -107,8 +108,9 @@ EdgeReport edge_report(const WeldedMesh& mesh) {
   for (std::size_t begin = 0, end = 0; begin < edges.size(); begin = end) {
     const HalfEdge& first = edges[begin];
     int turns = 0;
-    for (end = begin; end < edges.size() && edges[end].low == first.low &&
-                      edges[end].high == first.high; ++end) {
+    for (end = begin;
+         end < edges.size() && edges[end].low == first.low && edges[end].high == first.high;
+         ++end) {
       turns += edges[end].turn;
       joined.join(first.triangle, edges[end].triangle);
     }
