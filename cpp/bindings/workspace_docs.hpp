@@ -99,7 +99,7 @@ Examples
 ...                                    [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
 >>> voxels = bathyal.Hull(tetrahedron).voxels(0.5)
 >>> voxels.inside.shape, int(voxels.inside.sum()), bool(voxels.inside[0, 0, 0])
-((6, 6, 6), 56, True)
+((6, 6, 6), 35, True)
 )";
 
 inline constexpr const char* kKeepOut = R"(A volume that an arm must stay out of.
