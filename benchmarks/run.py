@@ -17,8 +17,8 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 PAGE = HERE / "README.md"
-PYTHON = ["rays", "segments", "section", "read_text", "whole_plan", "identify", "intervals"]
-PYTHON += ["diagnose_speed", "diagnose_real", "score_card"]
+PYTHON = ["rays", "segments", "section", "inside", "read_text", "whole_plan", "identify"]
+PYTHON += ["intervals", "diagnose_speed", "diagnose_real", "score_card"]
 CPP = ["bench_delaunay", "bench_greedy", "bench_arm_forward", "bench_arm_inverse"]
 CPP += ["bench_gram"]
 PACKAGES = ["numpy", "scipy", "coal", "open3d-cpu", "embreex", "vtk", "pandas", "pyarrow", "pin"]

@@ -115,8 +115,8 @@ def run(rounds, poses):
     request = coal.DistanceRequest(True)
     print("## Segments against Coal\n")
     print(
-        "| 14 links | triangles | Coal / ours | with `within` = 0.5 m | ours [µs/pose] | Coal "
-        "| overlapping | largest difference [mm] |"
+        "| 14 links | triangles | Coal / ours | Coal / ours with `within` 0.5 m "
+        "| ours [µs/pose] | Coal | overlapping | largest difference [mm] |"
     )
     print("|---|---|---|---|---|---|---|---|")
     for name, lowest, highest in (
@@ -150,7 +150,7 @@ def run(rounds, poses):
         print(
             f"| {name} | {len(triangles):,} | {ratio[0]:.1f} × | {ratio[1]:.1f} × "
             f"| {per_pose[0]:.1f} | {per_pose[1]:.0f} | {100 * np.mean(ours <= RADIUS):.1f} % "
-            f"| {1e3 * worst:.5f} |"
+            f"| {1e3 * worst:.0e} |"
         )
     print(
         f"\nMedians of {rounds} rounds of {poses:,} poses, one thread, processor time; ratios "

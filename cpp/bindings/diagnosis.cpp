@@ -95,7 +95,7 @@ void bind_diagnosis_parts(py::module_& module) {
       .def_readonly("std", &Estimate::std, "0 of what was counted or chosen, not measured.")
       .def_property_readonly(
           "interval", [](const Estimate& e) { return py::make_tuple(e.low, e.high); },
-          "(low, high): 95 % confidence interval.")
+          "Ends of the 95 % confidence interval, in `unit`.")
       .def("__float__", [](const Estimate& e) { return e.value; })
       .def("__int__", [](const Estimate& e) { return static_cast<long>(e.value); })
       .def("__repr__", [](const Estimate& e) {

@@ -3220,7 +3220,7 @@ class Estimate:
     @property
     def interval(self) -> tuple[float, float]:
         """
-        (low, high): 95 % confidence interval.
+        Ends of the 95 % confidence interval, in `unit`.
         """
     @property
     def name(self) -> str:

@@ -24,6 +24,8 @@ struct Point3 {
   double x;
   double y;
   double z;
+
+  friend bool operator==(const Point3&, const Point3&) = default;
 };
 
 /// Lexicographic order by x, then y.

@@ -1,184 +1,53 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "bathyal/selection/internal/fold_least_squares.hpp"
+#include "bathyal/selection/internal/cross_validation.hpp"
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
-#include <numeric>
-#include <set>
-
-#include "bathyal/base/random.hpp"
+#include "selection/linear_model.hpp"
 
 namespace bathyal::selection {
 namespace {
 
-Observations observations_of(int count) {
-  Observations observations;
-  observations.order.resize(static_cast<std::size_t>(count));
-  std::iota(observations.order.begin(), observations.order.end(), 0);
-  observations.replicate = observations.order;
-  observations.session.assign(observations.order.size(), 0);
-  observations.group.assign(observations.order.size(), -1);
-  return observations;
-}
-
-Eigen::MatrixXd normal(std::uint64_t seed, Index rows, Index columns) {
-  Eigen::MatrixXd out(rows, columns);
-  RandomStream random(seed);
-  for (double& value : out.reshaped()) value = random.normal();
-  return out;
-}
-
-TEST(FoldLeastSquares, PredictsAsAFitToTheOtherFolds) {
-  constexpr Index kRows = 60;
-  Eigen::MatrixXd columns = normal(1, kRows, 4);
-  columns.colwise().normalize();
-  const Eigen::VectorXd residual = normal(2, kRows, 1);
-  std::vector<int> observation(kRows);
-  for (Index r = 0; r < kRows; ++r) observation[r] = r < 3 ? -1 : static_cast<int>(r / 3);
-  Folds folds;
-  folds.count = 4;
-  for (int u = 0; u < 20; ++u) folds.fold_of.push_back(u % 4);
-  const FoldLeastSquares held(residual, columns, Eigen::VectorXd::Zero(columns.cols()), observation,
-                              folds, 2);
-  const HeldOutErrors found = held.errors({0, 1, 3});
-  EXPECT_EQ(held.rows(), kRows - 3.0);
-  EXPECT_TRUE(found.error.head(3).isZero());
-  EXPECT_TRUE(held.press({0, 1, 3}).isApprox(found.by_fold, 1e-9));
-  double density = 0.0;
-  for (int b = 0; b < 4; ++b) {
-    std::vector<Index> own, others;
-    for (Index r = 0; r < kRows; ++r) {
-      (observation[r] >= 0 && folds.fold_of[observation[r]] == b ? own : others).push_back(r);
-    }
-    const std::vector<Index> which{0, 1, 3};
-    const Eigen::VectorXd values =
-        Eigen::MatrixXd(columns(others, which)).colPivHouseholderQr().solve(residual(others));
-    const Eigen::VectorXd error = residual(own) - columns(own, which) * values;
-    EXPECT_TRUE(error.isApprox(found.error(own), 1e-6)) << b;
-    const Eigen::MatrixXd used = columns(others, which), asked = columns(own, which);
-    const Eigen::MatrixXd covariance =
-        Eigen::MatrixXd::Identity(error.size(), error.size()) +
-        asked * (used.transpose() * used).inverse() * asked.transpose();
-    density -=
-        0.5 * error.dot(covariance.inverse() * error) + 0.5 * std::log(covariance.determinant());
+class CrossValidationTest : public ::testing::Test {
+ protected:
+  CrossValidationTest() {
+    const Eigen::VectorXd truth = swing(1, 20.0);
+    model_.add("truth", truth);
+    model_.add("nothing", swing(2, 20.0));
+    model_.add("base", Eigen::VectorXd::Ones(kRows));
+    model_.data() += 0.2 * truth;
+    folds_ = make_folds(model_.observations());
   }
-  EXPECT_NEAR(held.log_predictive_density({0, 1, 3}), density, 1e-5);
+  LinearModel model_;
+  Folds folds_;
+};
+
+TEST_F(CrossValidationTest, LeavesOutWhatIsCollinearWithTheBase) {
+  const WorkingPoint point(model_, 1);
+  const BlockCrossValidation held(point, {0, 1, 2}, folds_);
+  EXPECT_EQ(held.terms(), (std::vector<int>{0, 1}));
+  EXPECT_EQ(held.rows(), static_cast<double>(kRows));
 }
 
-TEST(Folds, GroupsInEverySessionAreHeldOutOneByOne) {
-  Observations observations = observations_of(180);
-  for (int u = 0; u < 180; ++u) {
-    observations.group[static_cast<std::size_t>(u)] = u % 6;
-    observations.session[static_cast<std::size_t>(u)] = u / 60;
-  }
-  const Folds folds = make_folds(observations, 10);
-  ASSERT_EQ(folds.count, 6);
-  for (int u = 0; u < 180; ++u) EXPECT_EQ(folds.fold_of[u], folds.fold_of[u % 6]);
+TEST_F(CrossValidationTest, ATrueTermPredictsAndAnIdleOneDoesNot) {
+  const WorkingPoint point(model_, 1);
+  const BlockCrossValidation held(point, {0, 1}, folds_);
+  EXPECT_LT(held.press(), 0.2 * held.press(0));
+  EXPECT_LT(held.press(1), held.press());
+  EXPECT_GT(held.log_predictive_density(), held.log_predictive_density(0) + 100.0);
+  EXPECT_GT(held.log_predictive_density(1), held.log_predictive_density());
+  EXPECT_DOUBLE_EQ(held.log_predictive_density(1), held.log_predictive_density_of({0}));
 }
 
-TEST(Folds, PosesRepeatedInEverySessionGiveEvenFolds) {
-  Observations observations = observations_of(180);
-  for (int u = 0; u < 180; ++u) {
-    observations.replicate[static_cast<std::size_t>(u)] = u % 60;
-    observations.session[static_cast<std::size_t>(u)] = u / 60;
-  }
-  const Folds folds = make_folds(observations, 10);
-  ASSERT_EQ(folds.count, 10);
-  for (int b = 0; b < 10; ++b)
-    EXPECT_EQ(std::count(folds.fold_of.begin(), folds.fold_of.end(), b), 18);
-}
-
-TEST(Folds, ShortSessionsShareFolds) {
-  Observations observations = observations_of(90);
-  for (const int rows : {1, 2, 3}) {
-    for (int u = 0; u < 90; ++u) observations.session[static_cast<std::size_t>(u)] = u / rows;
-    const Folds folds = make_folds(observations, 10);
-    ASSERT_EQ(folds.count, 10) << rows;
-    for (int b = 0; b < 10; ++b)
-      EXPECT_EQ(std::count(folds.fold_of.begin(), folds.fold_of.end(), b), 9);
-  }
-}
-
-TEST(FoldLeastSquares, AColumnOfOneFoldAloneIsZeroWithoutIt) {
-  Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(9, 1);
-  columns.topRows(3).setConstant(1.0 / std::sqrt(3.0));
-  const Eigen::VectorXd residual = Eigen::VectorXd::Constant(9, 2.0);
-  const std::vector<int> observation{0, 0, 0, 1, 1, 1, 2, 2, 2};
-  const Folds folds{{0, 1, 2}, 3, ""};
-  const FoldLeastSquares held(residual, columns, Eigen::VectorXd::Zero(columns.cols()), observation,
-                              folds, 1);
-  EXPECT_NEAR(held.errors({0}).error[0], 2.0, 1e-9);
-}
-
-TEST(Folds, AreBlocksOfEqualLengthInTime) {
-  const Folds folds = make_folds(observations_of(95));
-  EXPECT_EQ(folds.count, 10);
-  std::vector<int> size(10, 0);
-  for (const int b : folds.fold_of) ++size[b];
-  for (const int s : size) EXPECT_NEAR(s, 9.5, 0.6);
-  for (std::size_t i = 1; i < folds.fold_of.size(); ++i)
-    EXPECT_GE(folds.fold_of[i], folds.fold_of[i - 1]);
-}
-
-TEST(Folds, AreShortRunsOfAListWithoutTimes) {
-  Observations observations = observations_of(240);
-  observations.timed = false;
-  const Folds folds = make_folds(observations);
-  EXPECT_EQ(folds.count, 10);
-  for (int b = 0; b < folds.count; ++b) {
-    int runs = 0;
-    for (std::size_t i = 0; i < folds.fold_of.size(); ++i) {
-      if (folds.fold_of[i] == b && (i == 0 || folds.fold_of[i - 1] != b)) ++runs;
-    }
-    EXPECT_EQ(runs, 8);
-  }
-}
-
-TEST(Folds, KeepReplicatesTogetherAndHavePartOfEverySession) {
-  Observations observations = observations_of(200);
-  for (int i = 0; i < 200; ++i) {
-    observations.session[i] = i / 100;
-    observations.replicate[i] = i % 50;
-  }
-  const Folds folds = make_folds(observations);
-  for (int i = 0; i < 200; ++i) EXPECT_EQ(folds.fold_of[i], folds.fold_of[i % 50]);
-  for (int b = 0; b < folds.count; ++b) {
-    std::set<int> sessions;
-    for (int i = 0; i < 200; ++i) {
-      if (folds.fold_of[i] == b) sessions.insert(observations.session[i]);
-    }
-    EXPECT_EQ(sessions.size(), 2u);
-  }
-}
-
-TEST(Folds, AreWholeGroupsThoughTheirObservationsAlternate) {
-  Observations observations = observations_of(120);
-  for (int i = 0; i < 120; ++i) observations.group[i] = i % 12;
-  const Folds folds = make_folds(observations);
-  EXPECT_GE(folds.count, 6);
-  for (int i = 0; i < 120; ++i) EXPECT_EQ(folds.fold_of[i], folds.fold_of[i % 12]);
-}
-
-TEST(Folds, OneChainOfReplicatesCannotBeHeldOut) {
-  Observations observations = observations_of(30);
-  observations.replicate.assign(30, 0);
-  EXPECT_EQ(make_folds(observations).count, 1);
-}
-
-TEST(Replicates, AreFoundAlongChains) {
-  Eigen::MatrixXd q(5, 2);
-  q << 0.0, 0.0, 0.0009, 0.0, 0.0018, 0.0, 0.0018, 1.0, 3.0, 0.0;
-  EXPECT_EQ(find_replicates(q, 1e-3), (std::vector<int>{0, 0, 0, 1, 2}));
-}
-
-TEST(SignFlips, AllGainsHaveOneChanceInTwoToTheFolds) {
-  EXPECT_DOUBLE_EQ(sign_flip_p(Eigen::VectorXd::Ones(10)), 1.0 / 1024.0);
-  EXPECT_GT(sign_flip_p(Eigen::VectorXd::Zero(5)), 0.99);
-  Eigen::VectorXd gains(4);
-  gains << 3.0, -1.0, 2.0, -4.0;
-  EXPECT_DOUBLE_EQ(sign_flip_p(gains), 9.0 / 16.0);
+TEST_F(CrossValidationTest, PressIsTheSumOfSquaredErrors) {
+  const WorkingPoint point(model_, 1);
+  BlockCrossValidation held(point, {0, 1}, folds_);
+  EXPECT_NEAR(held.errors().error.squaredNorm(), held.press(), 1e-9 * held.press());
+  EXPECT_GT(held.errors_of_base().error.squaredNorm(), 5.0 * held.press());
+  const double without = held.press(1);
+  held.drop(1);
+  EXPECT_EQ(held.terms(), std::vector<int>{0});
+  EXPECT_DOUBLE_EQ(held.press(), without);
 }
 
 }  // namespace

@@ -62,11 +62,13 @@ TEST(Candidates, TouchTheirPointAboveTheFloor) {
 
 TEST(PlanWarnings, NameTheLeadingParameterOfEachUndeterminedDirection) {
   TouchPlan plan(probing());
+  plan.q = touch_planning::random_poses(plan.arm, 3, 1);
   plan.point = {0, 0, 0};
+  plan.points = Eigen::Matrix3Xd::Zero(3, 1);
   plan.forecast.null_space = {"theta of row 1 +1, d of row 2 -0.5", "a of row 3 -1"};
   plan.forecast.null_space_leading = {"theta of row 1", "a of row 3"};
   PlanTouchesOptions options;
-  options.points = Eigen::Matrix3Xd::Zero(3, 1);
+  options.points = plan.points;
   const auto texts = warnings_of(plan.arm, plan, 3, options, {});
   EXPECT_TRUE(std::any_of(texts.begin(), texts.end(), [](const std::string& text) {
     return text.find("the priors determine theta of row 1, a of row 3, each") != std::string::npos;

@@ -5,22 +5,8 @@ import numpy as np
 import pytest
 
 import bathyal
+from tests.support.inside import winding_by_definition
 from tests.support.scene_meshes import HULLS, UTM, box, seabed, sphere
-
-
-def winding_by_definition(mesh, points):
-    """Van Oosterom and Strackee's solid angle of every triangle."""
-    corners = mesh.vertices[mesh.triangles]
-    numbers = []
-    for q in points:
-        a, b, c = (corners[:, i] - q for i in range(3))
-        la, lb, lc = (np.linalg.norm(v, axis=1) for v in (a, b, c))
-        volume = np.einsum("ij,ij->i", a, np.cross(b, c))
-        cosines = la * lb * lc
-        for u, v, length in ((a, b, lc), (b, c, la), (c, a, lb)):
-            cosines = cosines + np.einsum("ij,ij->i", u, v) * length
-        numbers.append(np.arctan2(volume, cosines).sum())
-    return np.array(numbers) / (2.0 * np.pi)
 
 
 def test_contains_a_sphere():

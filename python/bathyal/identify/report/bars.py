@@ -86,7 +86,7 @@ def _write_titles(axes: Axes, size: float) -> None:
     for at, text, side in (
         (0.0, "parameter", "left"), (_NOMINAL, "nominal", "right"), (_VALUE, "found", "right"),
         (_CHANGE, "change ± std", "right"), (_STATUS_AT, "the data", "left"),
-        (_TRADES, "moves unseen", "left"),
+        (_TRADES, "null space", "left"),
     ):  # fmt: skip
         put(at, -1.0, text, side, INK, weight="bold")
 

@@ -232,7 +232,7 @@ td {{ padding: 2px 14px 2px 0; }}
 <h2>Parameters</h2>
 <p class="small">Bars: change from nominal, in mm and mrad alike; whiskers: 95 % interval.</p>
 <table id="parameters"><thead><tr><th>parameter</th><th>nominal</th><th>found</th>
-<th>change ± std</th><th></th><th>the data</th><th>moves unseen</th></tr></thead>
+<th>change ± std</th><th></th><th>the data</th><th>null space</th></tr></thead>
 <tbody>{parameters}</tbody></table>
 <h2>Residuals against each joint</h2>
 {residuals}

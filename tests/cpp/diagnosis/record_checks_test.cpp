@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bathyal/diagnosis/internal/record_checks.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "bathyal/arm/dh.hpp"
+#include "bathyal/diagnosis/arm/internal/descriptions.hpp"
+
+namespace bathyal::diagnosis {
+namespace {
+
+Arm two_joints() {
+  DhTable table;
+  table.rows = {{0.5, 0.0, 0.1, 0.0}, {0.4, 0.0, 0.0, 0.0}};
+  table.types = {JointType::kRevolute, JointType::kRevolute};
+  return arm_from_dh(table);
+}
+
+std::vector<std::string> checked(const Covariates& covariates) {
+  const Arm arm = two_joints();
+  const RowMatrix q = RowMatrix::Random(6, 2);
+  return check_record(make_effect_data(arm, q, covariates, false), library_effects());
+}
+
+RowMatrix column(std::initializer_list<double> values) {
+  RowMatrix out(static_cast<Index>(values.size()), 1);
+  std::copy(values.begin(), values.end(), out.data());
+  return out;
+}
+
+TEST(RecordChecks, ACompleteRecordHasNoWarnings) {
+  EXPECT_TRUE(checked({}).empty());
+  EXPECT_TRUE(checked({{"time", column({0, 1, 2, 3, 4, 5})}}).empty());
+}
+
+TEST(RecordChecks, WarnOfMissingAndConstantCovariates) {
+  const auto missing = checked({{"time", column({0, 1, std::nan(""), 3, 4, 5})}});
+  ASSERT_EQ(missing.size(), 1U);
+  EXPECT_EQ(missing[0].rfind("`time` is missing in 1 of 6 rows", 0), 0U) << missing[0];
+  const auto constant = checked({{"temperature", column({5, 5, 5, 5, 5, 5})}});
+  ASSERT_EQ(constant.size(), 1U);
+  EXPECT_EQ(constant[0].rfind("`temperature` is the same in all rows", 0), 0U) << constant[0];
+}
+
+TEST(RecordChecks, WarnOfTimesThatRunBackwardsAndOfShortSessions) {
+  const auto back = checked({{"time", column({0, 1, 5, 3, 4, 6})}});
+  ASSERT_EQ(back.size(), 1U);
+  EXPECT_EQ(back[0].rfind("`time` runs backwards once, at row 3", 0), 0U) << back[0];
+  const auto few = checked({{"session", column({0, 0, 0, 0, 1, 1})}});
+  ASSERT_EQ(few.size(), 1U);
+  EXPECT_EQ(few[0].rfind("1 of 2 sessions has fewer than three rows", 0), 0U) << few[0];
+}
+
+TEST(Descriptions, CountJointsFromOneAndNameTheSetting) {
+  const Arm arm = two_joints();
+  EffectVariant variant;
+  variant.effect = "joint_harmonic";
+  variant.joint = 1;
+  variant.settings["order"] = 2.0;
+  EXPECT_EQ(description_of(variant, arm), "a wave of order 2 along joint 2");
+  EXPECT_TRUE(has_whole_order(variant));
+  variant.settings["order"] = 2.5;
+  EXPECT_FALSE(has_whole_order(variant));
+  variant = {};
+  variant.effect = "of_the_user";
+  EXPECT_EQ(description_of(variant, arm), "of_the_user");
+  EXPECT_FALSE(has_whole_order(variant));
+}
+
+}  // namespace
+}  // namespace bathyal::diagnosis

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bathyal/selection/term_selection.hpp"
+
+#include <gtest/gtest.h>
+
+#include "bathyal/selection/lack_of_fit.hpp"
+#include "selection/linear_model.hpp"
+
+namespace bathyal::selection {
+namespace {
+
+/// Three terms, of which the data have the first two, and a lack-of-fit term that they have too.
+LinearModel truth() {
+  LinearModel model;
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    const Eigen::VectorXd column = swing(seed, 20.0);
+    model.add("term " + std::to_string(seed), column);
+    if (seed < 3) model.data() += 0.1 * column;
+  }
+  model.add("structure", swing(4, 20.0), true);
+  return model;
+}
+
+TEST(TermSelector, SelectsTheTermsOfTheData) {
+  LinearModel model = truth();
+  WorkingPoint point(model, 1);
+  int calls = 0;
+  TermSelector selector(point, [&] { ++calls; });
+  const Selection found = selector.select();
+  EXPECT_EQ(found.terms, (std::vector<int>{0, 1}));
+  EXPECT_TRUE((found.weights.array() == 1.0).all());
+  EXPECT_EQ(selector.candidates(), (std::vector<int>{0, 1, 2}));  // no lack-of-fit term
+  EXPECT_GT(calls, 0);
+}
+
+TEST(TermSelector, ExcludesAnOutlier) {
+  LinearModel model = truth();
+  model.data()[17] += 40.0;
+  WorkingPoint point(model, 1);
+  TermSelector selector(point, [] {});
+  const Selection found = selector.select();
+  EXPECT_EQ(found.terms, (std::vector<int>{0, 1}));
+  EXPECT_EQ(found.weights[17], 0.0);
+  EXPECT_EQ(found.weights.sum(), kRows - 1.0);
+}
+
+TEST(TermSelector, TriesNoOtherTermsThanThoseOfAShortlist) {
+  LinearModel model = truth();
+  WorkingPoint point(model, 1);
+  TermSelector selector(point, [] {});
+  EXPECT_EQ(selector.select_from({{1}, {1, 2}}).terms, std::vector<int>{1});
+  const Shortlist both = TermSelector(point, [] {}).shortlist({0, 1});
+  EXPECT_EQ(both.terms, (std::vector<int>{0, 1}));
+  EXPECT_EQ(TermSelector(point, [] {}).select_from(both).terms, (std::vector<int>{0, 1}));
+}
+
+TEST(LackOfFitCheck, FindsStructureThatTheTermsDoNotExplain) {
+  LinearModel model = truth();
+  model.data() += 0.1 * swing(4, 20.0);
+  WorkingPoint point(model, 1);
+  const std::vector<int> candidates{0, 1, 2};
+  const Folds folds = make_folds(model.observations());
+  const Eigen::VectorXd weights = Eigen::VectorXd::Ones(kRows);
+  LackOfFitCheck check(point, candidates, folds, weights, [] {});
+  const ActiveSet active = check.select({0, 1});
+  EXPECT_EQ(active.terms, (std::vector<int>{0, 1}));
+  EXPECT_EQ(active.lack_of_fit, std::vector<int>{3});
+  EXPECT_EQ(active.all(), (std::vector<int>{0, 1, 3}));
+  EXPECT_TRUE(check.remaining(active, false).empty());
+}
+
+TEST(LackOfFitCheck, FindsNothingWhereTheTermsExplainAll) {
+  LinearModel model = truth();
+  WorkingPoint point(model, 1);
+  const std::vector<int> candidates{0, 1, 2};
+  const Folds folds = make_folds(model.observations());
+  const Eigen::VectorXd weights = Eigen::VectorXd::Ones(kRows);
+  LackOfFitCheck check(point, candidates, folds, weights, [] {});
+  EXPECT_TRUE(check.select({0, 1}).lack_of_fit.empty());
+}
+
+TEST(LackOfFitCheck, StructureOfARefutedTermRemains) {
+  LinearModel model = truth();
+  model.data() += 0.1 * swing(4, 20.0);
+  WorkingPoint point(model, 1);
+  const std::vector<int> candidates{0, 1, 2};
+  const Folds folds = make_folds(model.observations());
+  const Eigen::VectorXd weights = Eigen::VectorXd::Ones(kRows);
+  const LackOfFitCheck check(point, candidates, folds, weights, [] {});
+  const std::vector<LackOfFit> remaining = check.remaining({{0, 1}, {}}, true);
+  ASSERT_EQ(remaining.size(), 1U);
+  EXPECT_EQ(remaining[0].term, 3);
+  EXPECT_LE(remaining[0].p, kBeyondNoise);
+}
+
+}  // namespace
+}  // namespace bathyal::selection
