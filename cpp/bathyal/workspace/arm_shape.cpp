@@ -94,10 +94,10 @@ double displacement_bound(const Arm& arm, const RowFrames& frames, int link, int
     const double by =
         std::abs(joint.multiplier) * change[static_cast<std::size_t>(joint.coordinate)];
     const Pose& frame = frames.world_from_row[row];
-    bound += joint.type == JointType::kPrismatic
-                 ? by
-                 : by * (distance_from_axis(placed, frame.translation(), frame.linear().col(2)) +
-                         bound);
+    bound +=
+        joint.type == JointType::kPrismatic
+            ? by
+            : by * (distance_from_axis(placed, frame.translation(), frame.linear().col(2)) + bound);
   };
   for (int k = link - 1; k >= observer; --k) move(k);
   for (int k = link; k < observer; ++k) move(k);

@@ -64,7 +64,8 @@ std::vector<Clearance> Workspace::clearance(JointView q, int num_threads) const 
   parallel_for(found.size(), 1, num_threads, [&](std::size_t begin, std::size_t end) {
     workspace::Posture posture(state_->bodies);
     for (std::size_t i = begin; i < end; ++i) {
-      posture.set({q.data() + static_cast<Index>(i) * q.cols(), static_cast<std::size_t>(q.cols())});
+      posture.set(
+          {q.data() + static_cast<Index>(i) * q.cols(), static_cast<std::size_t>(q.cols())});
       found[i] = clearance_of(state_->bodies, posture);
     }
   });

@@ -65,7 +65,8 @@ struct MotionCheck {
 class Workspace {
  public:
   /// \throw std::invalid_argument for poses that are not rigid, a keep-out whose frame is neither
-  ///        "hull", "world" nor a link's name, capsules or allowed pairs of links that are not there.
+  ///        "hull", "world" nor a link's name, capsules or allowed pairs of links that are not
+  ///        there.
   Workspace(Arm arm, Surroundings surroundings);
 
   /// With its base in the vehicle's frame.

@@ -62,11 +62,10 @@ std::vector<double> drawn_posture(const Arm& arm, RandomStream& random) {
   std::vector<double> q(static_cast<std::size_t>(arm.size()));
   for (const Joint& joint : arm.joints()) {
     if (joint.coordinate < 0 || !joint.follows.empty()) continue;
-    const double reach =
-        joint.type == JointType::kPrismatic ? chain_length(arm) : std::numbers::pi;
+    const double reach = joint.type == JointType::kPrismatic ? chain_length(arm) : std::numbers::pi;
     const Index k = joint.coordinate;
-    q[static_cast<std::size_t>(k)] = random.uniform(std::max(arm.lower()[k], -reach),
-                                                    std::min(arm.upper()[k], reach));
+    q[static_cast<std::size_t>(k)] =
+        random.uniform(std::max(arm.lower()[k], -reach), std::min(arm.upper()[k], reach));
   }
   return q;
 }
@@ -95,7 +94,8 @@ void exclude(Bodies& bodies, const ExcludedPair& pair) {
 void pair_up(Bodies& bodies, const Surroundings& surroundings) {
   for (std::size_t c = 0; c < bodies.capsules.size(); ++c) {
     if (bodies.link_of(c) == 0) continue;
-    for (std::size_t o = 0; o < bodies.obstacles.size(); ++o) bodies.with_obstacles.push_back({c, o});
+    for (std::size_t o = 0; o < bodies.obstacles.size(); ++o)
+      bodies.with_obstacles.push_back({c, o});
     for (std::size_t k = 0; k < bodies.capsules.size(); ++k) {
       if (bodies.link_of(k) < bodies.link_of(c)) bodies.with_capsules.push_back({c, k});
     }
@@ -142,7 +142,8 @@ void exclude_what_always_touches(Bodies& bodies) {
         if (pair.obstacle < 0) {
           return bodies.link_of(p.other) == pair.other_link && posture.to_capsule(p) <= 0.0;
         }
-        return std::cmp_equal(p.other, pair.obstacle) && posture.to_obstacle(p, 0.0).distance <= 0.0;
+        return std::cmp_equal(p.other, pair.obstacle) &&
+               posture.to_obstacle(p, 0.0).distance <= 0.0;
       };
       return std::ranges::none_of(pair.obstacle < 0 ? bodies.with_capsules : bodies.with_obstacles,
                                   meets);
@@ -180,8 +181,7 @@ Nearness Posture::to_obstacle(const Pair& pair, double within) const {
   Pose vehicle_from_obstacle = bodies_->vehicle_from_world;
   if (obstacle.frame() >= 0) {
     const auto link = static_cast<std::size_t>(obstacle.frame());
-    vehicle_from_obstacle =
-        frames_.world_from_row[link] * bodies_->arm.links()[link].row_from_link;
+    vehicle_from_obstacle = frames_.world_from_row[link] * bodies_->arm.links()[link].row_from_link;
   }
   Nearness found = obstacle.nearest(in_frame(own, vehicle_from_obstacle.inverse()), within);
   found.axis_point = vehicle_from_obstacle * found.axis_point;

@@ -21,11 +21,11 @@ struct Pair {
 struct Bodies {
   Arm arm;  ///< its base in the vehicle's frame
   Pose vehicle_from_world = Pose::Identity();
-  std::vector<LinkCapsule> capsules;
-  std::vector<Obstacle> obstacles;
-  std::vector<Pair> with_obstacles;
-  std::vector<Pair> with_capsules;  ///< the first capsule is of the later link
-  std::vector<ExcludedPair> excluded;
+  std::vector<LinkCapsule> capsules{};
+  std::vector<Obstacle> obstacles{};
+  std::vector<Pair> with_obstacles{};
+  std::vector<Pair> with_capsules{};  ///< the first capsule is of the later link
+  std::vector<ExcludedPair> excluded{};
 
   int link_of(std::size_t capsule) const { return capsules[capsule].link; }
 };

@@ -78,15 +78,14 @@ bool Obstacle::holds(const Vec3& point) const {
   if (!box_.contains(point)) return false;
   bool inside = false;
   const Hull* hull = std::get_if<Hull>(&body_);
-  (hull ? *hull : *std::get<KeepOut>(body_).hull())
-      .contains({point.data(), 1, 3}, {&inside, 1}, 1);
+  (hull ? *hull : *std::get<KeepOut>(body_).hull()).contains({point.data(), 1, 3}, {&inside, 1}, 1);
   return inside;
 }
 
 Nearness Obstacle::nearest_of_surface(const Scene& surface, const Capsule& capsule,
                                       double within) const {
-  const NearestToSegment nearest =
-      surface.nearest_segment(capsule.start, capsule.end, {.within = within + capsule.radius});
+  const NearestToSegment nearest = surface.nearest_segment(
+      capsule.start, capsule.end, {.within = std::max(0.0, within + capsule.radius)});
   const bool crosses = nearest.distance == 0.0;
   Nearness found{nearest.distance - capsule.radius, nearest.segment_point, nearest.point};
   if (!crosses && !holds(capsule.start)) return found;
