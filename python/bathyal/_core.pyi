@@ -9,7 +9,7 @@ import numpy.typing
 import os
 import plotly.graph_objects
 import typing
-__all__: list[str] = ['Arm', 'ArmFit', 'BEYOND_NOISE', 'Cause', 'CleanReport', 'CleanResult', 'CorrectedArm', 'DhTable', 'Diagnosis', 'Effect', 'EffectRange', 'EffectRows', 'Error', 'Estimate', 'FitParameter', 'FoundEffect', 'HeldOut', 'HeldOutPart', 'Hits', 'InverseResult', 'Link', 'MeshReport', 'NamedEffect', 'Nearest', 'NearestSegments', 'Outlier', 'Plane', 'PlaneFit', 'PointCloud', 'Polyline', 'RigidBody', 'Scene', 'Shape', 'SheetPatch', 'SheetReport', 'Structure', 'Support', 'Targets', 'TextTable', 'ToolPath', 'TouchForecast', 'TouchPlan', 'Touches', 'Tracked', 'Trade', 'TriangleMesh', 'Verification', 'arm_from_chain', 'arm_from_parts', 'arm_parts', 'chain_from_arm', 'check_bytes', 'clean_cloud', 'cover_polygon', 'diagnose', 'find_effect_with', 'find_sheets', 'find_targets', 'fit_plane', 'forecast_touches', 'generate_survey', 'identify_arm', 'intersect_moller_trumbore', 'library_effects', 'mesh_report', 'plan_toolpath', 'plan_touches', 'read_pcd', 'read_text_table', 'set_simd_level', 'simd_level', 'survey_height', 'triangulate', 'triangulate_delaunay', 'verify_positions', 'warn_of_support_with', 'write_xyz']
+__all__: list[str] = ['Arm', 'ArmFit', 'BEYOND_NOISE', 'Cause', 'CleanReport', 'CleanResult', 'CorrectedArm', 'DhTable', 'Diagnosis', 'Effect', 'EffectRange', 'EffectRows', 'Error', 'Estimate', 'FitParameter', 'FoundEffect', 'HeldOut', 'HeldOutPart', 'Hits', 'Hull', 'HullReport', 'InverseResult', 'KeepOut', 'Link', 'MeshReport', 'NamedEffect', 'Nearest', 'NearestSegments', 'Outlier', 'Plane', 'PlaneFit', 'PointCloud', 'Polyline', 'RigidBody', 'Scene', 'Shape', 'SheetPatch', 'SheetReport', 'Structure', 'Support', 'Targets', 'TextTable', 'ToolPath', 'TouchForecast', 'TouchPlan', 'Touches', 'Tracked', 'Trade', 'TriangleMesh', 'Verification', 'Voxels', 'arm_from_chain', 'arm_from_parts', 'arm_parts', 'chain_from_arm', 'check_bytes', 'clean_cloud', 'cover_polygon', 'diagnose', 'find_effect_with', 'find_sheets', 'find_targets', 'fit_plane', 'forecast_touches', 'generate_survey', 'identify_arm', 'intersect_moller_trumbore', 'library_effects', 'mesh_report', 'plan_toolpath', 'plan_touches', 'read_pcd', 'read_text_table', 'set_simd_level', 'simd_level', 'survey_height', 'triangulate', 'triangulate_delaunay', 'verify_positions', 'warn_of_support_with', 'write_xyz']
 class Error(RuntimeError):
     """
     A broken file, a solver that failed or a part that is not installed.
@@ -1940,6 +1940,505 @@ class Arm:
     def velocity(self) -> numpy.ndarray:
         """
         (n,) greatest speed of the joint that leads each coordinate [rad/s] or [m/s].
+        """
+class HullReport:
+    """
+    What is wrong with the mesh of a hull, as numbers.
+    
+    Vertices of equal position count as one. ``print`` it to read it; `warnings` has a sentence for each
+    thing that is wrong.
+    """
+    def __repr__(self) -> str:
+        ...
+    def __str__(self) -> str:
+        ...
+    @property
+    def area(self) -> float:
+        """
+        Area of the surface [m²].
+        """
+    @property
+    def boundary_edges(self) -> int:
+        """
+        Edges of one triangle only.
+        """
+    @property
+    def closed(self) -> bool:
+        """
+        Whether along every edge as many triangles run one way as the other.
+        """
+    @property
+    def degenerate_triangles(self) -> int:
+        """
+        Triangles lower than 1e-12 of their longest edge.
+        """
+    @property
+    def high(self) -> numpy.ndarray:
+        """
+        (3,) greatest corner of the bounding box [m].
+        """
+    @property
+    def inconsistent_edges(self) -> int:
+        """
+        Edges whose two triangles run the same way along it.
+        """
+    @property
+    def inside_out(self) -> bool:
+        """
+        Whether the normals point inwards, all in all; inside is the same.
+        """
+    @property
+    def intersecting_pairs(self) -> int:
+        """
+        Pairs of triangles that meet other than by a corner or an edge that they share, decided exactly.
+        """
+    @property
+    def low(self) -> numpy.ndarray:
+        """
+        (3,) least corner of the bounding box [m].
+        """
+    @property
+    def nonmanifold_edges(self) -> int:
+        """
+        Edges of three triangles or more.
+        """
+    @property
+    def open_edges(self) -> int:
+        """
+        Edges along which the triangles do not cancel.
+        """
+    @property
+    def opposed_parts(self) -> int:
+        """
+        Pieces of a closed surface wound against the whole: cavities, or mistakes.
+        """
+    @property
+    def overlapping_parts(self) -> int:
+        """
+        Pairs of pieces whose surfaces cross.
+        """
+    @property
+    def parts(self) -> int:
+        """
+        Pieces joined by edges.
+        """
+    @property
+    def triangle_count(self) -> int:
+        """
+        Triangles of the mesh.
+        """
+    @property
+    def volume(self) -> float:
+        """
+        Inside a closed surface, overlaps counted twice [m³]; NaN of an open one.
+        """
+    @property
+    def warnings(self) -> list[str]:
+        """
+        A short sentence for each thing that is wrong; empty for a sound hull.
+        """
+class Voxels:
+    """
+    A box of cubes and which of their middles lie inside a hull.
+    
+    Voxel (i, j, k) begins at ``origin + size * (i, j, k)``.
+    """
+    def __repr__(self) -> str:
+        ...
+    @property
+    def inside(self) -> numpy.ndarray:
+        """
+        (nx, ny, nz) bool: whether the voxel's middle lies inside.
+        """
+    @property
+    def origin(self) -> numpy.ndarray:
+        """
+        (3,) corner of the first voxel, in the hull's frame [m].
+        """
+    @property
+    def size(self) -> float:
+        """
+        Edge of a voxel [m].
+        """
+class Hull:
+    """
+    The body of a vehicle, which an arm must stay out of.
+    
+    Any mesh that encloses a volume will do: inside out, self-intersecting, in several parts or with
+    holes; `report` says what is wrong with it. Inside is what ``bathyal.Scene(mesh).contains`` says
+    (generalised winding number), found sooner. Any number of threads may query it at once.
+    
+    Parameters
+    ----------
+    mesh : TriangleMesh
+        In the vehicle's frame [m]: x forward, y port, z up.
+    num_threads : int
+        For the build; 0 means all.
+    
+    Raises
+    ------
+    ValueError
+        For a mesh that encloses nothing: without triangles, or flat.
+    
+    Examples
+    --------
+    >>> import bathyal
+    >>> tetrahedron = bathyal.TriangleMesh([[0, 0, 0], [3, 0, 0], [0, 3, 0], [0, 0, 3]],
+    ...                                    [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+    >>> hull = bathyal.Hull(tetrahedron)
+    >>> hull, hull.contains([[0.5, 0.5, 0.5], [5, 5, 5]]).tolist()
+    (Hull(4 triangles, closed), [True, False])
+    >>> hull.report.volume, hull.report.warnings
+    (4.5, [])
+    """
+    def __getstate__(self) -> tuple[numpy.ndarray, numpy.ndarray]:
+        ...
+    def __init__(self, mesh: TriangleMesh, *, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> None:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def __setstate__(self, arg0: tuple) -> None:
+        ...
+    def contains(self, points: numpy.typing.ArrayLike, *, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> numpy.ndarray:
+        """
+        Whether each point lies inside.
+        
+        The answer of ``bathyal.Scene(mesh).contains``; a point on the surface is inside. Of 1000 points and
+        more each is first looked up in a grid of voxels, made at the first such call: where no triangle
+        passes through its voxel, the voxel's answer holds, elsewhere the triangles between the point and a
+        point of known winding number are counted.
+        
+        Parameters
+        ----------
+        points : (N, 3) array
+            In the vehicle's frame [m], finite.
+        num_threads : int
+            0 means all.
+        
+        Returns
+        -------
+        (N,) array of bool
+        """
+    def signed_distance(self, points: numpy.typing.ArrayLike, *, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> numpy.ndarray:
+        """
+        Distance to the surface, below 0 inside.
+        
+        Parameters
+        ----------
+        points : (N, 3) array
+            In the vehicle's frame [m], finite.
+        num_threads : int
+            0 means all.
+        
+        Returns
+        -------
+        (N,) array
+            [m]
+        """
+    def voxels(self, size: typing.SupportsFloat | typing.SupportsIndex, *, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> Voxels:
+        """
+        The hull's bounding box filled with voxels.
+        
+        The array of inside voxels of Maevskiy, Zanin (2020), Modular control systems for manipulators and
+        intervention-class AUVs; a voxel is inside where its middle is.
+        
+        Parameters
+        ----------
+        size : float
+            Edge of a voxel [m]; no more than 2²⁸ voxels.
+        num_threads : int
+            0 means all.
+        
+        Returns
+        -------
+        Voxels
+            ``.origin`` (3,), ``.size``, ``.inside`` (nx, ny, nz) bool. The box is centred on the hull's.
+        
+        Examples
+        --------
+        >>> import bathyal
+        >>> tetrahedron = bathyal.TriangleMesh([[0, 0, 0], [3, 0, 0], [0, 3, 0], [0, 0, 3]],
+        ...                                    [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+        >>> voxels = bathyal.Hull(tetrahedron).voxels(0.5)
+        >>> voxels.inside.shape, int(voxels.inside.sum()), bool(voxels.inside[0, 0, 0])
+        ((6, 6, 6), 35, True)
+        """
+    @property
+    def mesh(self) -> TriangleMesh:
+        """
+        The mesh, in the vehicle's frame.
+        """
+    @property
+    def report(self) -> HullReport:
+        """
+        HullReport: what is wrong with the mesh. Made when first asked for.
+        """
+class KeepOut:
+    """
+    A volume that an arm must stay out of.
+    
+    Made by `sphere`, `box`, `cylinder`, `cone`, `half_space` or `mesh`. Lengths in metres, angles in
+    radians; points and distances are in the frame that it names, distances below 0 inside. All but
+    `mesh` are convex, with exact distances, inside too.
+    
+    Examples
+    --------
+    >>> import bathyal
+    >>> modem = bathyal.KeepOut.sphere(0.5, (0, 0, 1), frame="hull", name="modem")
+    >>> modem
+    KeepOut.sphere(frame="hull", name="modem")
+    >>> modem.distance([[0, 0, 1], [0, 0, 3]]).tolist()
+    [-0.5, 1.5]
+    """
+    @staticmethod
+    def box(size: numpy.typing.ArrayLike, pose: numpy.typing.ArrayLike | None = None, *, frame: str = 'hull', name: str | None = None) -> KeepOut:
+        """
+        A box.
+        
+        Parameters
+        ----------
+        size : (3,) array
+            Full lengths along x, y and z of its own frame, whose origin is its middle [m], above 0.
+        pose : (4, 4) array, optional
+            frame_from_box; identity unless given.
+        frame, name
+            As `sphere`.
+        
+        Examples
+        --------
+        >>> import bathyal
+        >>> bathyal.KeepOut.box((2, 1, 1)).distance([[0, 0, 0], [2, 0, 0]]).tolist()
+        [-0.5, 1.0]
+        """
+    @staticmethod
+    def cone(length: typing.SupportsFloat | typing.SupportsIndex, pose: numpy.typing.ArrayLike | None = None, *, radius: typing.SupportsFloat | typing.SupportsIndex | None = None, angle: typing.SupportsFloat | typing.SupportsIndex | None = None, frame: str = 'hull', name: str | None = None) -> KeepOut:
+        """
+        A cone with a flat end: the beam of an optical modem.
+        
+        Parameters
+        ----------
+        length : float
+            From the apex, the origin of its own frame, along +z to the flat end [m], above 0.
+        pose : (4, 4) array, optional
+            frame_from_cone; identity unless given.
+        radius : float
+            Of the flat end [m], above 0; or
+        angle : float
+            Full opening angle at the apex [rad], above 0 and below π.
+        frame, name
+            As `sphere`.
+        
+        Examples
+        --------
+        >>> import bathyal
+        >>> beam = bathyal.KeepOut.cone(5.0, radius=5.0, frame="hull", name="modem beam")
+        >>> beam.contains([[1, 0, 2], [2, 0, 1]]).tolist()
+        [True, False]
+        """
+    @staticmethod
+    def cylinder(radius: typing.SupportsFloat | typing.SupportsIndex, length: typing.SupportsFloat | typing.SupportsIndex, pose: numpy.typing.ArrayLike | None = None, *, frame: str = 'hull', name: str | None = None) -> KeepOut:
+        """
+        A cylinder along z of its own frame.
+        
+        Parameters
+        ----------
+        radius, length : float
+            [m], above 0; the middle is the origin of its own frame.
+        pose : (4, 4) array, optional
+            frame_from_cylinder; identity unless given.
+        frame, name
+            As `sphere`.
+        
+        Examples
+        --------
+        >>> import bathyal
+        >>> bathyal.KeepOut.cylinder(0.5, 2).distance([[0, 0, 0], [0, 0, 3]]).tolist()
+        [-0.5, 2.0]
+        """
+    @staticmethod
+    def half_space(normal: numpy.typing.ArrayLike, offset: typing.SupportsFloat | typing.SupportsIndex | None = None, *, point: numpy.typing.ArrayLike | None = None, frame: str = 'hull', name: str | None = None) -> KeepOut:
+        """
+        Everything behind a plane.
+        
+        Parameters
+        ----------
+        normal : (3,) array
+            Towards the free side, any length but 0.
+        offset : float
+            The plane is ``normal · x = offset``; or
+        point : (3,) array
+            A point of the plane [m].
+        frame, name
+            As `sphere`.
+        
+        Examples
+        --------
+        >>> import bathyal
+        >>> below = bathyal.KeepOut.half_space((0, 0, 2), point=(0, 0, -1), frame="world")
+        >>> below.distance([[3, 4, 1], [0, 0, -2]]).tolist()
+        [2.0, -1.0]
+        """
+    @staticmethod
+    def mesh(mesh: TriangleMesh | Hull, *, frame: str = 'hull', name: str | None = None) -> KeepOut:
+        """
+        What a mesh encloses.
+        
+        Parameters
+        ----------
+        mesh : TriangleMesh or Hull
+            In the frame it is fixed to [m]; inside as `Hull` has it.
+        frame, name
+            As `sphere`.
+        
+        Raises
+        ------
+        ValueError
+            For a mesh that encloses nothing.
+        
+        Examples
+        --------
+        >>> import bathyal
+        >>> tetrahedron = bathyal.TriangleMesh([[0, 0, 0], [3, 0, 0], [0, 3, 0], [0, 0, 3]],
+        ...                                    [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+        >>> bathyal.KeepOut.mesh(tetrahedron, name="crate").contains([[1, 1, 0.5]]).tolist()
+        [True]
+        """
+    @staticmethod
+    def sphere(radius: typing.SupportsFloat | typing.SupportsIndex, center: numpy.typing.ArrayLike = (0, 0, 0), *, frame: str = 'hull', name: str | None = None) -> KeepOut:
+        """
+        A sphere.
+        
+        Parameters
+        ----------
+        radius : float
+            [m], above 0.
+        center : (3,) array
+            In the frame it is fixed to [m].
+        frame : str
+            What it is fixed to: "hull" (the vehicle's frame), "world", or the name of a link.
+        name : str, optional
+            What reports call it; the kind unless given.
+        
+        Examples
+        --------
+        >>> import bathyal
+        >>> bathyal.KeepOut.sphere(0.5, (0, 0, 1)).contains([[0, 0, 1.4], [0, 0, 1.6]]).tolist()
+        [True, False]
+        """
+    def __getstate__(self) -> tuple[int, str, str, float, float, numpy.ndarray, numpy.ndarray, numpy.ndarray, float, typing.Any]:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def __setstate__(self, arg0: tuple) -> None:
+        ...
+    def capsule_distance(self, a: numpy.typing.ArrayLike, b: numpy.typing.ArrayLike, radius: numpy.typing.ArrayLike, *, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> numpy.ndarray:
+        """
+        Signed distance of capsules.
+        
+        The least signed distance along the axis, less the radius: a capsule that reaches into the volume
+        has a negative one. Within 1e-12 of the sizes.
+        
+        Parameters
+        ----------
+        a, b : (N, 3) arrays
+            Ends of the axes, in the frame it is fixed to [m].
+        radius : float or (N,) array
+            [m], 0 or more.
+        num_threads : int
+            0 means all.
+        
+        Returns
+        -------
+        (N,) array
+            [m]
+        
+        Raises
+        ------
+        ValueError
+            For a keep-out that is not convex: a mesh.
+        
+        Examples
+        --------
+        >>> import bathyal
+        >>> ball = bathyal.KeepOut.sphere(1.0)
+        >>> ball.capsule_distance([[-5, 0, 3]], [[5, 0, 3]], 0.5).tolist()
+        [1.5]
+        """
+    def contains(self, points: numpy.typing.ArrayLike, *, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> numpy.ndarray:
+        """
+        Whether each point lies inside or on the border.
+        
+        Parameters
+        ----------
+        points : (N, 3) array
+            In the frame it is fixed to [m], finite.
+        num_threads : int
+            0 means all.
+        
+        Returns
+        -------
+        (N,) array of bool
+        """
+    def distance(self, points: numpy.typing.ArrayLike, *, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> numpy.ndarray:
+        """
+        Signed distance of each point, below 0 inside.
+        
+        Parameters
+        ----------
+        points : (N, 3) array
+            In the frame it is fixed to [m], finite.
+        num_threads : int
+            0 means all.
+        
+        Returns
+        -------
+        (N,) array
+            [m]
+        """
+    @property
+    def border(self) -> typing.Any:
+        """
+        Plane of a half-space, its normal towards the free side; None of the others.
+        """
+    @property
+    def frame(self) -> str:
+        """
+        What it is fixed to: "hull" (the vehicle's frame), "world", or the name of a link.
+        """
+    @property
+    def hull(self) -> typing.Any:
+        """
+        Hull of a mesh; None of the others.
+        """
+    @property
+    def kind(self) -> str:
+        """
+        "sphere", "box", "cylinder", "cone", "half_space" or "mesh".
+        """
+    @property
+    def length(self) -> typing.Any:
+        """
+        Of a cylinder or cone, along its z [m]; None of the others.
+        """
+    @property
+    def name(self) -> str:
+        """
+        What reports call it.
+        """
+    @property
+    def pose(self) -> typing.Any:
+        """
+        (4, 4) frame_from_shape; None of a half-space or mesh, given in the frame itself.
+        """
+    @property
+    def radius(self) -> typing.Any:
+        """
+        Of a sphere, cylinder or a cone's end [m]; None of the others.
+        """
+    @property
+    def size(self) -> typing.Any:
+        """
+        (3,) full lengths of a box [m]; None of the others.
         """
 class Touches:
     """
