@@ -6,7 +6,6 @@
 #include <numbers>
 #include <optional>
 #include <string>
-#include <type_traits>
 #include <utility>
 
 #include "arrays.hpp"
@@ -43,13 +42,8 @@ py::array unlocked_values(const Work& work) {
 }
 
 template <class Value>
-py::object only_if(bool has, const Value& value) {
-  if (!has) return py::none();
-  if constexpr (std::is_base_of_v<py::object, Value>) {
-    return value;
-  } else {
-    return py::cast(value);
-  }
+std::optional<Value> only_if(bool has, Value value) {
+  return has ? std::optional<Value>(std::move(value)) : std::nullopt;
 }
 
 Hull make_hull(const TriangleMesh& mesh, int num_threads) {
@@ -311,9 +305,7 @@ void bind_keepout_values(py::class_<KeepOut>& keepout) {
           [](const KeepOut& k) { return only_if(k.kind() == Kind::kHalfSpace, k.border()); },
           "Plane of a half-space, its normal towards the free side; None of the others.")
       .def_property_readonly(
-          "hull",
-          [](const KeepOut& k) { return k.hull() ? py::cast(*k.hull()) : py::object(py::none()); },
-          "Hull of a mesh; None of the others.")
+          "hull", [](const KeepOut& k) { return k.hull(); }, "Hull of a mesh; None of the others.")
       .def("__repr__",
            [](const KeepOut& k) {
              return "KeepOut." + to_string(k.kind()) + "(frame=\"" + k.frame() + "\", name=\"" +
@@ -323,8 +315,7 @@ void bind_keepout_values(py::class_<KeepOut>& keepout) {
           [](const KeepOut& k) {
             return py::make_tuple(static_cast<int>(k.kind()), k.frame(), k.name(), k.radius(),
                                   k.length(), to_numpy(k.size()), to_numpy(k.pose()),
-                                  to_numpy(k.border().normal()), k.border().offset(),
-                                  k.hull() ? py::cast(*k.hull()) : py::object(py::none()));
+                                  to_numpy(k.border().normal()), k.border().offset(), k.hull());
           },
           [](const py::tuple& s) {
             const KeepOutLabel label{s[1].cast<std::string>(), s[2].cast<std::string>()};

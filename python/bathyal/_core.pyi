@@ -2325,7 +2325,7 @@ class KeepOut:
         >>> bathyal.KeepOut.sphere(0.5, (0, 0, 1)).contains([[0, 0, 1.4], [0, 0, 1.6]]).tolist()
         [True, False]
         """
-    def __getstate__(self) -> tuple[int, str, str, float, float, numpy.ndarray, numpy.ndarray, numpy.ndarray, float, typing.Any]:
+    def __getstate__(self) -> tuple[int, str, str, float, float, numpy.ndarray, numpy.ndarray, numpy.ndarray, float, Hull | None]:
         ...
     def __repr__(self) -> str:
         ...
@@ -2396,7 +2396,7 @@ class KeepOut:
             [m]
         """
     @property
-    def border(self) -> typing.Any:
+    def border(self) -> Plane | None:
         """
         Plane of a half-space, its normal towards the free side; None of the others.
         """
@@ -2406,7 +2406,7 @@ class KeepOut:
         What it is fixed to: "hull" (the vehicle's frame), "world", or the name of a link.
         """
     @property
-    def hull(self) -> typing.Any:
+    def hull(self) -> Hull | None:
         """
         Hull of a mesh; None of the others.
         """
@@ -2416,7 +2416,7 @@ class KeepOut:
         "sphere", "box", "cylinder", "cone", "half_space" or "mesh".
         """
     @property
-    def length(self) -> typing.Any:
+    def length(self) -> float | None:
         """
         Of a cylinder or cone, along its z [m]; None of the others.
         """
@@ -2426,17 +2426,17 @@ class KeepOut:
         What reports call it.
         """
     @property
-    def pose(self) -> typing.Any:
+    def pose(self) -> numpy.ndarray | None:
         """
         (4, 4) frame_from_shape; None of a half-space or mesh, given in the frame itself.
         """
     @property
-    def radius(self) -> typing.Any:
+    def radius(self) -> float | None:
         """
         Of a sphere, cylinder or a cone's end [m]; None of the others.
         """
     @property
-    def size(self) -> typing.Any:
+    def size(self) -> numpy.ndarray | None:
         """
         (3,) full lengths of a box [m]; None of the others.
         """

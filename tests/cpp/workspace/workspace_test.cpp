@@ -59,7 +59,7 @@ TEST(Workspace, DistancesOfAPlanarArmAreThoseOfItsDrawing) {
   EXPECT_EQ(clear[0].link, 2);
   EXPECT_NEAR((clear[0].obstacle_point - Vec3(1.2, 0.0, 0.0)).norm(), 0.0, 1e-12);
   EXPECT_NEAR((clear[0].axis_point - Vec3(0.9, 0.0, 0.0)).norm(), 0.0, 1e-12);
-  EXPECT_NEAR(clear[1].distance, 0.65, 1e-9);  // the ball, 0.9 beside the arm
+  EXPECT_NEAR(clear[1].distance, 0.65, 1e-9);  // the ball, 0.9 from the axis
   EXPECT_EQ(clear[1].obstacle, 0);
   EXPECT_NEAR(clear[2].distance, 0.45, 1e-9);  // tip at y = −0.5 in the world, floor at −1
   EXPECT_EQ(clear[2].obstacle, 1);

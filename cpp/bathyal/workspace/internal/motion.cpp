@@ -31,7 +31,7 @@ class LegSearch {
   /// The earliest contact of a pair in [0, `before`), or `before`.
   double obstacle(const Pair& pair, double before) {
     const int link = bodies_->link_of(pair.capsule);
-    // Seen from the foot, hull, world and vehicle stand still.
+    // Hull, world and vehicle do not move against the foot.
     const int observer = std::max(0, bodies_->obstacles[pair.other].frame());
     return search(0.0, before, before, [&](double reach) {
       const double bound = moved(pair.capsule, link, observer);
