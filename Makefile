@@ -87,7 +87,7 @@ test: $(STAMPS)/apt-test $(STAMPS)/venv
 	cmake --build build/asan
 	ctest --test-dir build/asan --output-on-failure -j 2
 	$(call install-everything)
-	$(BIN)/python -m pytest -n 2 --dist loadfile
+	$(BIN)/python -m pytest -n 2 --dist loadfile --no-loadscope-reorder
 
 bench: $(STAMPS)/apt-bench $(STAMPS)/venv
 	$(call install-everything)
