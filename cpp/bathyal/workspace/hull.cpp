@@ -38,12 +38,10 @@ double relative_thickness(const WeldedMesh& mesh) {
   if (normal.isZero(0.0)) return 0.0;
   normal.normalize();
   double thickness = 0.0;
-  Eigen::AlignedBox3d box;
   for (const Vec3& point : mesh.points) {
     thickness = std::max(thickness, std::abs(normal.dot(point - on_plane)));
-    box.extend(point);
   }
-  return thickness / box.sizes().norm();
+  return thickness / mesh.box().sizes().norm();
 }
 
 void check_encloses(const TriangleMesh& mesh, const WeldedMesh& welded) {
@@ -127,8 +125,7 @@ std::vector<double> Hull::signed_distance(PointView points, int num_threads) con
 Voxels Hull::voxels(double size, int num_threads) const {
   check_positive("size", size);
   constexpr double kMostVoxels = 0x1p28;
-  Eigen::AlignedBox3d box;
-  for (const Vec3& point : state_->welded.points) box.extend(point);
+  const Eigen::AlignedBox3d box = state_->welded.box();
   const Vec3 counts = (box.sizes() / size).array().ceil().max(1.0);
   if (!(counts.prod() <= kMostVoxels)) {
     const double least = std::cbrt(box.volume() / kMostVoxels);

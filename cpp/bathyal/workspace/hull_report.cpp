@@ -21,8 +21,7 @@ constexpr double kSmallestHull = 0.05;
 constexpr double kFarFromOrigin = 20.0;  ///< of the hull's size
 
 void measure_triangles(const WeldedMesh& mesh, const EdgeReport& edges, HullReport& report) {
-  Eigen::AlignedBox3d box;
-  for (const Vec3& point : mesh.points) box.extend(point);
+  const Eigen::AlignedBox3d box = mesh.box();
   if (box.isEmpty()) return;
   report.low = box.min();
   report.high = box.max();

@@ -85,28 +85,26 @@ KeepOut KeepOut::box(const Vec3& size, const Pose& frame_from_box, KeepOutLabel 
   return made;
 }
 
-KeepOut KeepOut::cylinder(double radius, double length, const Pose& frame_from_cylinder,
-                          KeepOutLabel label) {
-  KeepOut made(KeepOutKind::kCylinder, std::move(label));
+KeepOut KeepOut::round(KeepOutKind kind, double radius, double length, const Pose& frame_from_shape,
+                       KeepOutLabel label) {
+  KeepOut made(kind, std::move(label));
   check_positive("radius", radius);
   check_positive("length", length);
-  check_rigid("pose", frame_from_cylinder);
+  check_rigid("pose", frame_from_shape);
   made.radius_ = radius;
   made.length_ = length;
-  made.frame_from_shape_ = frame_from_cylinder;
+  made.frame_from_shape_ = frame_from_shape;
   return made;
+}
+
+KeepOut KeepOut::cylinder(double radius, double length, const Pose& frame_from_cylinder,
+                          KeepOutLabel label) {
+  return round(KeepOutKind::kCylinder, radius, length, frame_from_cylinder, std::move(label));
 }
 
 KeepOut KeepOut::cone(double radius, double length, const Pose& frame_from_cone,
                       KeepOutLabel label) {
-  KeepOut made(KeepOutKind::kCone, std::move(label));
-  check_positive("radius", radius);
-  check_positive("length", length);
-  check_rigid("pose", frame_from_cone);
-  made.radius_ = radius;
-  made.length_ = length;
-  made.frame_from_shape_ = frame_from_cone;
-  return made;
+  return round(KeepOutKind::kCone, radius, length, frame_from_cone, std::move(label));
 }
 
 KeepOut KeepOut::half_space(const Plane& border, KeepOutLabel label) {

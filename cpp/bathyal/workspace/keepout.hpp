@@ -78,6 +78,8 @@ class KeepOut {
 
  private:
   KeepOut(KeepOutKind kind, KeepOutLabel label);
+  static KeepOut round(KeepOutKind kind, double radius, double length, const Pose& frame_from_shape,
+                       KeepOutLabel label);
 
   KeepOutKind kind_;
   std::string frame_, name_;

@@ -90,8 +90,8 @@ class Workspace {
   ///
   /// An interval is free when in its middle every distance is larger than what the motion to its
   /// ends can take any point by (`displacement_bound`); else it is halved, the earlier half first.
-  /// No obstacle is stepped over. Where a body comes within 10⁻⁵ m it counts as contact, at the
-  /// middle of an interval that is shorter than 10⁻³ of a row.
+  /// No obstacle is stepped over. A body that stays nearer than 10⁻⁵ m may count as contact; the
+  /// place of one is the middle of an interval shorter than 10⁻³ of a row.
   /// \throw std::invalid_argument as check_joint_values, and for no row.
   MotionCheck check_motion(JointView q) const;
 

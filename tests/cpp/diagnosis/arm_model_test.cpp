@@ -7,21 +7,13 @@
 #include <numbers>
 #include <utility>
 
-#include "bathyal/arm/dh.hpp"
 #include "bathyal/arm/row_frames.hpp"
 #include "bathyal/base/random.hpp"
 #include "bathyal/compensation/corrected_arm.hpp"
+#include "diagnosis/small_arms.hpp"
 
 namespace bathyal::diagnosis {
 namespace {
-
-Arm three_joints() {
-  DhTable table;
-  table.rows = {
-      {0.1, std::numbers::pi / 2.0, 0.3, 0.0}, {0.5, 0.0, 0.0, 0.0}, {0.4, 0.0, 0.0, 0.0}};
-  table.types.assign(3, JointType::kRevolute);
-  return arm_from_dh(table);
-}
 
 /// Poses in which joint 1 turns by a third of a turn only, with an error of two waves.
 Tracked little_moved(double size) {

@@ -5,11 +5,11 @@
 #include <numbers>
 #include <set>
 
-#include "bathyal/arm/dh.hpp"
 #include "bathyal/base/random.hpp"
 #include "bathyal/diagnosis/arm/internal/lack_of_fit.hpp"
 #include "bathyal/diagnosis/diagnosis.hpp"
 #include "bathyal/diagnosis/internal/seconds.hpp"
+#include "diagnosis/small_arms.hpp"
 
 namespace bathyal::diagnosis {
 namespace {
@@ -32,13 +32,6 @@ TEST(Dependence, AsTextCountsJointsFromOne) {
 }
 
 constexpr Index kRows = 30;
-
-Arm two_joints() {
-  DhTable table;
-  table.rows = {{0.5, 0.0, 0.1, 0.0}, {0.4, 0.0, 0.0, 0.0}};
-  table.types = {JointType::kRevolute, JointType::kRevolute};
-  return arm_from_dh(table);
-}
 
 RowMatrix joints() {
   RowMatrix q(kRows, 2);

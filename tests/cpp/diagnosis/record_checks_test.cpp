@@ -5,18 +5,11 @@
 
 #include <cmath>
 
-#include "bathyal/arm/dh.hpp"
 #include "bathyal/diagnosis/arm/internal/descriptions.hpp"
+#include "diagnosis/small_arms.hpp"
 
 namespace bathyal::diagnosis {
 namespace {
-
-Arm two_joints() {
-  DhTable table;
-  table.rows = {{0.5, 0.0, 0.1, 0.0}, {0.4, 0.0, 0.0, 0.0}};
-  table.types = {JointType::kRevolute, JointType::kRevolute};
-  return arm_from_dh(table);
-}
 
 std::vector<std::string> checked(const Covariates& covariates) {
   const Arm arm = two_joints();

@@ -6,23 +6,15 @@
 #include <cmath>
 #include <numbers>
 
-#include "bathyal/arm/dh.hpp"
 #include "bathyal/arm/row_frames.hpp"
 #include "bathyal/base/error.hpp"
 #include "bathyal/base/random.hpp"
 #include "bathyal/diagnosis/arm/internal/next_poses.hpp"
 #include "bathyal/diagnosis/internal/model_check.hpp"
+#include "diagnosis/small_arms.hpp"
 
 namespace bathyal::diagnosis {
 namespace {
-
-Arm three_joints() {
-  DhTable table;
-  table.rows = {
-      {0.1, std::numbers::pi / 2.0, 0.3, 0.0}, {0.5, 0.0, 0.0, 0.0}, {0.4, 0.0, 0.0, 0.0}};
-  table.types.assign(3, JointType::kRevolute);
-  return arm_from_dh(table);
-}
 
 /// Tips of an arm whose joint 2 has a wave of order 2.
 Tracked wavy() {

@@ -46,7 +46,7 @@ TEST(HullReport, SaysWhatIsOpenAndInsideOut) {
   EXPECT_EQ(inside_out.warnings.size(), 1U);
 }
 
-TEST(HullReport, JudgesSizeAndPlace) {
+TEST(HullReport, WarnsOfSizeAndPlace) {
   EXPECT_EQ(hull_report(test::box({900.0, 300.0, 300.0})).warnings.size(), 1U);
   EXPECT_EQ(hull_report(test::box({0.001, 0.0003, 0.0003})).warnings.size(), 1U);
   EXPECT_EQ(hull_report(test::box({1.0, 1.0, 1.0}, {1e7, 0.0, 0.0})).warnings.size(), 1U);

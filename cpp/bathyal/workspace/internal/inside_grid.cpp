@@ -33,8 +33,7 @@ double voxel_target(std::size_t triangles, bool closed) {
 
 InsideGrid::InsideGrid(const Scene& scene, const WeldedMesh& mesh,
                        const std::vector<OpenEdge>& open, int num_threads) {
-  Eigen::AlignedBox3d box;
-  for (const Vec3& point : mesh.points) box.extend(point);
+  const Eigen::AlignedBox3d box = mesh.box();
   const Vec3 extent = box.sizes();
   const Vec3 stout = extent.cwiseMax(extent.maxCoeff() / 64.0);
   size_ = std::cbrt(stout.prod() / voxel_target(mesh.triangles.size(), open.empty()));

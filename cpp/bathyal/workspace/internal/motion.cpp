@@ -9,7 +9,7 @@
 namespace bathyal::workspace {
 namespace {
 
-constexpr double kTouch = 1e-5;       // [m]; nearer counts as contact
+constexpr double kTouch = 1e-5;       // [m]; an interval that moves less is not halved further
 constexpr double kResolution = 1e-3;  // of a row; the place of a contact
 
 /// A straight motion in joint space between two rows.
@@ -30,31 +30,22 @@ class LegSearch {
 
   /// The earliest contact of a pair in [0, `before`), or `before`.
   double obstacle(const Pair& pair, double before) {
-    const int link = bodies_->link_of(pair.capsule);
     // Hull, world and vehicle do not move against the foot.
     const int observer = std::max(0, bodies_->obstacles[pair.other].frame());
-    return search(0.0, before, before, [&](double reach) {
-      const double bound = moved(pair.capsule, link, observer);
-      return posture_.to_obstacle(pair, std::max(bound, reach)).distance - bound;
-    });
+    return search(0.0, before, before, pair.capsule, observer,
+                  [&](double within) { return posture_.to_obstacle(pair, within).distance; });
   }
 
   double self(const Pair& pair, double before) {
-    const int link = bodies_->link_of(pair.capsule), observer = bodies_->link_of(pair.other);
-    return search(0.0, before, before, [&](double) {
-      return posture_.to_capsule(pair) - moved(pair.capsule, link, observer);
-    });
+    return search(0.0, before, before, pair.capsule, bodies_->link_of(pair.other),
+                  [&](double) { return posture_.to_capsule(pair); });
   }
 
  private:
-  double moved(std::size_t capsule, int link, int observer) const {
-    return displacement_bound(bodies_->arm, posture_.frames(), link, observer,
-                              posture_.capsule(capsule), change_);
-  }
-
-  /// `margin` is what the distance in the middle exceeds the bound of the displacement by.
-  template <class Margin>
-  double search(double low, double high, double none, const Margin& margin) {
+  /// `distance(within)` of the pair in the posture, which may be infinite beyond `within`.
+  template <class Distance>
+  double search(double low, double high, double none, std::size_t capsule, int observer,
+                const Distance& distance) {
     if (!(high > low)) return none;
     const double middle = 0.5 * (low + high), half = 0.5 * (high - low);
     leg_.at(middle, q_);
@@ -62,20 +53,13 @@ class LegSearch {
       change_[k] = half * std::abs(leg_.to[k] - leg_.from[k]);
     }
     posture_.set(q_);
-    if (margin(kTouch) > 0.0) return none;
-    const double swept = largest_displacement();
-    if (2.0 * half <= kResolution && swept <= kTouch) return middle;
-    const double earlier = search(low, middle, none, margin);
-    return earlier < none ? earlier : search(middle, high, none, margin);
-  }
-
-  /// Of any capsule over half the interval: below it, halving further finds nothing new.
-  double largest_displacement() const {
-    double largest = 0.0;
-    for (std::size_t c = 0; c < bodies_->capsules.size(); ++c) {
-      largest = std::max(largest, moved(c, bodies_->link_of(c), 0));
-    }
-    return largest;
+    const double moved =
+        displacement_bound(bodies_->arm, posture_.frames(), bodies_->link_of(capsule), observer,
+                           posture_.capsule(capsule), change_);
+    if (distance(moved) > moved) return none;
+    if (2.0 * half <= kResolution && moved <= kTouch) return middle;
+    const double earlier = search(low, middle, none, capsule, observer, distance);
+    return earlier < none ? earlier : search(middle, high, none, capsule, observer, distance);
   }
 
   const Bodies* bodies_;

@@ -101,6 +101,12 @@ WeldedMesh::WeldedMesh(const TriangleMesh& mesh) {
   }
 }
 
+Eigen::AlignedBox3d WeldedMesh::box() const {
+  Eigen::AlignedBox3d box;
+  for (const Vec3& point : points) box.extend(point);
+  return box;
+}
+
 EdgeReport edge_report(const WeldedMesh& mesh) {
   EdgeReport report;
   const std::vector<HalfEdge> edges = sorted_edges(mesh);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <Eigen/Geometry>
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -18,6 +19,9 @@ struct WeldedMesh {
   Vec3 corner(std::size_t triangle, std::size_t c) const {
     return points[static_cast<std::size_t>(triangles[triangle][c])];
   }
+
+  /// Of all its points; empty without any.
+  Eigen::AlignedBox3d box() const;
 
   std::vector<Vec3> points;                            ///< distinct positions
   std::vector<std::array<std::int32_t, 3>> triangles;  ///< row for row those of the mesh
