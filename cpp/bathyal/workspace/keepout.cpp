@@ -113,6 +113,12 @@ KeepOut KeepOut::half_space(const Plane& border, KeepOutLabel label) {
   return made;
 }
 
+KeepOut KeepOut::moved(Trajectory frame_from_given) const {
+  KeepOut moving = *this;
+  moving.motion_ = std::move(frame_from_given);
+  return moving;
+}
+
 KeepOut KeepOut::mesh(Hull hull, KeepOutLabel label) {
   KeepOut made(KeepOutKind::kMesh, std::move(label));
   made.hull_ = std::move(hull);

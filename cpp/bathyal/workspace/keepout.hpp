@@ -8,6 +8,7 @@
 
 #include "bathyal/geometry/plane.hpp"
 #include "bathyal/geometry/pose.hpp"
+#include "bathyal/geometry/trajectory.hpp"
 #include "bathyal/workspace/hull.hpp"
 
 namespace bathyal {
@@ -47,6 +48,13 @@ class KeepOut {
 
   /// Inside as Hull has it.
   static KeepOut mesh(Hull hull, KeepOutLabel label = {});
+
+  /// The same volume carried along: what was given in the frame is moved by `frame_from_given`, a
+  /// pose over time. An obstacle that moves.
+  KeepOut moved(Trajectory frame_from_given) const;
+
+  /// At rest in the identity unless moved.
+  const Trajectory& motion() const { return motion_; }
 
   KeepOutKind kind() const { return kind_; }
   const std::string& frame() const { return frame_; }
@@ -88,6 +96,7 @@ class KeepOut {
   Pose frame_from_shape_ = Pose::Identity();
   Plane border_;
   std::optional<Hull> hull_;
+  Trajectory motion_;
 };
 
 }  // namespace bathyal

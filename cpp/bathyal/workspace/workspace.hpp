@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
 #include <limits>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "bathyal/arm/kinematics.hpp"
+#include "bathyal/geometry/rigid_body.hpp"
+#include "bathyal/geometry/trajectory.hpp"
 #include "bathyal/scene/scene.hpp"
 #include "bathyal/workspace/arm_shape.hpp"
 #include "bathyal/workspace/hull.hpp"
@@ -16,13 +20,20 @@
 
 namespace bathyal {
 
+using Vec6 = Eigen::Matrix<double, 6, 1>;
+
 /// What an arm hangs on and must not touch.
 struct Surroundings {
   Pose vehicle_from_base = Pose::Identity();
-  Pose world_from_vehicle = Pose::Identity();
+  Trajectory world_from_vehicle;  ///< a pose at rest, or one over time
+  /// Standard deviations of world_from_vehicle: of the origin along the vehicle's axes [m], then of
+  /// the rotation vector in the vehicle's frame [rad]. Distances to what is fixed to the world are
+  /// given less three standard deviations of where the vehicle may be.
+  Vec6 vehicle_pose_std = Vec6::Zero();
   std::optional<Hull> hull;       ///< in the vehicle's frame
   std::optional<Scene> scene;     ///< in the world: the bottom and what lies on it
-  std::vector<KeepOut> keepouts;  ///< each in the frame that it names
+  std::vector<KeepOut> keepouts;  ///< each in the frame that it names; obstacles that move, too
+  std::optional<RigidBody> vehicle_body;  ///< in the vehicle's frame, without the arm
   /// The arm's body; none: capsules_of_rows without radius.
   std::vector<LinkCapsule> capsules;
   /// Pairs of links, by index, that may touch.
@@ -49,14 +60,50 @@ struct Clearance {
   std::pair<int, int> self_links{-1, -1};
 };
 
+/// Whether the end of the tool may touch the scene: it must, to take a sample. Its last two radii
+/// (at least 1 mm) are then not compared with the scene; all the rest of the arm is.
+enum class TipContact { kForbidden, kAllowed };
+
+struct MotionOptions {
+  /// Of each row [s], rising; none: at 0, or, where something moves in the world, refused.
+  std::span<const double> time = {};
+  /// Whether the arm must be able to stop, too: at every moment each coordinate may run on by its
+  /// stopping distance, speed² / (2 acceleration), in either direction. Needs `time`.
+  bool stopping = false;
+  /// With which each coordinate brakes [rad/s²], [m/s²]; none: default_acceleration.
+  std::span<const double> acceleration = {};
+  TipContact tip_contact = TipContact::kForbidden;
+};
+
 /// The first contact of a motion.
 struct MotionCheck {
   bool free = true;
   /// Row and fraction of the way to the next; NaN of a free motion.
   double contact = std::numeric_limits<double>::quiet_NaN();
+  double time = std::numeric_limits<double>::quiet_NaN();  ///< of the contact [s], of a timed motion
   int link = -1;
   int obstacle = -1;    ///< or -1, and
   int other_link = -1;  ///< of the arm's own
+};
+
+/// What of a target forbids it: the first that holds.
+enum class TargetStatus {
+  kHull,         ///< inside the vehicle's hull
+  kKeepOut,      ///< inside a keep-out
+  kGround,       ///< under the bottom
+  kUnreachable,  ///< in no posture within the limits, in any orientation of the tool
+  kCollision,    ///< only by postures that touch something
+  kLimit,        ///< only by postures that have a joint within 0.01 rad, 1 mm of a limit
+  kFree
+};
+
+struct TargetCheck {
+  TargetStatus status = TargetStatus::kFree;
+  int keepout = -1;  ///< that the point lies in: an index into the keep-outs given
+  /// From the point to the nearest of hull, keep-outs and ground [m], below 0 inside; inf if there
+  /// are none.
+  double distance = std::numeric_limits<double>::infinity();
+  std::vector<double> q;  ///< a posture that reaches it; empty where there is none
 };
 
 /// An arm on a vehicle among obstacles (Maevskiy, Zanin 2020). The arm's own base plays no part:
@@ -81,23 +128,56 @@ class Workspace {
   /// made so.
   const std::vector<ExcludedPair>& excluded() const;
 
-  /// The smallest distances of each row of q, (N, n).
-  /// \throw std::invalid_argument as check_joint_values.
-  std::vector<Clearance> clearance(JointView q, int num_threads = 0) const;
+  /// The smallest distances of each row of q, (N, n), at a time for all of them, or one each.
+  /// \throw std::invalid_argument as check_joint_values, for another count of times.
+  std::vector<Clearance> clearance(JointView q, std::span<const double> time = {},
+                                   TipContact tip_contact = TipContact::kForbidden,
+                                   int num_threads = 0) const;
 
   /// Whether the motion along the rows of q, (M, n), joined by straight lines in joint space, is
   /// free of contact everywhere, and where the first contact is.
   ///
   /// An interval is free when in its middle every distance is larger than what the motion to its
-  /// ends can take any point by (`displacement_bound`); else it is halved, the earlier half first.
-  /// No obstacle is stepped over. A body that stays nearer than 10⁻⁵ m may count as contact; the
-  /// place of one is the middle of an interval shorter than 10⁻³ of a row.
-  /// \throw std::invalid_argument as check_joint_values, and for no row.
-  MotionCheck check_motion(JointView q) const;
+  /// ends can take any point by (`displacement_bound`; what moves in the world is counted with its
+  /// greatest speeds); else it is halved, the earlier half first. No obstacle is stepped over. A
+  /// body that stays nearer than 10⁻⁵ m may count as contact; the place of one is the middle of an
+  /// interval shorter than 10⁻³ of a row.
+  /// \throw std::invalid_argument as check_joint_values, for no row, times that do not rise or of
+  ///        another count, accelerations that are not positive.
+  MotionCheck check_motion(JointView q, const MotionOptions& options = {}) const;
+
+  /// Whether the arm may be sent to points in the world, (N, 3), at one time. Postures are looked
+  /// for by inverse kinematics of the point alone, from several starts; their tip may touch the
+  /// scene. The result of a point does not depend on the others.
+  /// \throw std::invalid_argument for a point that is not finite.
+  std::vector<TargetCheck> check_target(PointView points, double time = 0.0,
+                                        std::uint64_t seed = 0, int num_threads = 0) const;
+
+  /// Whether the distances of a motion depend on the time: the vehicle moves, and there is
+  /// something fixed to the world; or a keep-out moves.
+  bool moves() const;
+
+  /// The same, the vehicle elsewhere. Shares what it can.
+  Workspace with_vehicle_pose(Trajectory world_from_vehicle) const;
+
+  /// The same with a tool or a sample in the arm's hand: capsules fixed to the last link, in the
+  /// tool's frame, and what it weighs, in the tool's frame. They are not compared with the last
+  /// link.
+  Workspace attach(std::span<const Capsule> capsules, const RigidBody& body) const;
+
+  /// Without what was attached. \throw std::invalid_argument where nothing was.
+  Workspace detach() const;
+
+  /// What is attached, in the tool's frame; without mass where nothing is.
+  const RigidBody& attached() const;
 
  private:
   struct State;
   std::shared_ptr<const State> state_;
 };
+
+/// Of each coordinate: its rate limit is reached from rest in half a second; 1 rad/s², 0.5 m/s²
+/// where a joint has none.
+std::vector<double> default_acceleration(const Arm& arm);
 
 }  // namespace bathyal
