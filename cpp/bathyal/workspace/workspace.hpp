@@ -170,6 +170,7 @@ class Workspace {
 
   /// What is attached, in the tool's frame; without mass where nothing is.
   const RigidBody& attached() const;
+  const std::vector<Capsule>& attached_capsules() const;
 
  private:
   struct State;

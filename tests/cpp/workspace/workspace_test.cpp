@@ -13,6 +13,8 @@
 namespace bathyal {
 namespace {
 
+using enum TipContact;
+
 JointView view(const JointMatrix& q) { return view_of(q); }
 
 /// A square of ±`half` in the plane x = `x`.
@@ -47,7 +49,9 @@ TEST(Workspace, DistancesOfAPlanarArmAreThoseOfItsDrawing) {
   around.keepouts.push_back(KeepOut::sphere(0.2, Vec3(0.9, 0.6, 0.0), {.name = "ball"}));
   around.keepouts.push_back(
       KeepOut::half_space(Plane(Vec3::UnitY(), -1.0), {.frame = "world", .name = "floor"}));
-  around.world_from_vehicle.translation().y() = 0.4;
+  Pose world_from_vehicle = Pose::Identity();
+  world_from_vehicle.translation().y() = 0.4;
+  around.world_from_vehicle = world_from_vehicle;
   around.scene = Scene({wall(1.2)});
   const Workspace ws(arm, around);
   ASSERT_EQ(ws.obstacles(), (std::vector<std::string>{"ball", "floor", "scene"}));
@@ -160,7 +164,8 @@ TEST(Workspace, SameBytesOnAnyNumberOfThreads) {
   around.hull = Hull(box(Vec3(-0.9, -0.3, -0.4), Vec3(-0.25, 0.3, 0.4)));
   const Workspace ws(arm, around);
   const JointMatrix q = random_poses(arm, 60, 4);
-  const std::vector<Clearance> one = ws.clearance(view(q), 1), four = ws.clearance(view(q), 4);
+  const std::vector<Clearance> one = ws.clearance(view(q), {}, kForbidden, 1),
+                               four = ws.clearance(view(q), {}, kForbidden, 4);
   for (std::size_t i = 0; i < one.size(); ++i) {
     EXPECT_EQ(one[i].distance, four[i].distance);
     EXPECT_EQ(one[i].self_distance, four[i].self_distance);

@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bathyal/workspace/internal/bodies.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <functional>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <utility>
 
 #include "bathyal/arm/kinematics.hpp"
+#include "bathyal/base/check.hpp"
 #include "bathyal/base/error.hpp"
 #include "bathyal/base/random.hpp"
 
@@ -25,7 +29,10 @@ void check_link(std::string_view name, int link, const Arm& arm) {
 
 void check(const Surroundings& surroundings, const Arm& arm) {
   check_rigid("mount", surroundings.vehicle_from_base);
-  check_rigid("vehicle_pose", surroundings.world_from_vehicle);
+  for (const double value : surroundings.vehicle_pose_std) {
+    check_not_negative("vehicle_pose_std", value);
+  }
+  if (surroundings.vehicle_body) surroundings.vehicle_body->check("vehicle_body");
   for (const LinkCapsule& capsule : surroundings.capsules) {
     check_link("capsules", capsule.link, arm);
     check_link("capsules", capsule.start_link, arm);
@@ -55,19 +62,6 @@ std::vector<Obstacle> obstacles_of(const Surroundings& surroundings, const Arm& 
   }
   if (surroundings.scene) obstacles.emplace_back(*surroundings.scene);
   return obstacles;
-}
-
-/// Within the limits; within half a turn, or the arm's length, where there are none.
-std::vector<double> drawn_posture(const Arm& arm, RandomStream& random) {
-  std::vector<double> q(static_cast<std::size_t>(arm.size()));
-  for (const Joint& joint : arm.joints()) {
-    if (joint.coordinate < 0 || !joint.follows.empty()) continue;
-    const double reach = joint.type == JointType::kPrismatic ? chain_length(arm) : std::numbers::pi;
-    const Index k = joint.coordinate;
-    q[static_cast<std::size_t>(k)] =
-        random.uniform(std::max(arm.lower()[k], -reach), std::min(arm.upper()[k], reach));
-  }
-  return q;
 }
 
 /// Why two links are never compared; empty where they are.
@@ -125,7 +119,7 @@ void exclude_what_always_touches(Bodies& bodies) {
   };
   // Keep-outs and the bottom are there to be avoided: what always lies in them is a mistake to see.
   for (const Pair& p : bodies.with_obstacles) {
-    if (bodies.obstacles[p.other].name() == "hull") {
+    if (bodies.obstacles[p.other].is_hull()) {
       add({bodies.link_of(p.capsule), -1, static_cast<int>(p.other), "touch in every posture"});
     }
   }
@@ -133,9 +127,10 @@ void exclude_what_always_touches(Bodies& bodies) {
     add({bodies.link_of(p.capsule), bodies.link_of(p.other), -1, "touch in every posture"});
   }
   RandomStream random(0);
-  Posture posture(bodies);
+  const Trajectory at_rest;  // hull and links move with the vehicle
+  Posture posture(bodies, at_rest);
   for (int i = 0; i < kSampledPostures && !always.empty(); ++i) {
-    posture.set(drawn_posture(bodies.arm, random));
+    posture.set(drawn_posture(bodies.arm, random), 0.0);
     std::erase_if(always, [&](const ExcludedPair& pair) {
       const auto meets = [&](const Pair& p) {
         if (bodies.link_of(p.capsule) != pair.link) return false;
@@ -152,41 +147,149 @@ void exclude_what_always_touches(Bodies& bodies) {
   for (const ExcludedPair& pair : always) exclude(bodies, pair);
 }
 
+/// What of a capsule lies farther than `reach` from a point: the longer way from one of its ends up
+/// to there; none where both ends are near.
+std::optional<LinkCapsule> without_ball(const LinkCapsule& capsule, const Vec3& middle,
+                                        double reach) {
+  const Vec3 start = capsule.start - middle, span = capsule.end - capsule.start;
+  const bool start_near = start.norm() < reach, end_near = (start + span).norm() < reach;
+  if (start_near && end_near) return std::nullopt;
+  if (!start_near && !end_near) return capsule;
+  // |start + t span|² = reach²: it leaves the ball once.
+  const double a = span.squaredNorm(), b = start.dot(span), c = start.squaredNorm() - reach * reach;
+  const double root = std::sqrt(std::max(0.0, b * b - a * c));
+  LinkCapsule rest = capsule;
+  if (end_near) {
+    rest.end = middle + start + (-b - root) / a * span;
+  } else {
+    rest.start = middle + start + (-b + root) / a * span;
+  }
+  return rest;
+}
+
+/// The pairs of an arm whose tool may touch the scene.
+void spare_the_tip(Bodies& bodies) {
+  constexpr double kLeastReach = 1e-3;  // [m]
+  const int last = static_cast<int>(bodies.arm.links().size()) - 1;
+  const Vec3 tip = link_from_tool(bodies.arm).translation();
+  for (const Pair& pair : bodies.with_obstacles) {
+    const LinkCapsule& capsule = bodies.capsules[pair.capsule];
+    if (!bodies.obstacles[pair.other].is_scene() || capsule.link != last ||
+        capsule.start_link != last) {
+      bodies.with_obstacles_but_tip.push_back(pair);
+      continue;
+    }
+    const auto rest = without_ball(capsule, tip, std::max(2.0 * capsule.radius, kLeastReach));
+    if (!rest) continue;
+    bodies.with_obstacles_but_tip.push_back({bodies.capsules.size(), pair.other});
+    bodies.capsules.push_back(*rest);
+  }
+}
+
+/// Ends of a capsule's axis and its radius: the greatest distance of its points from one.
+double farthest(const Capsule& capsule, const Vec3& point) {
+  return std::max((capsule.start - point).norm(), (capsule.end - point).norm()) + capsule.radius;
+}
+
 }  // namespace
+
+std::vector<double> drawn_posture(const Arm& arm, RandomStream& random) {
+  std::vector<double> q(static_cast<std::size_t>(arm.size()));
+  for (const Joint& joint : arm.joints()) {
+    if (joint.coordinate < 0 || !joint.follows.empty()) continue;
+    const double reach = joint.type == JointType::kPrismatic ? chain_length(arm) : std::numbers::pi;
+    const Index k = joint.coordinate;
+    q[static_cast<std::size_t>(k)] =
+        random.uniform(std::max(arm.lower()[k], -reach), std::min(arm.upper()[k], reach));
+  }
+  return q;
+}
+
+Pose link_from_tool(const Arm& arm) {
+  return arm.links().back().row_from_link.inverse() * arm.flange() * arm.tool();
+}
 
 Bodies make_bodies(Arm arm, const Surroundings& surroundings) {
   check(surroundings, arm);
   Bodies bodies{.arm = std::move(arm)};
   bodies.arm.set_base(surroundings.vehicle_from_base);
-  bodies.vehicle_from_world = surroundings.world_from_vehicle.inverse();
+  bodies.pose_std = surroundings.vehicle_pose_std;
+  bodies.angle_std = bodies.pose_std.tail<3>().maxCoeff();
   bodies.capsules =
       surroundings.capsules.empty() ? capsules_of_rows(bodies.arm) : surroundings.capsules;
   bodies.obstacles = obstacles_of(surroundings, bodies.arm);
   pair_up(bodies, surroundings);
   exclude_what_always_touches(bodies);
+  spare_the_tip(bodies);
   return bodies;
 }
 
-void Posture::set(std::span<const double> q) {
+double pose_margin(const Bodies& bodies, const Vec3& point) {
+  if (bodies.pose_std.isZero()) return 0.0;
+  constexpr double kDeviations = 3.0;
+  Eigen::Matrix3d cross;
+  cross << 0.0, -point.z(), point.y(), point.z(), 0.0, -point.x(), -point.y(), point.x(), 0.0;
+  const Vec3 origin = bodies.pose_std.head<3>(), turn = bodies.pose_std.tail<3>();
+  Eigen::Matrix3d covariance = cross * turn.cwiseAbs2().asDiagonal() * cross.transpose();
+  covariance.diagonal() += origin.cwiseAbs2();
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
+  solver.computeDirect(covariance, Eigen::EigenvaluesOnly);
+  return kDeviations * std::sqrt(std::max(0.0, solver.eigenvalues()[2]));
+}
+
+void Posture::set(std::span<const double> q, double time) {
+  time_ = time;
+  vehicle_from_world_ = world_from_vehicle_->at(time).inverse();
   compute_row_frames(bodies_->arm, q, frames_);
   for (std::size_t i = 0; i < placed_.size(); ++i) {
     placed_[i] = placed(bodies_->arm, bodies_->capsules[i], frames_);
   }
 }
 
+Pose Posture::obstacle_pose(const Obstacle& obstacle) const {
+  Pose pose = Pose::Identity();
+  if (obstacle.frame() == kWorldFrame) pose = vehicle_from_world_;
+  if (obstacle.frame() >= 0) {
+    const auto link = static_cast<std::size_t>(obstacle.frame());
+    pose = frames_.world_from_row[link] * bodies_->arm.links()[link].row_from_link;
+  }
+  return pose * obstacle.motion().at(time_);
+}
+
 Nearness Posture::to_obstacle(const Pair& pair, double within) const {
   const Obstacle& obstacle = bodies_->obstacles[pair.other];
   const Capsule& own = placed_[pair.capsule];
-  if (obstacle.frame() == kVehicleFrame) return obstacle.nearest(own, within);
-  Pose vehicle_from_obstacle = bodies_->vehicle_from_world;
-  if (obstacle.frame() >= 0) {
-    const auto link = static_cast<std::size_t>(obstacle.frame());
-    vehicle_from_obstacle = frames_.world_from_row[link] * bodies_->arm.links()[link].row_from_link;
+  if (obstacle.frame() == kVehicleFrame && !obstacle.motion().moves()) {
+    return obstacle.nearest(own, within);
   }
-  Nearness found = obstacle.nearest(in_frame(own, vehicle_from_obstacle.inverse()), within);
+  double margin = 0.0;
+  if (obstacle.frame() == kWorldFrame && !bodies_->pose_std.isZero()) {
+    margin = std::max(pose_margin(*bodies_, own.start), pose_margin(*bodies_, own.end)) +
+             3.0 * bodies_->angle_std * own.radius;
+  }
+  const Pose vehicle_from_obstacle = obstacle_pose(obstacle);
+  Nearness found =
+      obstacle.nearest(in_frame(own, vehicle_from_obstacle.inverse()), within + margin);
+  found.distance -= margin;
   found.axis_point = vehicle_from_obstacle * found.axis_point;
   found.surface_point = vehicle_from_obstacle * found.surface_point;
   return found;
+}
+
+double Posture::drift(const Pair& pair, double duration) const {
+  const Obstacle& obstacle = bodies_->obstacles[pair.other];
+  const Capsule& own = placed_[pair.capsule];
+  double moved = 0.0;
+  // A rotation moves a point by its angle times the distance from the centre in the posture; the
+  // rest only turns along.
+  const auto add = [&](const Trajectory& motion, const Vec3& center) {
+    if (!motion.moves()) return;
+    const Trajectory::Rates rates = motion.max_rates(time_ - duration, time_ + duration);
+    moved += duration * (rates.linear + rates.angular * farthest(own, center));
+  };
+  if (obstacle.frame() == kWorldFrame) add(*world_from_vehicle_, Vec3::Zero());
+  add(obstacle.motion(), obstacle_pose(obstacle).translation());
+  return moved;
 }
 
 }  // namespace bathyal::workspace

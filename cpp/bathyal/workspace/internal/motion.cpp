@@ -17,68 +17,111 @@ struct Leg {
   const double* from;
   const double* to;
   std::size_t size;
+  double start = 0.0, duration = 0.0;  // [s]
+  /// How far each coordinate runs on after the order to stop, and for how long.
+  std::vector<double> run_on{};
+  double stop_duration = 0.0;
 
   void at(double fraction, std::vector<double>& q) const {
     for (std::size_t k = 0; k < size; ++k) q[k] = from[k] + fraction * (to[k] - from[k]);
   }
+  double time(double fraction) const { return start + fraction * duration; }
 };
+
+/// speed² / (2 acceleration) of each coordinate.
+void add_stopping(Leg& leg, std::span<const double> acceleration) {
+  leg.run_on.assign(leg.size, 0.0);
+  if (!(leg.duration > 0.0)) return;
+  for (std::size_t k = 0; k < leg.size; ++k) {
+    const double speed = std::abs(leg.to[k] - leg.from[k]) / leg.duration;
+    leg.run_on[k] = speed * speed / (2.0 * acceleration[k]);
+    leg.stop_duration = std::max(leg.stop_duration, speed / acceleration[k]);
+  }
+}
 
 class LegSearch {
  public:
-  LegSearch(const Bodies& bodies, const Leg& leg)
-      : bodies_(&bodies), leg_(leg), posture_(bodies), q_(leg.size), change_(leg.size) {}
+  LegSearch(const Bodies& bodies, const Trajectory& world_from_vehicle, const Leg& leg)
+      : bodies_(&bodies),
+        leg_(&leg),
+        posture_(bodies, world_from_vehicle),
+        q_(leg.size),
+        change_(leg.size) {}
 
   /// The earliest contact of a pair in [0, `before`), or `before`.
   double obstacle(const Pair& pair, double before) {
-    // Hull, world and vehicle do not move against the foot.
+    // Vehicle and world are seen from the foot; what they move by is the drift.
     const int observer = std::max(0, bodies_->obstacles[pair.other].frame());
-    return search(0.0, before, before, pair.capsule, observer,
-                  [&](double within) { return posture_.to_obstacle(pair, within).distance; });
+    const double steepness =
+        1.0 + (bodies_->is_in_world(pair.other) ? 3.0 * bodies_->angle_std : 0.0);
+    const auto moved = [&](double half, double running_on) {
+      return steepness * arm_moves(pair.capsule, observer, half, running_on) +
+             posture_.drift(pair, half * leg_->duration + running_on * leg_->stop_duration);
+    };
+    const auto distance = [&](double within) { return posture_.to_obstacle(pair, within).distance; };
+    return search(0.0, before, before, moved, distance);
   }
 
   double self(const Pair& pair, double before) {
-    return search(0.0, before, before, pair.capsule, bodies_->link_of(pair.other),
-                  [&](double) { return posture_.to_capsule(pair); });
+    const auto moved = [&](double half, double running_on) {
+      return arm_moves(pair.capsule, bodies_->link_of(pair.other), half, running_on);
+    };
+    const auto distance = [&](double) { return posture_.to_capsule(pair); };
+    return search(0.0, before, before, moved, distance);
   }
 
  private:
-  /// `distance(within)` of the pair in the posture, which may be infinite beyond `within`.
-  template <class Distance>
-  double search(double low, double high, double none, std::size_t capsule, int observer,
+  /// By how much the arm takes a point of the capsule along in `half` of the leg before and after
+  /// the posture, and where it runs on.
+  double arm_moves(std::size_t capsule, int observer, double half, double running_on) {
+    for (std::size_t k = 0; k < leg_->size; ++k) {
+      change_[k] = half * std::abs(leg_->to[k] - leg_->from[k]);
+      if (!leg_->run_on.empty()) change_[k] += running_on * leg_->run_on[k];
+    }
+    return displacement_bound(bodies_->arm, posture_.frames(), bodies_->link_of(capsule), observer,
+                              posture_.capsule(capsule), change_);
+  }
+
+  /// `moved(half, running_on)` bounds the motion around the posture, `distance(within)` is that of
+  /// the pair in it, which may be infinite beyond `within`.
+  template <class Moved, class Distance>
+  double search(double low, double high, double none, const Moved& moved,
                 const Distance& distance) {
     if (!(high > low)) return none;
     const double middle = 0.5 * (low + high), half = 0.5 * (high - low);
-    leg_.at(middle, q_);
-    for (std::size_t k = 0; k < leg_.size; ++k) {
-      change_[k] = half * std::abs(leg_.to[k] - leg_.from[k]);
-    }
-    posture_.set(q_);
-    const double moved =
-        displacement_bound(bodies_->arm, posture_.frames(), bodies_->link_of(capsule), observer,
-                           posture_.capsule(capsule), change_);
-    if (distance(moved) > moved) return none;
-    if (2.0 * half <= kResolution && moved <= kTouch) return middle;
-    const double earlier = search(low, middle, none, capsule, observer, distance);
-    return earlier < none ? earlier : search(middle, high, none, capsule, observer, distance);
+    leg_->at(middle, q_);
+    posture_.set(q_, leg_->time(middle));
+    const double needed = moved(half, 1.0);
+    if (distance(needed) > needed) return none;
+    if (2.0 * half <= kResolution && moved(half, 0.0) <= kTouch) return middle;
+    const double earlier = search(low, middle, none, moved, distance);
+    return earlier < none ? earlier : search(middle, high, none, moved, distance);
   }
 
   const Bodies* bodies_;
-  Leg leg_;
+  const Leg* leg_;
   Posture posture_;
   std::vector<double> q_, change_;
 };
 
 }  // namespace
 
-MotionCheck first_contact(const Bodies& bodies, const JointView& q) {
+MotionCheck first_contact(const Bodies& bodies, const Trajectory& world_from_vehicle,
+                          const JointView& q, const MotionOptions& options) {
   MotionCheck check;
   const auto size = static_cast<std::size_t>(q.cols());
   const Index legs = std::max<Index>(1, q.rows() - 1);
   for (Index i = 0; i < legs && check.free; ++i) {
     // A single row is a motion that stays where it is.
     const double* from = q.data() + i * q.cols();
-    const Leg leg{from, q.rows() > 1 ? from + q.cols() : from, size};
-    LegSearch search(bodies, leg);
+    Leg leg{from, q.rows() > 1 ? from + q.cols() : from, size};
+    if (!options.time.empty()) {
+      const auto row = static_cast<std::size_t>(i);
+      leg.start = options.time[row];
+      if (q.rows() > 1) leg.duration = options.time[row + 1] - leg.start;
+    }
+    if (options.stopping) add_stopping(leg, options.acceleration);
+    LegSearch search(bodies, world_from_vehicle, leg);
     const double none = std::nextafter(1.0, 2.0);
     double first = none;
     const auto take = [&](double found, const Pair& pair, bool is_obstacle) {
@@ -88,11 +131,14 @@ MotionCheck first_contact(const Bodies& bodies, const JointView& q) {
       check.obstacle = is_obstacle ? static_cast<int>(pair.other) : -1;
       check.other_link = is_obstacle ? -1 : bodies.link_of(pair.other);
     };
-    for (const Pair& pair : bodies.with_obstacles) take(search.obstacle(pair, first), pair, true);
+    for (const Pair& pair : bodies.obstacle_pairs(options.tip_contact)) {
+      take(search.obstacle(pair, first), pair, true);
+    }
     for (const Pair& pair : bodies.with_capsules) take(search.self(pair, first), pair, false);
     if (first < none) {
       check.free = false;
       check.contact = static_cast<double>(i) + first;
+      if (!options.time.empty()) check.time = leg.time(first);
     }
   }
   return check;

@@ -6,6 +6,7 @@
 namespace bathyal::workspace {
 
 /// Workspace::check_motion.
-MotionCheck first_contact(const Bodies& bodies, const JointView& q);
+MotionCheck first_contact(const Bodies& bodies, const Trajectory& world_from_vehicle,
+                          const JointView& q, const MotionOptions& options);
 
 }  // namespace bathyal::workspace

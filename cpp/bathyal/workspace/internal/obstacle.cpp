@@ -54,7 +54,7 @@ Obstacle::Obstacle(Hull hull) : name_("hull"), frame_(kVehicleFrame), body_(std:
 }
 
 Obstacle::Obstacle(KeepOut keepout, int frame)
-    : name_(keepout.name()), frame_(frame), body_(std::move(keepout)) {
+    : name_(keepout.name()), frame_(frame), motion_(keepout.motion()), body_(std::move(keepout)) {
   if (const Scene* surface = surface_of(body_)) box_ = box_of(*surface);
 }
 

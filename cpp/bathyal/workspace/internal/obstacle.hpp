@@ -37,7 +37,11 @@ class Obstacle {
   explicit Obstacle(Scene scene);
 
   const std::string& name() const { return name_; }
+  bool is_hull() const { return std::holds_alternative<Hull>(body_); }
+  bool is_scene() const { return std::holds_alternative<Scene>(body_); }
   int frame() const { return frame_; }
+  /// In that frame: at rest but for keep-outs that move.
+  const Trajectory& motion() const { return motion_; }
 
   /// Of a capsule in the obstacle's frame. What is farther than `within` is not looked for.
   Nearness nearest(const Capsule& capsule,
@@ -49,6 +53,7 @@ class Obstacle {
 
   std::string name_;
   int frame_;
+  Trajectory motion_;
   std::variant<Hull, KeepOut, Scene> body_;
   Eigen::AlignedBox3d box_;  ///< of hull or scene
 };
