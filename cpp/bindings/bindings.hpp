@@ -8,9 +8,10 @@ namespace bathyal::python {
 // One function a room, called in floor order; inside: enums, options, results, classes, functions.
 void bind_base(pybind11::module_& module);
 void bind_geometry(pybind11::module_& module);
-void bind_mesh_report(pybind11::module_& module);  // of the room geometry too, as the next two
+void bind_mesh_report(pybind11::module_& module);  // of the room geometry too, as the next three
 void bind_rigid_body(pybind11::module_& module);
 void bind_shape(pybind11::module_& module);
+void bind_trajectory(pybind11::module_& module);
 void bind_soundings(pybind11::module_& module);
 void bind_survey(pybind11::module_& module);  // the second file of soundings
 void bind_terrain(pybind11::module_& module);

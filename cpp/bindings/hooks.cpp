@@ -11,7 +11,7 @@ namespace py = pybind11;
 
 /// Never freed: the interpreter may be gone before this library is.
 py::object& stored(Hook which) {
-  static auto* hooks = new std::array<py::object, 2>;
+  static auto* hooks = new std::array<py::object, 3>;
   return (*hooks)[static_cast<std::size_t>(which)];
 }
 
@@ -30,6 +30,9 @@ void bind_hooks(py::module_& module) {
   module.def(
       "warn_of_support_with", [](const py::function& warn) { stored(Hook::kWarnOfSupport) = warn; },
       py::arg("warn"), "Hand in what warns of a call beyond the support of a corrected arm.");
+  module.def(
+      "read_mesh_with", [](const py::function& read) { stored(Hook::kMeshVertices) = read; },
+      py::arg("read"), "Hand in what reads the corners of a shape's mesh.");
 }
 
 }  // namespace bathyal::python

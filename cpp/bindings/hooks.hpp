@@ -10,12 +10,13 @@ namespace bathyal::python {
 enum class Hook {
   kFindEffect,     ///< name → Effect: of the library, or registered
   kWarnOfSupport,  ///< (model, q, covariates, mask): a call beyond what the data covered
+  kMeshVertices,   ///< Shape → (N, 3) corners of its mesh along its scale, None if it cannot be read
 };
 
 /// \throw std::logic_error where none was handed in
 pybind11::object hook(Hook which);
 
-/// find_effect_with, warn_of_support_with: how they are handed in.
+/// find_effect_with, warn_of_support_with, read_mesh_with: how they are handed in.
 void bind_hooks(pybind11::module_& module);
 
 }  // namespace bathyal::python

@@ -12,6 +12,7 @@ PYBIND11_MODULE(_core, module) {
   bind_mesh_report(module);
   bind_rigid_body(module);
   bind_shape(module);
+  bind_trajectory(module);
   bind_soundings(module);
   bind_terrain(module);
   bind_scene(module);

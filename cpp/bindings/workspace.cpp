@@ -13,6 +13,8 @@
 #include "bathyal/workspace/hull.hpp"
 #include "bathyal/workspace/keepout.hpp"
 #include "bindings.hpp"
+#include "trajectory.hpp"
+#include "workspace_class.hpp"
 #include "workspace_docs.hpp"
 
 namespace bathyal::python {
@@ -267,6 +269,28 @@ void bind_keepout_makers(py::class_<KeepOut>& keepout) {
           py::arg("mesh"), py::kw_only(), frame, name, workspace_docs::kMesh);
 }
 
+KeepOut keepout_from_state(const py::tuple& s) {
+  using Kind = KeepOutKind;
+  const KeepOutLabel label{s[1].cast<std::string>(), s[2].cast<std::string>()};
+  const auto radius = s[3].cast<double>(), length = s[4].cast<double>();
+  const Pose pose = pose_argument("pose", s[6]);
+  switch (static_cast<Kind>(s[0].cast<int>())) {
+    case Kind::kSphere:
+      return KeepOut::sphere(radius, pose.translation(), label);
+    case Kind::kBox:
+      return KeepOut::box(vector_argument("size", s[5]), pose, label);
+    case Kind::kCylinder:
+      return KeepOut::cylinder(radius, length, pose, label);
+    case Kind::kCone:
+      return KeepOut::cone(radius, length, pose, label);
+    case Kind::kHalfSpace:
+      return KeepOut::half_space(
+          Plane(vector_argument("normal", s[7]), s[8].cast<double>()), label);
+    default:
+      return KeepOut::mesh(s[9].cast<Hull>(), label);
+  }
+}
+
 void bind_keepout_values(py::class_<KeepOut>& keepout) {
   using Kind = KeepOutKind;
   keepout
@@ -305,6 +329,15 @@ void bind_keepout_values(py::class_<KeepOut>& keepout) {
           [](const KeepOut& k) { return only_if(k.kind() == Kind::kHalfSpace, k.border()); },
           "Plane of a half-space, its normal towards the free side; None of the others.")
       .def_property_readonly(
+          "motion", [](const KeepOut& k) { return k.motion(); },
+          "Trajectory: how what was given in the frame is moved; at rest unless `moved`.")
+      .def(
+          "moved",
+          [](const KeepOut& k, const PoseLike& pose) {
+            return k.moved(trajectory_argument("pose", pose));
+          },
+          py::arg("pose"), workspace_docs::kMoved)
+      .def_property_readonly(
           "hull", [](const KeepOut& k) { return k.hull(); }, "Hull of a mesh; None of the others.")
       .def("__repr__",
            [](const KeepOut& k) {
@@ -315,27 +348,10 @@ void bind_keepout_values(py::class_<KeepOut>& keepout) {
           [](const KeepOut& k) {
             return py::make_tuple(static_cast<int>(k.kind()), k.frame(), k.name(), k.radius(),
                                   k.length(), to_numpy(k.size()), to_numpy(k.pose()),
-                                  to_numpy(k.border().normal()), k.border().offset(), k.hull());
+                                  to_numpy(k.border().normal()), k.border().offset(), k.hull(), k.motion());
           },
           [](const py::tuple& s) {
-            const KeepOutLabel label{s[1].cast<std::string>(), s[2].cast<std::string>()};
-            const auto radius = s[3].cast<double>(), length = s[4].cast<double>();
-            const Pose pose = pose_argument("pose", s[6]);
-            switch (static_cast<Kind>(s[0].cast<int>())) {
-              case Kind::kSphere:
-                return KeepOut::sphere(radius, pose.translation(), label);
-              case Kind::kBox:
-                return KeepOut::box(vector_argument("size", s[5]), pose, label);
-              case Kind::kCylinder:
-                return KeepOut::cylinder(radius, length, pose, label);
-              case Kind::kCone:
-                return KeepOut::cone(radius, length, pose, label);
-              case Kind::kHalfSpace:
-                return KeepOut::half_space(
-                    Plane(vector_argument("normal", s[7]), s[8].cast<double>()), label);
-              default:
-                return KeepOut::mesh(s[9].cast<Hull>(), label);
-            }
+            return keepout_from_state(s).moved(s[10].cast<Trajectory>());
           }));
 }
 
@@ -382,6 +398,7 @@ void bind_workspace(py::module_& module) {
   bind_keepout_makers(keepout);
   bind_keepout_values(keepout);
   bind_keepout_queries(keepout);
+  bind_workspace_class(module);
 }
 
 }  // namespace bathyal::python

@@ -305,4 +305,17 @@ Examples
 [1.5]
 )";
 
+inline constexpr const char* kMoved = R"(The same volume carried along: an obstacle that moves.
+
+Parameters
+----------
+pose : (4, 4) array, Trajectory or callable
+    frame_from_given: what was given in the frame is moved by it. A function of the time [s] is
+    called every 0.05 s from 0 to 600 s.
+
+Returns
+-------
+KeepOut
+)";
+
 }  // namespace bathyal::python::workspace_docs

@@ -7,8 +7,10 @@ from bathyal import arms, effects
 from bathyal._core import (
     Arm,
     ArmFit,
+    Capsule,
     CleanReport,
     CleanResult,
+    Clearances,
     CorrectedArm,
     Diagnosis,
     Error,
@@ -19,6 +21,7 @@ from bathyal._core import (
     KeepOut,
     Link,
     MeshReport,
+    MotionCheck,
     Nearest,
     NearestSegments,
     Plane,
@@ -30,14 +33,17 @@ from bathyal._core import (
     Shape,
     SheetPatch,
     SheetReport,
+    TargetChecks,
     Targets,
     ToolPath,
     Touches,
     TouchForecast,
     TouchPlan,
     Tracked,
+    Trajectory,
     TriangleMesh,
     Voxels,
+    Workspace,
     clean_cloud,
     cover_polygon,
     diagnose,
@@ -54,6 +60,7 @@ from bathyal._core import (
     set_simd_level,
     simd_level,
     survey_height,
+    with_link_radii,
 )
 from bathyal.arm import methods as _arm_methods  # noqa: F401
 from bathyal.arm.files import read_arm
@@ -69,14 +76,17 @@ from bathyal.seabed.meshes import read_mesh, write_mesh
 from bathyal.seabed.triangulate import SheetWarning, triangulate
 from bathyal.toolpath import methods as _toolpath_methods  # noqa: F401
 from bathyal.toolpath.aims import read_aims
+from bathyal.workspace import link_meshes as _link_meshes  # noqa: F401
 
 __version__ = _version("bathyal")
 
 __all__ = [
     "Arm",
     "ArmFit",
+    "Capsule",
     "CleanReport",
     "CleanResult",
+    "Clearances",
     "CorrectedArm",
     "Diagnosis",
     "Error",
@@ -87,6 +97,7 @@ __all__ = [
     "KeepOut",
     "Link",
     "MeshReport",
+    "MotionCheck",
     "Nearest",
     "NearestSegments",
     "Plane",
@@ -100,14 +111,17 @@ __all__ = [
     "SheetReport",
     "SheetWarning",
     "SupportWarning",
+    "TargetChecks",
     "Targets",
     "ToolPath",
     "TouchForecast",
     "TouchPlan",
     "Touches",
     "Tracked",
+    "Trajectory",
     "TriangleMesh",
     "Voxels",
+    "Workspace",
     "arms",
     "clean_cloud",
     "cover_polygon",
@@ -135,6 +149,7 @@ __all__ = [
     "survey_height",
     "triangulate",
     "verify_arm",
+    "with_link_radii",
     "write_cloud",
     "write_mesh",
 ]

@@ -9,7 +9,7 @@ import numpy.typing
 import os
 import plotly.graph_objects
 import typing
-__all__: list[str] = ['Arm', 'ArmFit', 'BEYOND_NOISE', 'Cause', 'CleanReport', 'CleanResult', 'CorrectedArm', 'DhTable', 'Diagnosis', 'Effect', 'EffectRange', 'EffectRows', 'Error', 'Estimate', 'FitParameter', 'FoundEffect', 'HeldOut', 'HeldOutPart', 'Hits', 'Hull', 'HullReport', 'InverseResult', 'KeepOut', 'Link', 'MeshReport', 'NamedEffect', 'Nearest', 'NearestSegments', 'Outlier', 'Plane', 'PlaneFit', 'PointCloud', 'Polyline', 'RigidBody', 'Scene', 'Shape', 'SheetPatch', 'SheetReport', 'Structure', 'Support', 'Targets', 'TextTable', 'ToolPath', 'TouchForecast', 'TouchPlan', 'Touches', 'Tracked', 'Trade', 'TriangleMesh', 'Verification', 'Voxels', 'arm_from_chain', 'arm_from_parts', 'arm_parts', 'chain_from_arm', 'check_bytes', 'clean_cloud', 'cover_polygon', 'diagnose', 'find_effect_with', 'find_sheets', 'find_targets', 'fit_plane', 'forecast_touches', 'generate_survey', 'identify_arm', 'intersect_moller_trumbore', 'library_effects', 'mesh_report', 'plan_toolpath', 'plan_touches', 'read_pcd', 'read_text_table', 'set_simd_level', 'simd_level', 'survey_height', 'triangulate', 'triangulate_delaunay', 'verify_positions', 'warn_of_support_with', 'write_xyz']
+__all__: list[str] = ['Arm', 'ArmFit', 'BEYOND_NOISE', 'Capsule', 'Cause', 'CleanReport', 'CleanResult', 'Clearances', 'CorrectedArm', 'DhTable', 'Diagnosis', 'Effect', 'EffectRange', 'EffectRows', 'Error', 'Estimate', 'FitParameter', 'FoundEffect', 'HeldOut', 'HeldOutPart', 'Hits', 'Hull', 'HullReport', 'InverseResult', 'KeepOut', 'Link', 'MeshReport', 'MotionCheck', 'NamedEffect', 'Nearest', 'NearestSegments', 'Outlier', 'Plane', 'PlaneFit', 'PointCloud', 'Polyline', 'RigidBody', 'Scene', 'Shape', 'SheetPatch', 'SheetReport', 'Structure', 'Support', 'TargetChecks', 'Targets', 'TextTable', 'ToolPath', 'TouchForecast', 'TouchPlan', 'Touches', 'Tracked', 'Trade', 'Trajectory', 'TriangleMesh', 'Verification', 'Voxels', 'Workspace', 'arm_from_chain', 'arm_from_parts', 'arm_parts', 'chain_from_arm', 'check_bytes', 'clean_cloud', 'cover_polygon', 'diagnose', 'find_effect_with', 'find_sheets', 'find_targets', 'fit_plane', 'forecast_touches', 'generate_survey', 'identify_arm', 'intersect_moller_trumbore', 'library_effects', 'mesh_report', 'plan_toolpath', 'plan_touches', 'read_mesh_with', 'read_pcd', 'read_text_table', 'set_simd_level', 'simd_level', 'survey_height', 'triangulate', 'triangulate_delaunay', 'verify_positions', 'warn_of_support_with', 'with_link_radii', 'write_xyz']
 class Error(RuntimeError):
     """
     A broken file, a solver that failed or a part that is not installed.
@@ -481,6 +481,73 @@ class Shape:
     def size(self) -> numpy.ndarray | None:
         """
         (3,) full lengths of a box [m]; None of the others.
+        """
+class Trajectory:
+    """
+    A pose over time.
+    
+    Between two times the origin moves on a straight line and the frame turns at a constant rate about
+    one axis; before the first and after the last time it rests.
+    
+    Parameters
+    ----------
+    time : (K,) array
+        Rising [s].
+    pose : (K, 4, 4) array
+        target_from_source at each time: of a vehicle, world_from_vehicle.
+    
+    Raises
+    ------
+    ValueError
+        For no pose, times that do not rise, another count of poses, or one that is not rigid.
+    
+    Examples
+    --------
+    >>> import bathyal, numpy
+    >>> pose = numpy.stack([numpy.eye(4), numpy.eye(4)])
+    >>> pose[1, 0, 3] = 2.0
+    >>> bathyal.Trajectory([0, 4], pose).at(1.0)[:3, 3]
+    array([0.5, 0. , 0. ])
+    """
+    @staticmethod
+    def sampled(function: collections.abc.Callable[[float], numpy.typing.ArrayLike], end: typing.SupportsFloat | typing.SupportsIndex, *, start: typing.SupportsFloat | typing.SupportsIndex = 0.0, step: typing.SupportsFloat | typing.SupportsIndex = 0.05) -> Trajectory:
+        """
+        A trajectory from a function of time.
+        
+        Parameters
+        ----------
+        function : callable
+            From the time [s] to the pose, (4, 4).
+        end, start, step : float
+            First and last time, and the time between two calls [s]: between them the pose is interpolated.
+        
+        Returns
+        -------
+        Trajectory
+        """
+    def __getstate__(self) -> tuple[numpy.ndarray, numpy.ndarray]:
+        ...
+    def __init__(self, time: numpy.typing.ArrayLike, pose: numpy.typing.ArrayLike) -> None:
+        ...
+    def __len__(self) -> int:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def __setstate__(self, arg0: tuple) -> None:
+        ...
+    def at(self, time: numpy.typing.ArrayLike) -> numpy.ndarray:
+        """
+        The pose at a time [s], (4, 4); of (N,) times (N, 4, 4). Before the first and after the last it rests.
+        """
+    @property
+    def pose(self) -> numpy.ndarray:
+        """
+        (K, 4, 4) target_from_source.
+        """
+    @property
+    def time(self) -> numpy.ndarray:
+        """
+        (K,) rising [s].
         """
 class TextTable:
     """
@@ -2325,7 +2392,7 @@ class KeepOut:
         >>> bathyal.KeepOut.sphere(0.5, (0, 0, 1)).contains([[0, 0, 1.4], [0, 0, 1.6]]).tolist()
         [True, False]
         """
-    def __getstate__(self) -> tuple[int, str, str, float, float, numpy.ndarray, numpy.ndarray, numpy.ndarray, float, Hull | None]:
+    def __getstate__(self) -> tuple[int, str, str, float, float, numpy.ndarray, numpy.ndarray, numpy.ndarray, float, Hull | None, Trajectory]:
         ...
     def __repr__(self) -> str:
         ...
@@ -2395,6 +2462,20 @@ class KeepOut:
         (N,) array
             [m]
         """
+    def moved(self, pose: Trajectory | numpy.typing.ArrayLike | collections.abc.Callable[[float], numpy.typing.ArrayLike] | None) -> KeepOut:
+        """
+        The same volume carried along: an obstacle that moves.
+        
+        Parameters
+        ----------
+        pose : (4, 4) array, Trajectory or callable
+            frame_from_given: what was given in the frame is moved by it. A function of the time [s] is
+            called every 0.05 s from 0 to 600 s.
+        
+        Returns
+        -------
+        KeepOut
+        """
     @property
     def border(self) -> Plane | None:
         """
@@ -2421,6 +2502,11 @@ class KeepOut:
         Of a cylinder or cone, along its z [m]; None of the others.
         """
     @property
+    def motion(self) -> Trajectory:
+        """
+        Trajectory: how what was given in the frame is moved; at rest unless `moved`.
+        """
+    @property
     def name(self) -> str:
         """
         What reports call it.
@@ -2439,6 +2525,401 @@ class KeepOut:
     def size(self) -> numpy.ndarray | None:
         """
         (3,) full lengths of a box [m]; None of the others.
+        """
+class Capsule:
+    """
+    All points within a radius of a segment, its axis.
+    
+    Parameters
+    ----------
+    start, end : (3,) arrays
+        Ends of the axis [m]; a ball where they are one point.
+    radius : float
+        [m], 0 or more.
+    
+    Raises
+    ------
+    ValueError
+        For an end that is not finite, a radius that is negative or not finite.
+    """
+    def __init__(self, start: numpy.typing.ArrayLike, end: numpy.typing.ArrayLike, radius: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        ...
+    def __repr__(self) -> str:
+        ...
+    @property
+    def end(self) -> numpy.ndarray:
+        """
+        (3,) [m].
+        """
+    @property
+    def radius(self) -> float:
+        """
+        [m].
+        """
+    @property
+    def start(self) -> numpy.ndarray:
+        """
+        (3,) [m].
+        """
+class Clearances:
+    """
+    How near each posture comes to what must not be touched.
+    
+    Links that are compared with nothing are listed in ``Workspace.excluded``. Of a single posture the
+    arrays have no first dimension.
+    """
+    def __len__(self) -> int:
+        ...
+    def __repr__(self) -> str:
+        ...
+    @property
+    def against(self) -> str | numpy.ndarray:
+        """
+        (N,) to what: "hull", "scene" or a keep-out's name.
+        """
+    @property
+    def distance(self) -> float | numpy.ndarray:
+        """
+        (N,) smallest distance of any link to hull, keep-outs and scene [m]: below 0 where they overlap, inf where there is nothing.
+        """
+    @property
+    def link(self) -> str | numpy.ndarray:
+        """
+        (N,) name of the link that is nearest; empty where there is nothing.
+        """
+    @property
+    def link_point(self) -> numpy.ndarray:
+        """
+        (N, 3) the nearest point on the axis of the link's capsule, in the vehicle's frame [m].
+        """
+    @property
+    def point(self) -> numpy.ndarray:
+        """
+        (N, 3) the nearest point of that, in the vehicle's frame [m]; nan where there is nothing.
+        """
+    @property
+    def self_distance(self) -> float | numpy.ndarray:
+        """
+        (N,) smallest distance between the arm's own links [m].
+        """
+class MotionCheck:
+    """
+    The first contact of a motion; falsy where there is one.
+    """
+    def __bool__(self) -> bool:
+        ...
+    def __repr__(self) -> str:
+        ...
+    @property
+    def against(self) -> str:
+        """
+        What it touches: "hull", "scene", a keep-out's name or another link's.
+        """
+    @property
+    def contact(self) -> float:
+        """
+        Row of the first contact, with the fraction of the way to the next; nan of a free motion.
+        """
+    @property
+    def free(self) -> bool:
+        """
+        Whether there is no contact.
+        """
+    @property
+    def link(self) -> str:
+        """
+        Name of the link that touches; empty of a free motion.
+        """
+    @property
+    def time(self) -> float:
+        """
+        Of the first contact [s]; nan of a free motion, and where no times were given.
+        """
+class TargetChecks:
+    """
+    Whether the arm may be sent to each point, and why not.
+    """
+    def __len__(self) -> int:
+        ...
+    def __repr__(self) -> str:
+        ...
+    @property
+    def distance(self) -> numpy.ndarray:
+        """
+        (N,) from the point to the nearest of hull, keep-outs and ground [m], below 0 inside; inf where there is nothing.
+        """
+    @property
+    def keepout(self) -> numpy.ndarray:
+        """
+        (N,) index of the keep-out that the point lies in, −1 where none.
+        """
+    @property
+    def q(self) -> numpy.ndarray:
+        """
+        (N, n) a posture that reaches the point, the best that was found; nan where there is none.
+        """
+    @property
+    def status(self) -> numpy.ndarray:
+        """
+        (N,) the first that holds: "hull" (inside it), "keepout", "ground" (under the bottom), "unreachable" (within the limits, in any orientation), "collision" (only by postures that touch something), "limit" (only with a joint within 0.01 rad, 1 mm of a limit), "free".
+        """
+class Workspace:
+    """
+    An arm on a vehicle among what it must not touch.
+    
+    Maevskiy, Zanin (2020). The arm hangs at `mount`; its own ``arm.base`` plays no part, its tip is
+    ``arm.tool``. Targets and goals are in the world, keep-outs in the frame that they name, results in
+    the vehicle's frame. Its foot, link 0, is bolted to the vehicle and is compared with nothing.
+    Immutable: `attach`, `detach` and `with_vehicle_pose` give another one. Any number of threads may
+    query it.
+    
+    Parameters
+    ----------
+    arm : Arm
+    mount : (4, 4) array, optional
+        vehicle_from_base; the identity unless given.
+    hull : Hull, optional
+        In the vehicle's frame.
+    scene : Scene, optional
+        In the world: the bottom and what lies on it. Below a surface that faces up is inside.
+    keepouts : list of KeepOut
+        Each in the frame that it names; obstacles that move are keep-outs that were `moved`.
+    vehicle_pose : (4, 4) array, Trajectory or callable, optional
+        world_from_vehicle; the identity unless given. A function of the time [s] is called every 0.05 s
+        from 0 to 600 s and interpolated; for other times give a Trajectory.
+    vehicle_pose_std : (6,) array, optional
+        Standard deviations of the vehicle's pose: of the origin along the vehicle's axes [m], then of
+        the rotation about them [rad]. Distances to what is fixed to the world are less by three
+        standard deviations of where that takes a point (first order).
+    vehicle_body : RigidBody, optional
+        Of the vehicle without the arm, in the vehicle's frame: for `static_trim`.
+    radii : float or (links,) array, optional
+        Thickness of the arm: capsules of these radii along the segments from joint to joint [m]. Unless
+        it or `capsules` is given, capsules are fitted to the links' shapes: those for collisions, else
+        those for the eye.
+    capsules : dict, optional
+        By the name of a link a list of Capsules in the link's frame; links not named have none.
+    allowed : list of (str, str)
+        Pairs of links that may touch, by name.
+    
+    Raises
+    ------
+    ValueError
+        For poses that are not rigid, a keep-out whose frame is neither "hull", "world" nor a link's
+        name, links that are not there.
+    
+    Warns
+    -----
+    UserWarning
+        Where the arm has no shapes, and is bare segments, or a mesh of it cannot be read.
+    
+    Examples
+    --------
+    >>> import bathyal
+    >>> arm = bathyal.Arm.from_dh(a=[0.5, 0.4], alpha=[0, 0], d=[0, 0], theta=[0, 0])
+    >>> ball = bathyal.KeepOut.sphere(0.2, (0.9, 0.6, 0), name="ball")
+    >>> ws = bathyal.Workspace(arm, keepouts=[ball], radii=0.05)
+    >>> near = ws.clearance([0.0, 0.0])
+    >>> round(near.distance, 6), near.link, near.against
+    (0.35, 'link_2', 'ball')
+    >>> ws.check_target([[0.6, 0.3, 0.0], [2.0, 0.0, 0.0]]).status.tolist()
+    ['free', 'unreachable']
+    """
+    def __init__(self, arm: Arm, mount: numpy.typing.ArrayLike | None = None, *, hull: Hull | None = None, scene: Scene | None = None, keepouts: collections.abc.Sequence[KeepOut] = [], vehicle_pose: Trajectory | numpy.typing.ArrayLike | collections.abc.Callable[[float], numpy.typing.ArrayLike] | None = None, vehicle_pose_std: numpy.typing.ArrayLike | None = None, vehicle_body: RigidBody | None = None, radii: numpy.typing.ArrayLike | None = None, capsules: collections.abc.Mapping[str, collections.abc.Sequence[Capsule]] | None = None, allowed: collections.abc.Sequence[tuple[str, str]] = []) -> None:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def attach(self, capsules: collections.abc.Sequence[Capsule], body: RigidBody | None = None) -> Workspace:
+        """
+        The same workspace with a tool or a sample in the arm's hand.
+        
+        Parameters
+        ----------
+        capsules : list of Capsule
+            Its outline, in the tool's frame (origin in the tool centre point). Not compared with the last
+            link.
+        body : RigidBody, optional
+            What it weighs and displaces, in the tool's frame.
+        
+        Returns
+        -------
+        Workspace
+            Another one; this one stays as it is.
+        """
+    def check_motion(self, q_path: numpy.typing.ArrayLike, *, time: numpy.typing.ArrayLike | None = None, stopping: bool = False, acceleration: numpy.typing.ArrayLike | None = None, tip_contact: bool = False) -> MotionCheck:
+        """
+        Whether a motion is free of contact everywhere.
+        
+        Rows are joined by straight lines in joint space, and the check is continuous between them: an
+        interval is free when in its middle every distance is larger than what the motion to its ends can
+        take any point by; else it is halved. No thin plate is stepped over. A body that stays nearer than
+        0.01 mm may count as contact.
+        
+        Parameters
+        ----------
+        q_path : (M, n) array
+            [rad] or [m]; one row is a posture that is held.
+        time : (M,) array, optional
+            Of each row, rising [s]; needed where the vehicle or a keep-out moves, and for `stopping`.
+        stopping : bool
+            Whether the arm must be able to stop, too: at every moment each coordinate may run on by its
+            stopping distance, speed² / (2 acceleration), either way.
+        acceleration : float or (n,) array, optional
+            With which each coordinate brakes [rad/s²] or [m/s²]; unless given its rate limit is reached from
+            rest in half a second (1 rad/s², 0.5 m/s² of a joint without one).
+        tip_contact : bool
+            As of `clearance`.
+        
+        Returns
+        -------
+        MotionCheck
+        
+        Raises
+        ------
+        ValueError
+            For no row, values that are not finite, times that do not rise, or none where they are needed.
+        
+        Examples
+        --------
+        >>> import bathyal
+        >>> arm = bathyal.Arm.from_dh(a=[0.5, 0.4], alpha=[0, 0], d=[0, 0], theta=[0, 0])
+        >>> pole = bathyal.KeepOut.sphere(0.01, (0.0, 0.9, 0.0), name="pole")
+        >>> ws = bathyal.Workspace(arm, keepouts=[pole], radii=0.02)
+        >>> swing = ws.check_motion([[0.0, 0.0], [3.0, 0.0]])
+        >>> swing.free, round(swing.contact, 2), swing.link, swing.against
+        (False, 0.51, 'link_2', 'pole')
+        """
+    def check_target(self, points: numpy.typing.ArrayLike, *, time: typing.SupportsFloat | typing.SupportsIndex = 0.0, seed: typing.SupportsInt | typing.SupportsIndex = 0, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> TargetChecks:
+        """
+        Whether the arm may be sent to points.
+        
+        The indicator of Maevskiy, Zanin (2020). Postures are looked for by inverse kinematics of the tip's
+        position, in any orientation, from 25 starts; the end of their tool may touch the scene. A redundant
+        arm may have a free posture that was not among them.
+        
+        Parameters
+        ----------
+        points : (N, 3) array
+            In the world [m].
+        time : float
+            [s]; matters where the vehicle or a keep-out moves.
+        seed : int
+            Of the starts.
+        num_threads : int
+            0 means all.
+        
+        Returns
+        -------
+        TargetChecks
+        
+        Raises
+        ------
+        ValueError
+            For a point that is not finite.
+        """
+    def clearance(self, q: numpy.typing.ArrayLike, *, time: numpy.typing.ArrayLike = 0.0, tip_contact: bool = False, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> Clearances:
+        """
+        How near postures come to what must not be touched.
+        
+        Parameters
+        ----------
+        q : (N, n) or (n,) array
+            [rad] or [m]; may lie beyond the limits.
+        time : float or (N,) array
+            [s]; matters where the vehicle or a keep-out moves.
+        tip_contact : bool
+            Whether the end of the tool may touch the scene: its last two radii (at least 1 mm) are then not
+            compared with it.
+        num_threads : int
+            0 means all.
+        
+        Returns
+        -------
+        Clearances
+            Of a single posture without the first dimension.
+        """
+    def detach(self) -> Workspace:
+        """
+        Another workspace without what was attached; ValueError where nothing was.
+        """
+    def place_capsules(self, q: numpy.typing.ArrayLike) -> numpy.ndarray:
+        """
+        The arm's capsules in postures.
+        
+        Parameters
+        ----------
+        q : (N, n) or (n,) array
+            [rad] or [m].
+        
+        Returns
+        -------
+        (N, C, 7) array
+            Of each capsule start and end of the axis in the vehicle's frame and the radius [m]; `C` as in
+            `capsule_links`. Of a single posture (C, 7).
+        """
+    def with_vehicle_pose(self, vehicle_pose: Trajectory | numpy.typing.ArrayLike | collections.abc.Callable[[float], numpy.typing.ArrayLike] | None) -> Workspace:
+        """
+        Another workspace, the vehicle elsewhere: `vehicle_pose` as of the class.
+        """
+    @property
+    def arm(self) -> Arm:
+        """
+        Its base is the mount, in the vehicle's frame.
+        """
+    @property
+    def attached(self) -> RigidBody:
+        """
+        RigidBody of what is attached, in the tool's frame; without mass where nothing is.
+        """
+    @property
+    def capsule_links(self) -> list[str]:
+        """
+        List of the links' names, one a capsule, in the order of `place_capsules`.
+        """
+    @property
+    def excluded(self) -> list[tuple[str, str, str]]:
+        """
+        List of (link, other link or obstacle, reason) that are not compared: "neighbours", "allowed", "fixed to it", and "touch in every posture" of 64 drawn.
+        """
+    @property
+    def hull(self) -> Hull | None:
+        """
+        Hull or None.
+        """
+    @property
+    def keepouts(self) -> list[KeepOut]:
+        """
+        List of KeepOut.
+        """
+    @property
+    def mount(self) -> numpy.ndarray:
+        """
+        (4, 4) vehicle_from_base.
+        """
+    @property
+    def moves(self) -> bool:
+        """
+        Whether distances depend on the time: the vehicle or a keep-out moves.
+        """
+    @property
+    def obstacles(self) -> list[str]:
+        """
+        List of what links are compared with: "hull", the keep-outs' names, "scene".
+        """
+    @property
+    def scene(self) -> Scene | None:
+        """
+        Scene or None.
+        """
+    @property
+    def vehicle_body(self) -> RigidBody | None:
+        """
+        RigidBody or None.
+        """
+    @property
+    def vehicle_pose(self) -> Trajectory:
+        """
+        Trajectory: world_from_vehicle; of a single pose at rest.
         """
 class Touches:
     """
@@ -4791,6 +5272,10 @@ def plan_touches(arm: Arm, count: typing.SupportsInt | typing.SupportsIndex, *, 
     >>> bool(plan.worst_tip_std < 0.001)
     True
     """
+def read_mesh_with(read: collections.abc.Callable) -> None:
+    """
+    Hand in what reads the corners of a shape's mesh.
+    """
 def read_pcd(path: os.PathLike | str | bytes, *, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> PointCloud:
     """
     The point cloud of a .pcd file: ascii, binary or binary_compressed.
@@ -4878,6 +5363,32 @@ def verify_positions(predicted: numpy.typing.ArrayLike, positions: numpy.typing.
 def warn_of_support_with(warn: collections.abc.Callable) -> None:
     """
     Hand in what warns of a call beyond the support of a corrected arm.
+    """
+def with_link_radii(arm: Arm, radii: numpy.typing.ArrayLike, *, density: typing.SupportsFloat | typing.SupportsIndex | None = None) -> Arm:
+    """
+    The same arm with thickness: a cylinder along each of its segments.
+    
+    The segments lead from joint to joint, along d and a of each row of the table, and to the tool
+    centre point; those that a sliding joint draws out are left bare.
+    
+    Parameters
+    ----------
+    arm : Arm
+    radii : float or (links,) array
+        One for all links, or one each, the foot first [m].
+    density : float, optional
+        Mean density of the cylinders [kg/m³]: where given, links without mass and volume take those of
+        their cylinders, and their inertia.
+    
+    Returns
+    -------
+    Arm
+        The cylinders are among the collision shapes of its links.
+    
+    Raises
+    ------
+    ValueError
+        For another count, a radius that is negative or not finite, a density that is not positive.
     """
 def write_xyz(path: os.PathLike | str | bytes, cloud: PointCloud, *, decimals: typing.SupportsInt | typing.SupportsIndex = -1, separator: str = ' ', preamble: str = '', header: bool = False, attributes: collections.abc.Sequence[str] = [], num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> None:
     """

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <functional>
+#include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "bathyal/arm/arm.hpp"
@@ -32,6 +35,26 @@ std::vector<LinkCapsule> capsules_of_rows(const Arm& arm, std::span<const double
 /// \throw std::invalid_argument for another count of lists, and as Capsule::check.
 std::vector<LinkCapsule> capsules_of_links(const Arm& arm,
                                            std::span<const std::vector<Capsule>> shapes);
+
+/// The corners of a mesh that a shape names, along its scale; none where it cannot be read.
+using MeshCorners = std::function<std::optional<Points>(const Shape&)>;
+
+struct ArmCapsules {
+  std::vector<LinkCapsule> capsules;
+  std::vector<std::string> warnings;
+};
+
+/// Capsules around the shapes of an arm's links, one a shape: those for collisions, or where a link
+/// has none, those for the eye. A link without any has its segments of capsules_of_rows, without
+/// thickness; a warning says so where no link has any, or a mesh cannot be read.
+ArmCapsules capsules_of_shapes(const Arm& arm, const MeshCorners& corners);
+
+/// The same arm with a cylinder along each segment of capsules_of_rows but those that a sliding
+/// joint draws out, as the collision shapes of its links. Of each link that has none, mass, volume
+/// and inertia are those of its cylinders where a density is given [kg/m³].
+/// \throw std::invalid_argument as capsules_of_rows, for a density that is not positive.
+Arm with_link_radii(const Arm& arm, std::span<const double> radii,
+                    std::optional<double> density = std::nullopt);
 
 /// The capsules of a pose: start and end from the frames of the rows, in their common frame.
 Capsule placed(const Arm& arm, const LinkCapsule& capsule, const RowFrames& frames);

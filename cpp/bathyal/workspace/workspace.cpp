@@ -176,6 +176,20 @@ std::vector<TargetCheck> Workspace::check_target(PointView points, double time,
   return workspace::check_targets(*this, state_->bodies, points, {time, seed, num_threads});
 }
 
+std::vector<Capsule> Workspace::placed_capsules(JointView q) const {
+  check_joint_values(arm(), q);
+  std::vector<Capsule> capsules;
+  RowFrames frames;
+  for (Index i = 0; i < q.rows(); ++i) {
+    compute_row_frames(arm(), {q.data() + i * q.cols(), static_cast<std::size_t>(q.cols())},
+                       frames);
+    for (const LinkCapsule& capsule : state_->surroundings.capsules) {
+      capsules.push_back(placed(arm(), capsule, frames));
+    }
+  }
+  return capsules;
+}
+
 Workspace Workspace::with_vehicle_pose(Trajectory world_from_vehicle) const {
   State moved = *state_;
   moved.surroundings.world_from_vehicle = std::move(world_from_vehicle);

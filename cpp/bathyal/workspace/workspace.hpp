@@ -87,7 +87,7 @@ struct MotionCheck {
 };
 
 /// What of a target forbids it: the first that holds.
-enum class TargetStatus {
+enum class TargetIndicator {
   kHull,         ///< inside the vehicle's hull
   kKeepOut,      ///< inside a keep-out
   kGround,       ///< under the bottom
@@ -98,7 +98,7 @@ enum class TargetStatus {
 };
 
 struct TargetCheck {
-  TargetStatus status = TargetStatus::kFree;
+  TargetIndicator status = TargetIndicator::kFree;
   int keepout = -1;  ///< that the point lies in: an index into the keep-outs given
   /// From the point to the nearest of hull, keep-outs and ground [m], below 0 inside; inf if there
   /// are none.
@@ -152,6 +152,10 @@ class Workspace {
   /// \throw std::invalid_argument for a point that is not finite.
   std::vector<TargetCheck> check_target(PointView points, double time = 0.0,
                                         std::uint64_t seed = 0, int num_threads = 0) const;
+
+  /// The capsules of each row of q, in the vehicle's frame: those of surroundings(), (N, C).
+  /// \throw std::invalid_argument as check_joint_values.
+  std::vector<Capsule> placed_capsules(JointView q) const;
 
   /// Whether the distances of a motion depend on the time: the vehicle moves, and there is
   /// something fixed to the world; or a keep-out moves.

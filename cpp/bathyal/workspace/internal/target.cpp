@@ -42,11 +42,11 @@ TargetCheck check_point(const Workspace& workspace, const Bodies& bodies, const 
     }
   }
   if (in_hull) {
-    found.status = TargetStatus::kHull;
+    found.status = TargetIndicator::kHull;
   } else if (found.keepout >= 0) {
-    found.status = TargetStatus::kKeepOut;
+    found.status = TargetIndicator::kKeepOut;
   } else if (in_ground) {
-    found.status = TargetStatus::kGround;
+    found.status = TargetIndicator::kGround;
   }
   return found;
 }
@@ -113,9 +113,9 @@ void check_postures(const Workspace& workspace, const JointMatrix& q, double tim
     if (rank(i) > rank(best)) best = i;
   }
   const auto [free, away, room] = rank(best);
-  check.status = away   ? TargetStatus::kFree
-                 : free ? TargetStatus::kLimit
-                        : TargetStatus::kCollision;
+  check.status = away   ? TargetIndicator::kFree
+                 : free ? TargetIndicator::kLimit
+                        : TargetIndicator::kCollision;
   const double* row = q.data() + static_cast<Index>(best) * q.cols();
   check.q.assign(row, row + q.cols());
 }
@@ -135,11 +135,11 @@ std::vector<TargetCheck> check_targets(const Workspace& workspace, const Bodies&
       found[i] = check_point(workspace, bodies, point, posture);
       const JointMatrix q = postures(bodies.arm, point, query);
       if (q.rows() > 0) {
-        const TargetStatus of_point = found[i].status;
+        const TargetIndicator of_point = found[i].status;
         check_postures(workspace, q, query.time, found[i]);
-        if (of_point != TargetStatus::kFree) found[i].status = of_point;
-      } else if (found[i].status == TargetStatus::kFree) {
-        found[i].status = TargetStatus::kUnreachable;
+        if (of_point != TargetIndicator::kFree) found[i].status = of_point;
+      } else if (found[i].status == TargetIndicator::kFree) {
+        found[i].status = TargetIndicator::kUnreachable;
       }
     }
   });
