@@ -58,15 +58,6 @@ namespace {
 using CapsuleLists = std::map<std::string, std::vector<Capsule>>;
 using LinkPairs = std::vector<std::pair<std::string, std::string>>;
 
-int link_index(std::string_view name, const Arm& arm, const std::string& link) {
-  for (std::size_t i = 0; i < arm.links().size(); ++i) {
-    if (arm.links()[i].name == link) return static_cast<int>(i);
-  }
-  std::vector<std::string> known;
-  for (const Link& one : arm.links()) known.push_back(one.name);
-  throw_argument(name, "names of links: " + listed(known), "\"" + link + "\"");
-}
-
 /// Reads the mesh of a shape by the package's hook; none where it cannot.
 std::optional<Points> mesh_corners(const Shape& shape) {
   const py::object found = hook(Hook::kMeshVertices)(shape);
@@ -84,7 +75,7 @@ std::vector<LinkCapsule> arm_capsules(const Arm& arm, const OptionalArray& radii
   if (capsules) {
     std::vector<std::vector<Capsule>> shapes(arm.links().size());
     for (const auto& [link, list] : *capsules) {
-      shapes[static_cast<std::size_t>(link_index("capsules", arm, link))] = list;
+      shapes[static_cast<std::size_t>(link_index(arm, link, "capsules"))] = list;
     }
     return capsules_of_links(arm, shapes);
   }
@@ -107,8 +98,8 @@ Vec6 pose_std_argument(const OptionalArray& given) {
   return values.view();
 }
 
-std::string link_name(const Workspace& ws, int link) {
-  return link < 0 ? "" : ws.arm().links()[static_cast<std::size_t>(link)].name;
+std::string name_of_link(const Workspace& ws, int link) {
+  return link < 0 ? "" : link_name(ws.arm(), link);
 }
 
 std::string obstacle_name(const Workspace& ws, int obstacle) {
@@ -199,7 +190,7 @@ void bind_clearances(py::module_& module) {
       .def_property_readonly(
           "link",
           [](const Rows& r) {
-            return r.names([&](const auto& c) { return link_name(r.workspace, c.link); });
+            return r.names([&](const auto& c) { return name_of_link(r.workspace, c.link); });
           },
           "(N,) name of the link that is nearest; empty where there is nothing.")
       .def_property_readonly(
@@ -319,7 +310,7 @@ Workspace make_workspace(const Arm& arm, const OptionalArray& mount, std::option
   around.vehicle_body = std::move(vehicle_body);
   around.capsules = arm_capsules(arm, radii, capsules);
   for (const auto& [one, other] : allowed) {
-    around.allowed.emplace_back(link_index("allowed", arm, one), link_index("allowed", arm, other));
+    around.allowed.emplace_back(link_index(arm, one, "allowed"), link_index(arm, other, "allowed"));
   }
   const py::gil_scoped_release release;
   return {arm, std::move(around)};
@@ -367,9 +358,9 @@ void add_queries(py::class_<Workspace>& cls) {
           const py::gil_scoped_release release;
           found.check = ws.check_motion(joint_view(rows), options);
         }
-        found.link = link_name(ws, found.check.link);
+        found.link = name_of_link(ws, found.check.link);
         found.against = found.check.obstacle >= 0 ? obstacle_name(ws, found.check.obstacle)
-                                                  : link_name(ws, found.check.other_link);
+                                                  : name_of_link(ws, found.check.other_link);
         return found;
       },
       py::arg("q_path"), py::kw_only(), py::arg("time") = py::none(),
@@ -461,7 +452,7 @@ void add_values(py::class_<Workspace>& cls) {
           [](const Workspace& ws) {
             std::vector<std::string> names;
             for (const LinkCapsule& c : ws.surroundings().capsules) {
-              names.push_back(link_name(ws, c.link));
+              names.push_back(name_of_link(ws, c.link));
             }
             return names;
           },
@@ -474,9 +465,9 @@ void add_values(py::class_<Workspace>& cls) {
           [](const Workspace& ws) {
             std::vector<std::tuple<std::string, std::string, std::string>> pairs;
             for (const ExcludedPair& pair : ws.excluded()) {
-              pairs.emplace_back(link_name(ws, pair.link),
+              pairs.emplace_back(name_of_link(ws, pair.link),
                                  pair.obstacle >= 0 ? obstacle_name(ws, pair.obstacle)
-                                                    : link_name(ws, pair.other_link),
+                                                    : name_of_link(ws, pair.other_link),
                                  pair.reason);
             }
             return pairs;

@@ -2,7 +2,8 @@
 """Arms by name, with their limits and where the numbers come from (``arm.source``).
 
 Each function gives a new Arm: nominal geometry of the drawing, from the foot to the flange. A real
-arm differs from it by millimetres: see bathyal.identify_arm.
+arm differs from it by millimetres: see bathyal.identify_arm. Its links have cylinders for
+collisions, as thick as the links are about: to centimetres; the meshes of a URDF are nearer.
 
 Examples
 --------
@@ -15,7 +16,7 @@ array([ 2.8973,  1.7628,  2.8973, -0.0698,  2.8973,  3.7525,  2.8973])
 
 from math import atan, inf, pi
 
-from bathyal._core import Arm
+from bathyal._core import Arm, with_link_radii
 
 __all__ = [
     "gen3_lite",
@@ -41,7 +42,7 @@ _UR_EFFORT = [330, 330, 150, 56, 56, 56]
 
 
 def _ur(name: str, a: list[float], d: list[float], velocity: list[float], source: str) -> Arm:
-    return Arm.from_dh(
+    arm = Arm.from_dh(
         a=a,
         alpha=_UR_ALPHA,
         d=d,
@@ -54,6 +55,7 @@ def _ur(name: str, a: list[float], d: list[float], velocity: list[float], source
         name=name,
         source=source,
     )
+    return with_link_radii(arm, [0.075, 0.075, 0.075, 0.06, 0.045, 0.045, 0.045])
 
 
 def ur10() -> Arm:
@@ -89,7 +91,7 @@ def ur10e() -> Arm:
 
 def panda() -> Arm:
     """Franka Emika Panda, seven joints, base to flange (the hand is a tool)."""
-    return Arm.from_dh(
+    arm = Arm.from_dh(
         a=[0, 0, 0, 0.0825, -0.0825, 0, 0.088, 0],
         alpha=[0, -pi / 2, pi / 2, pi / 2, -pi / 2, pi / 2, pi / 2, 0],
         d=[0.333, 0, 0.316, 0, 0.384, 0, 0, 0.107],
@@ -105,12 +107,13 @@ def panda() -> Arm:
         source="Franka Emika, Robot and interface specifications: Denavit-Hartenberg parameters "
         "(Craig's convention) and limits of the Panda",
     )
+    return with_link_radii(arm, [0.09, 0.06, 0.06, 0.06, 0.06, 0.06, 0.05, 0.05, 0.05])
 
 
 def gen3_lite() -> Arm:
     """Kinova Gen3 lite, six joints, base to the interface that carries the gripper."""
     upper = [2.68, 2.61, 2.61, 2.57, 2.53, 2.09]
-    return Arm.from_dh(
+    arm = Arm.from_dh(
         a=[0, 0.28, 0, 0, 0, 0],
         alpha=[pi / 2, pi, pi / 2, pi / 2, pi / 2, 0],
         d=[0.12825 + 0.115, 0.03, 0.02, 0.14 + 0.105, 0.0285 + 0.0285, 0.105],
@@ -123,11 +126,15 @@ def gen3_lite() -> Arm:
         name="Gen3 lite",
         source="Kinova, URDF of the Gen3 lite",
     )
+    return with_link_radii(arm, [0.05, 0.045, 0.04, 0.04, 0.035, 0.035, 0.035])
 
 
 def maevskiy_zanin() -> Arm:
-    """The three-joint arm that takes soil samples in Maevskiy, Zanin (2020)."""
-    return Arm.from_dh(
+    """The three-joint arm that takes soil samples in Maevskiy, Zanin (2020).
+
+    How thick its links are was not published: 8 cm is assumed.
+    """
+    arm = Arm.from_dh(
         a=[0.193, 0.552, 0.596],
         alpha=[pi / 2, 0, 0],
         d=[-0.117, 0, 0],
@@ -138,6 +145,7 @@ def maevskiy_zanin() -> Arm:
         source="Maevskiy, Zanin (2020), Modular control systems for manipulators and "
         "intervention-class AUVs: table of Denavit-Hartenberg parameters and limits",
     )
+    return with_link_radii(arm, 0.04)
 
 
 def reach_alpha_5() -> Arm:
@@ -145,7 +153,7 @@ def reach_alpha_5() -> Arm:
 
     q runs from the base outward (axis e, d, c, b of the maker's counting from the jaw).
     """
-    return Arm.from_dh(
+    arm = Arm.from_dh(
         a=[0.02, 0.15, 0.02, 0],
         alpha=[pi / 2, pi, -pi / 2, 0],
         d=[0.046, 0, 0, -0.19],
@@ -158,6 +166,7 @@ def reach_alpha_5() -> Arm:
         name="Reach Alpha 5",
         source="Kolano (2023), URDF of a BlueROV2 with a Reach Alpha 5",
     )
+    return with_link_radii(arm, 0.025)
 
 
 def reach_bravo_7() -> Arm:
@@ -166,7 +175,7 @@ def reach_bravo_7() -> Arm:
     The first and last rows of the maker's table are fixed transforms inside the arm.
     """
     bend = atan(5.2 / 290.77)
-    return Arm.from_dh(
+    arm = Arm.from_dh(
         d=[0.04145, -0.11748, 0, 0, -0.16026, 0, -0.22416, 0],
         theta=[0, pi, -pi / 2 + bend, -pi / 2 - bend, pi, 0, 0, -pi / 2],
         a=[0.0675, 0.046, 0.29082, 0.0408, 0.0408, 0.0408, 0, 0.12],
@@ -179,3 +188,4 @@ def reach_bravo_7() -> Arm:
         source="Reach Robotics, kinematic table of the Bravo 7; limits of the maker's ROS "
         "description (axis b turns without end)",
     )
+    return with_link_radii(arm, 0.05)

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "bathyal/base/error.hpp"
+#include "bathyal/base/text.hpp"
 
 namespace bathyal {
 namespace {
@@ -24,6 +25,20 @@ double distance_from_axis(const Capsule& capsule, const Vec3& origin, const Vec3
 
 }  // namespace
 
+std::string link_name(const Arm& arm, int link) {
+  const std::string& name = arm.links()[static_cast<std::size_t>(link)].name;
+  return name.empty() ? "link_" + std::to_string(link) : name;
+}
+
+int link_index(const Arm& arm, std::string_view link, std::string_view argument) {
+  std::vector<std::string> known;
+  for (int i = 0; i < std::ssize(arm.links()); ++i) {
+    known.push_back(link_name(arm, i));
+    if (known.back() == link) return i;
+  }
+  throw_argument(argument, "the name of a link: " + listed(known), "\"" + std::string(link) + "\"");
+}
+
 std::vector<LinkCapsule> capsules_of_rows(const Arm& arm, std::span<const double> radii) {
   const std::size_t links = arm.joints().size() + 1;
   if (radii.size() > 1 && radii.size() != links) {
@@ -38,7 +53,7 @@ std::vector<LinkCapsule> capsules_of_rows(const Arm& arm, std::span<const double
                        const Vec3& end) {
     const LinkCapsule made{static_cast<int>(link), static_cast<int>(start_link), start, end,
                            radius(link)};
-    Capsule{start, end, made.radius}.check("radii: link " + arm.links()[link].name);
+    Capsule{start, end, made.radius}.check("radii: link " + link_name(arm, static_cast<int>(link)));
     if (start_link != link || (end - start).norm() > 0.0) capsules.push_back(made);
   };
   // Row k leads from the frame of row k - 1 along its z by d, then along the new x by a.
@@ -71,7 +86,7 @@ std::vector<LinkCapsule> capsules_of_links(const Arm& arm,
   std::vector<LinkCapsule> capsules;
   for (std::size_t link = 0; link < shapes.size(); ++link) {
     for (const Capsule& capsule : shapes[link]) {
-      capsule.check("shapes: link " + arm.links()[link].name);
+      capsule.check("shapes: link " + link_name(arm, static_cast<int>(link)));
       const int index = static_cast<int>(link);
       capsules.push_back({index, index, capsule.start, capsule.end, capsule.radius});
     }

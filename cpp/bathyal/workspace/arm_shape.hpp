@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "bathyal/arm/arm.hpp"
@@ -14,6 +15,12 @@
 // The body of an arm as capsules: what of it must not touch anything.
 
 namespace bathyal {
+
+/// The name of a link; of one without a name "link_2" by its index.
+std::string link_name(const Arm& arm, int link);
+
+/// \throw std::invalid_argument that lists the names for one that is not among them.
+int link_index(const Arm& arm, std::string_view link, std::string_view argument = "link");
 
 /// A capsule that moves with a link. Its start may be fixed in the link before: a sliding joint
 /// draws it out.

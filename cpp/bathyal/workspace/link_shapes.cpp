@@ -71,7 +71,7 @@ ArmCapsules capsules_of_shapes(const Arm& arm, const MeshCorners& corners) {
       if (capsule) {
         shapes[link].push_back(in_frame(*capsule, shape.body_from_shape));
       } else {
-        found.warnings.push_back("link " + one.name + ": its mesh " + shape.file +
+        found.warnings.push_back("link " + link_name(arm, static_cast<int>(link)) + ": its mesh " + shape.file +
                                  " cannot be read; without it, the link may be thinner than it is");
       }
     }

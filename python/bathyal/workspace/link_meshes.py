@@ -16,9 +16,10 @@ def mesh_vertices(shape: Shape) -> np.ndarray | None:
     Only files in the folder of the URDF and below are opened: see bathyal.mesh_path.
     """
     try:
-        return np.asarray(read_mesh(mesh_path(shape)).vertices) * shape.scale
+        corners = read_mesh(mesh_path(shape)).vertices
     except (OSError, ValueError, Error):
         return None
+    return np.asarray(corners * shape.scale, dtype=float)
 
 
 read_mesh_with(mesh_vertices)  # what Workspace fits capsules with

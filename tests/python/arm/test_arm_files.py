@@ -77,6 +77,8 @@ def same_parts(one: Any, other: Any) -> bool:
         return one.keys() == other.keys() and all(same_parts(one[k], other[k]) for k in one)
     if isinstance(one, list):
         return len(one) == len(other) and all(map(same_parts, one, other))
+    if isinstance(one, bathyal.Shape):
+        return same_parts(one.as_dict(), other.as_dict())
     return bool(np.array_equal(one, other))
 
 

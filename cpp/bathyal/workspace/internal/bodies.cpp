@@ -47,8 +47,8 @@ void check(const Surroundings& surroundings, const Arm& arm) {
 int frame_of(const Arm& arm, const KeepOut& keepout) {
   if (keepout.frame() == "hull") return kVehicleFrame;
   if (keepout.frame() == "world") return kWorldFrame;
-  for (std::size_t link = 0; link < arm.links().size(); ++link) {
-    if (arm.links()[link].name == keepout.frame()) return static_cast<int>(link);
+  for (int link = 0; link < std::ssize(arm.links()); ++link) {
+    if (link_name(arm, link) == keepout.frame()) return link;
   }
   throw_argument("keepouts: frame of " + keepout.name(), "\"hull\", \"world\" or a link's name",
                  "\"" + keepout.frame() + "\"");
