@@ -472,8 +472,9 @@ void add_values(py::class_<Workspace>& cls) {
             }
             return pairs;
           },
-          "List of (link, other link or obstacle, reason) that are not compared: \"neighbours\", "
-          "\"allowed\", \"fixed to it\", and \"touch in every posture\" of 64 drawn.")
+          "Pairs that are not compared, as tuples of a link, the other link or obstacle, and the "
+          "reason: \"neighbours\", \"allowed\", \"fixed to it\", or \"touch in every posture\" of "
+          "64 drawn.")
       .def("__repr__", [](const Workspace& ws) {
         const std::string around =
             ws.obstacles().empty() ? "nothing around" : listed(ws.obstacles());

@@ -48,10 +48,10 @@ vehicle_pose_std : (6,) array, optional
     standard deviations of where that takes a point (first order).
 vehicle_body : RigidBody, optional
     Of the vehicle without the arm, in the vehicle's frame: for `static_trim`.
-radii : float or (links,) array, optional
-    Thickness of the arm: capsules of these radii along the segments from joint to joint [m]. Unless
-    it or `capsules` is given, capsules are fitted to the links' shapes: those for collisions, else
-    those for the eye.
+radii : float or (L,) array, optional
+    Thickness of the arm, one or one each of L links: capsules along the segments from joint to
+    joint [m]. Unless it or `capsules` is given, capsules are fitted to the links' shapes: those for
+    collisions, else those for the eye.
 capsules : dict, optional
     By the name of a link a list of Capsules in the link's frame; links not named have none.
 allowed : list of (str, str)
@@ -219,7 +219,7 @@ centre point; those that a sliding joint draws out are left bare.
 Parameters
 ----------
 arm : Arm
-radii : float or (links,) array
+radii : float or (L,) array
     One for all links, or one each, the foot first [m].
 density : float, optional
     Mean density of the cylinders [kg/m³]: where given, links without mass and volume take those of
