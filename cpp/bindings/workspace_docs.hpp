@@ -276,7 +276,8 @@ Returns
 inline constexpr const char* kCapsuleDistance = R"(Signed distance of capsules.
 
 The least signed distance along the axis, less the radius: a capsule that reaches into the volume
-has a negative one. Within 1e-12 of the sizes.
+has a negative one; of a mesh, minus the radius and the depth of the deeper end. Within 1e-12 of the
+sizes.
 
 Parameters
 ----------
@@ -295,7 +296,7 @@ Returns
 Raises
 ------
 ValueError
-    For a keep-out that is not convex: a mesh.
+    For a value that is not finite, a radius below 0, rows that do not match.
 
 Examples
 --------

@@ -8,6 +8,7 @@
 #include "bathyal/base/check.hpp"
 #include "bathyal/base/parallel.hpp"
 #include "bathyal/workspace/internal/convex_distance.hpp"
+#include "bathyal/workspace/internal/obstacle.hpp"
 
 namespace bathyal {
 namespace {
@@ -24,22 +25,6 @@ void check_rows(std::string_view name, std::ptrdiff_t rows, std::ptrdiff_t expec
   if (rows != expected) {
     throw_argument(name, std::to_string(expected) + " rows, as `a`", std::to_string(rows));
   }
-}
-
-/// Size of a volume [m]: what its distances are exact to a part of.
-double extent(const KeepOut& shape) {
-  return std::max({shape.radius(), shape.length(), shape.size().maxCoeff()});
-}
-
-/// Least signed distance along the axis from `a` to `b`, in the shape's own frame.
-double axis_distance(const KeepOut& shape, const Vec3& a, const Vec3& b) {
-  const Vec3 along = b - a;
-  const auto at = [&](double t) {
-    const auto [value, gradient] = workspace::signed_distance(shape, a + t * along);
-    return std::pair(value, gradient.dot(along));
-  };
-  constexpr double kPart = 1e-13;
-  return workspace::convex_minimum(at, kPart * (extent(shape) + along.stableNorm()));
 }
 
 }  // namespace
@@ -153,19 +138,17 @@ std::vector<double> KeepOut::distance(PointView points, int num_threads) const {
 std::vector<double> KeepOut::capsule_distance(PointView a, PointView b,
                                               std::span<const double> radius,
                                               int num_threads) const {
-  if (!convex()) throw_argument("keepout", "a convex one for capsules", "a mesh");
   check_rows("b", b.rows(), a.rows());
   check_rows("radius", std::ssize(radius), a.rows());
   check_points_finite("a", a);
   check_points_finite("b", b);
   for (const double value : radius) check_not_negative("radius", value);
-  const Pose shape_from_frame = frame_from_shape_.inverse();
+  const workspace::Obstacle obstacle(*this, workspace::kVehicleFrame);
   std::vector<double> distances(radius.size());
   parallel_for(distances.size(), kGrain, num_threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      const Vec3 from = a.row(static_cast<Index>(i)), to = b.row(static_cast<Index>(i));
-      distances[i] =
-          axis_distance(*this, shape_from_frame * from, shape_from_frame * to) - radius[i];
+      const auto row = static_cast<Index>(i);
+      distances[i] = obstacle.nearest({a.row(row), b.row(row), radius[i]}).distance;
     }
   });
   return distances;

@@ -77,10 +77,10 @@ class KeepOut {
   std::vector<double> distance(PointView points, int num_threads = 0) const;
 
   /// Signed distance of capsules: of the axis from a[i] to b[i], less radius[i]. One that reaches
-  /// into the volume has the least distance along its axis, below 0: how far it must move at most.
-  /// Within 1e-12 of the shape's and the axis' size.
-  /// \throw std::invalid_argument for a value that is not finite, a radius below 0, rows that do
-  /// not match, or a keep-out that is not convex.
+  /// into the volume has the least distance along its axis, below 0: how far it must move at most;
+  /// of a mesh, the depth of the deeper end. Within 1e-12 of the shape's and the axis' size.
+  /// \throw std::invalid_argument for a value that is not finite, a radius below 0, or rows that do
+  /// not match.
   std::vector<double> capsule_distance(PointView a, PointView b, std::span<const double> radius,
                                        int num_threads = 0) const;
 

@@ -11,6 +11,7 @@ from scipy.optimize import minimize, minimize_scalar
 import bathyal
 from bathyal import KeepOut
 from tests.support.scene_meshes import box, quaternions, rotation_from, sphere
+from tests.support.vehicles import box_mesh
 
 RANDOM = np.random.default_rng(2)
 
@@ -213,7 +214,6 @@ def test_values_and_copies():
         (lambda: KeepOut.sphere(1.0).capsule_distance([[0, 0, 0]], [[0, 0, 1]], -0.1), "radius"),
         (lambda: KeepOut.sphere(1.0).capsule_distance([[0, 0, 0]], [[0, 0, np.nan]], 0.1), "b"),
         (lambda: KeepOut.sphere(1.0).capsule_distance([[0, 0, 0]], np.zeros((2, 3)), 0.1), "b"),
-        (lambda: KeepOut.mesh(box()).capsule_distance([[0, 0, 0]], [[0, 0, 1]], 0.1), "keepout"),
     ],
 )
 def test_refusals(make, name):
@@ -224,3 +224,15 @@ def test_refusals(make, name):
 def test_a_mesh_keepout_is_made_of_a_mesh():
     with pytest.raises(TypeError, match="`mesh`: expected"):
         KeepOut.mesh(3.0)
+
+
+def test_capsules_against_a_mesh_are_those_against_the_box_it_draws() -> None:
+    rng = np.random.default_rng(8)
+    mesh = KeepOut.mesh(box_mesh([-1] * 3, [1] * 3))
+    exact = KeepOut.box((2, 2, 2))
+    a, b = rng.uniform(-4, 4, (2, 200, 3))
+    found, true = mesh.capsule_distance(a, b, 0.1), exact.capsule_distance(a, b, 0.1)
+    apart = true > -0.1
+    np.testing.assert_allclose(found[apart], true[apart], atol=1e-9)
+    assert (found[~apart] <= -0.1).all()
+    assert (~apart).sum() > 20

@@ -25,6 +25,11 @@ const Scene* surface_of(const std::variant<Hull, KeepOut, Scene>& body) {
   return keepout.hull() ? &keepout.hull()->scene() : nullptr;
 }
 
+/// Size of a volume [m]: what its distances are exact to a part of.
+double extent(const KeepOut& shape) {
+  return std::max({shape.radius(), shape.length(), shape.size().maxCoeff()});
+}
+
 /// The signed distance of a convex volume is convex along the axis.
 Nearness nearest_of_convex(const KeepOut& keepout, const Capsule& capsule) {
   const Pose shape_from_frame = keepout.pose().inverse();
@@ -39,8 +44,8 @@ Nearness nearest_of_convex(const KeepOut& keepout, const Capsule& capsule) {
     }
     return std::pair(there.value, there.gradient.dot(span));
   };
-  const double scale = start.cwiseAbs().maxCoeff() + span.norm() + 1.0;
-  convex_minimum(at, 1e-13 * scale);
+  constexpr double kPart = 1e-13;
+  convex_minimum(at, kPart * (extent(keepout) + span.stableNorm()));
   found.distance -= capsule.radius;
   found.axis_point = keepout.pose() * found.axis_point;
   found.surface_point = keepout.pose() * found.surface_point;
