@@ -312,8 +312,12 @@ Workspace make_workspace(const Arm& arm, const OptionalArray& mount, std::option
   for (const auto& [one, other] : allowed) {
     around.allowed.emplace_back(link_index(arm, one, "allowed"), link_index(arm, other, "allowed"));
   }
-  const py::gil_scoped_release release;
-  return {arm, std::move(around)};
+  const Workspace made = [&] {
+    const py::gil_scoped_release release;
+    return Workspace(arm, std::move(around));
+  }();
+  for (const std::string& warning : made.warnings()) warn_user(warning);
+  return made;
 }
 
 std::vector<double> times_argument(const ArrayLike& time, Index rows) {
@@ -457,6 +461,9 @@ void add_values(py::class_<Workspace>& cls) {
             return names;
           },
           "List of the links' names, one a capsule, in the order of `place_capsules`.")
+      .def_property_readonly("warnings", &Workspace::warnings,
+                             "List of what looks like a mistake: a hull whose size or place does "
+                             "not go with the arm's, a keep-out that holds its base.")
       .def_property_readonly(
           "obstacles", &Workspace::obstacles,
           "List of what links are compared with: \"hull\", the keep-outs' names, \"scene\".")

@@ -66,7 +66,8 @@ ValueError
 Warns
 -----
 UserWarning
-    Where the arm has no shapes, and is bare segments, or a mesh of it cannot be read.
+    Where the arm has no shapes, and is bare segments, or a mesh of it cannot be read; and for what
+    `warnings` lists.
 
 Examples
 --------

@@ -2403,7 +2403,8 @@ class KeepOut:
         Signed distance of capsules.
         
         The least signed distance along the axis, less the radius: a capsule that reaches into the volume
-        has a negative one. Within 1e-12 of the sizes.
+        has a negative one; of a mesh, minus the radius and the depth of the deeper end. Within 1e-12 of the
+        sizes.
         
         Parameters
         ----------
@@ -2422,7 +2423,7 @@ class KeepOut:
         Raises
         ------
         ValueError
-            For a keep-out that is not convex: a mesh.
+            For a value that is not finite, a radius below 0, rows that do not match.
         
         Examples
         --------
@@ -2693,10 +2694,10 @@ class Workspace:
         standard deviations of where that takes a point (first order).
     vehicle_body : RigidBody, optional
         Of the vehicle without the arm, in the vehicle's frame: for `static_trim`.
-    radii : float or (links,) array, optional
-        Thickness of the arm: capsules of these radii along the segments from joint to joint [m]. Unless
-        it or `capsules` is given, capsules are fitted to the links' shapes: those for collisions, else
-        those for the eye.
+    radii : float or (L,) array, optional
+        Thickness of the arm, one or one each of L links: capsules along the segments from joint to
+        joint [m]. Unless it or `capsules` is given, capsules are fitted to the links' shapes: those for
+        collisions, else those for the eye.
     capsules : dict, optional
         By the name of a link a list of Capsules in the link's frame; links not named have none.
     allowed : list of (str, str)
@@ -2711,7 +2712,8 @@ class Workspace:
     Warns
     -----
     UserWarning
-        Where the arm has no shapes, and is bare segments, or a mesh of it cannot be read.
+        Where the arm has no shapes, and is bare segments, or a mesh of it cannot be read; and for what
+        `warnings` lists.
     
     Examples
     --------
@@ -2879,7 +2881,7 @@ class Workspace:
     @property
     def excluded(self) -> list[tuple[str, str, str]]:
         """
-        List of (link, other link or obstacle, reason) that are not compared: "neighbours", "allowed", "fixed to it", and "touch in every posture" of 64 drawn.
+        Pairs that are not compared, as tuples of a link, the other link or obstacle, and the reason: "neighbours", "allowed", "fixed to it", or "touch in every posture" of 64 drawn.
         """
     @property
     def hull(self) -> Hull | None:
@@ -2920,6 +2922,11 @@ class Workspace:
     def vehicle_pose(self) -> Trajectory:
         """
         Trajectory: world_from_vehicle; of a single pose at rest.
+        """
+    @property
+    def warnings(self) -> list[str]:
+        """
+        List of what looks like a mistake: a hull whose size or place does not go with the arm's, a keep-out that holds its base.
         """
 class Touches:
     """
@@ -5374,7 +5381,7 @@ def with_link_radii(arm: Arm, radii: numpy.typing.ArrayLike, *, density: typing.
     Parameters
     ----------
     arm : Arm
-    radii : float or (links,) array
+    radii : float or (L,) array
         One for all links, or one each, the foot first [m].
     density : float, optional
         Mean density of the cylinders [kg/m³]: where given, links without mass and volume take those of

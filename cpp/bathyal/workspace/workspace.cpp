@@ -18,6 +18,7 @@ struct Workspace::State {
   Surroundings surroundings;
   workspace::Bodies bodies;
   std::vector<std::string> names;
+  std::vector<std::string> warnings;
   std::size_t own_capsules = 0;  ///< of the arm; what is attached comes behind
   std::vector<Capsule> attached_capsules;
   RigidBody attached;
@@ -115,14 +116,17 @@ Workspace::Workspace(Arm arm, Surroundings surroundings) {
   const std::size_t own = surroundings.capsules.size();
   workspace::Bodies bodies = workspace::make_bodies(std::move(arm), surroundings);
   std::vector<std::string> names = names_of(bodies.obstacles);
+  std::vector<std::string> warnings = workspace::plausibility(bodies);
   state_ = std::make_shared<const State>(
-      State{std::move(surroundings), std::move(bodies), std::move(names), own, {}, {}});
+      State{std::move(surroundings), std::move(bodies), std::move(names),
+            std::move(warnings), own, {}, {}});
 }
 
 const Arm& Workspace::arm() const { return state_->bodies.arm; }
 const Surroundings& Workspace::surroundings() const { return state_->surroundings; }
 const std::vector<std::string>& Workspace::obstacles() const { return state_->names; }
 const std::vector<ExcludedPair>& Workspace::excluded() const { return state_->bodies.excluded; }
+const std::vector<std::string>& Workspace::warnings() const { return state_->warnings; }
 const RigidBody& Workspace::attached() const { return state_->attached; }
 const std::vector<Capsule>& Workspace::attached_capsules() const {
   return state_->attached_capsules;

@@ -128,6 +128,10 @@ class Workspace {
   /// made so.
   const std::vector<ExcludedPair>& excluded() const;
 
+  /// What looks like a mistake: a hull that is a hundred times as large as the arm or as small, as
+  /// where millimetres were taken for metres, or far from its base; a keep-out that holds the base.
+  const std::vector<std::string>& warnings() const;
+
   /// The smallest distances of each row of q, (N, n), at a time for all of them, or one each.
   /// \throw std::invalid_argument as check_joint_values, for another count of times.
   std::vector<Clearance> clearance(JointView q, std::span<const double> time = {},

@@ -313,3 +313,18 @@ def test_trajectories() -> None:
     circle = bathyal.Trajectory.sampled(lambda t: pose(yaw=t), end=1.0, step=0.01)
     assert len(circle) == 101
     np.testing.assert_allclose(circle.at(0.505), pose(yaw=0.505), atol=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("around", "words"),
+    [
+        ({"hull": bathyal.Hull(vehicles.box_mesh([-800, -350, -250], [500, 350, 250]))}, "millim"),
+        ({"hull": bathyal.Hull(vehicles.box_mesh([-8e-4] * 3, [5e-4] * 3))}, "scale"),
+        ({"hull": bathyal.Hull(vehicles.box_mesh([1e7] * 3, [1e7 + 1] * 3))}, "vehicle's frame"),
+        ({"keepouts": [bathyal.KeepOut.sphere(1.0, name="all")]}, "all holds the arm's base"),
+    ],
+)
+def test_what_looks_like_a_mistake_is_warned_of(around, words: str) -> None:
+    with pytest.warns(UserWarning, match=words):
+        bathyal.Workspace(bathyal.arms.maevskiy_zanin(), MOUNT, **around)
+    assert sampler().warnings == []

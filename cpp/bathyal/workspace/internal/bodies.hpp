@@ -2,6 +2,7 @@
 #pragma once
 
 #include <span>
+#include <string>
 #include <vector>
 
 #include "bathyal/arm/row_frames.hpp"
@@ -49,6 +50,9 @@ Pose link_from_tool(const Arm& arm);
 
 /// \throw std::invalid_argument as Workspace.
 Bodies make_bodies(Arm arm, const Surroundings& surroundings);
+
+/// Workspace::warnings.
+std::vector<std::string> plausibility(const Bodies& bodies);
 
 /// By how much less the distance of a point in the vehicle's frame to what is fixed to the world
 /// may be: three standard deviations of where the vehicle's uncertain pose takes it, along the

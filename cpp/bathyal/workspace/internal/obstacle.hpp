@@ -39,6 +39,9 @@ class Obstacle {
   const std::string& name() const { return name_; }
   bool is_hull() const { return std::holds_alternative<Hull>(body_); }
   bool is_scene() const { return std::holds_alternative<Scene>(body_); }
+  bool is_keepout() const { return std::holds_alternative<KeepOut>(body_); }
+  /// Around a hull, a scene or a mesh; empty of other keep-outs.
+  const Eigen::AlignedBox3d& box() const { return box_; }
   int frame() const { return frame_; }
   /// In that frame: at rest but for keep-outs that move.
   const Trajectory& motion() const { return motion_; }
@@ -55,7 +58,7 @@ class Obstacle {
   int frame_;
   Trajectory motion_;
   std::variant<Hull, KeepOut, Scene> body_;
-  Eigen::AlignedBox3d box_;  ///< of hull or scene
+  Eigen::AlignedBox3d box_;  ///< empty of convex keep-outs
 };
 
 }  // namespace bathyal::workspace
