@@ -48,7 +48,7 @@ def workspace(mesh, scene, altitude):
 
 
 def coal_pairs(ws, model, still, other):
-    """[(capsule, pose of it, model, pose of the model)] of each posture, excluded pairs left out."""
+    """A function from capsules to [(capsule, its pose, model, its pose)], without excluded pairs."""
     skip = {(link, to) for link, to, _ in ws.excluded}
 
     def of(capsules):
@@ -149,7 +149,9 @@ def motion_row(mesh, scene, motions):
         ws, rows = passing_motion(mesh, scene, seed)
         if not ws.check_motion(rows).free:
             raise SystemExit(f"motion {seed}: refused, though it passes at 10 mm")
-        times.append(statistics.median(seconds(lambda: ws.check_motion(rows)) for _ in range(5)))
+        times.append(
+            statistics.median(seconds(lambda w=ws, q=rows: w.check_motion(q)) for _ in range(5))
+        )
     print("\n| continuous check, 2 s, passing at 10 mm | median [ms] | slowest |\n|---|---|---|")
     middle, slowest = 1e3 * statistics.median(times), 1e3 * max(times)
     print(f"| {motions} motions | {middle:.2f} | {slowest:.2f} |")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A vehicle with the arm of Maevskiy, Zanin (2020) on a hull of our own: theirs was not published."""
+"""A vehicle with the arm of Maevskiy, Zanin (2020). Its hull is ours: theirs is not published."""
 
 from __future__ import annotations
 
