@@ -48,7 +48,7 @@ def workspace(mesh, scene, altitude):
 
 
 def coal_pairs(ws, model, still, other):
-    """A function from capsules to [(capsule, its pose, model, its pose)], without excluded pairs."""
+    """From capsules to [(capsule, its pose, model, its pose)], without excluded pairs."""
     skip = {(link, to) for link, to, _ in ws.excluded}
 
     def of(capsules):
