@@ -49,13 +49,14 @@ struct TimedMotion {
 ///
 /// Corners are rounded with continuous curvature: between two legs of directions u and w the
 /// direction turns as u + (3x² − 2x³)(w − u) with the way, at a constant speed that keeps every
-/// coordinate within its limits; where stopping is faster the motion stops. On straight legs the speed is jerk-limited, as fast as the limits
-/// allow for the speeds at its ends (seven phases, Biagiotti and Melchiorri 2008, section 3.4), and
-/// without acceleration at them; the speeds at the ends are the largest from which each leg can be
-/// done. One leg by itself is timed optimally. Speeds, accelerations and jerks are within the
-/// limits at every moment, so are the first, second and third differences of the rows, to rounding.
-/// One row, or several that are equal, give one row at time 0.
-/// \throw std::invalid_argument as check_joint_values, complete_limits and TimingOptions::check,
+/// coordinate within its limits; where stopping is faster the motion stops. On straight legs the
+/// speed is jerk-limited, as fast as the limits allow for the speeds at its ends (seven phases,
+/// Biagiotti and Melchiorri 2008, section 3.4), and without acceleration at them; the speeds at the
+/// ends are the largest from which each leg can be done. One leg by itself is timed optimally.
+/// Speeds, accelerations and jerks are within the limits at every moment, so are the first, second
+/// and third differences of the rows, to rounding. One row, or several that are equal, give one row
+/// at time 0. \throw std::invalid_argument as check_joint_values, complete_limits and
+/// TimingOptions::check,
 ///        for no row, another count of row tolerances, a motion of more than 10⁷ rows.
 TimedMotion time_motion(const Arm& arm, JointView path, const MotionLimits& limits = {},
                         const TimingOptions& options = {});

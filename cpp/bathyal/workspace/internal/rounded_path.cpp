@@ -72,8 +72,8 @@ std::vector<std::size_t> kept_rows(JointView rows, const std::vector<double>& to
   std::vector<std::size_t> kept;
   for (std::size_t i = 0; i < count; ++i) {
     if (!keep[i]) continue;
-    const bool same = !kept.empty() && rows.row(static_cast<Index>(i)) ==
-                                           rows.row(static_cast<Index>(kept.back()));
+    const bool same = !kept.empty() &&
+                      rows.row(static_cast<Index>(i)) == rows.row(static_cast<Index>(kept.back()));
     if (!same) kept.push_back(i);
   }
   return kept;
@@ -83,7 +83,8 @@ std::vector<std::size_t> kept_rows(JointView rows, const std::vector<double>& to
 double least_ratio(const std::vector<double>& limit, const Eigen::RowVectorXd& rate) {
   double least = kInfinity;
   for (Index k = 0; k < rate.size(); ++k) {
-    if (rate[k] != 0.0) least = std::min(least, limit[static_cast<std::size_t>(k)] / std::abs(rate[k]));
+    if (rate[k] != 0.0)
+      least = std::min(least, limit[static_cast<std::size_t>(k)] / std::abs(rate[k]));
   }
   return least;
 }
@@ -128,7 +129,7 @@ RoundedPath::RoundedPath(JointView rows, const MotionLimits& limits,
     half_[i] = std::min(within, kShareOfLeg * std::min(lengths_[i - 1], lengths_[i]));
   }
   pieces_ = pieces_with(half_, limits);
-  if (count <= kMostCompared) stop_where_faster(limits);
+  if (count > 2 && count <= kMostCompared) stop_where_faster(limits);
 }
 
 std::vector<Piece> RoundedPath::pieces_with(const std::vector<double>& half,

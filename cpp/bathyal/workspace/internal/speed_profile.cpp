@@ -48,11 +48,10 @@ std::vector<double> speeds_between(const std::vector<Piece>& pieces) {
   }
   const auto limit = [](const Piece& piece, double from, double& to) {
     if (to <= from) return;
-    to = piece.acceleration > 0.0 ? largest(from, to,
-                                            [&](double v) {
-                                              return change_of(from, v, piece).way <= piece.length;
-                                            })
-                                  : from;
+    to = piece.acceleration > 0.0
+             ? largest(from, to,
+                       [&](double v) { return change_of(from, v, piece).way <= piece.length; })
+             : from;
   };
   for (std::size_t i = 0; i < pieces.size(); ++i) limit(pieces[i], speed[i], speed[i + 1]);
   for (std::size_t i = pieces.size(); i-- > 0;) limit(pieces[i], speed[i + 1], speed[i]);
