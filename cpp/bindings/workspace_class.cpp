@@ -44,7 +44,8 @@ std::vector<double> coordinates_argument(std::string_view name, const py::object
   if (object.is_none()) return {};
   const py::array given = array_argument(name, object, "a number or (n,) real numbers");
   const bool single = given.ndim() == 0;
-  const Values values = values_argument(name, single ? given.attr("reshape")(1) : py::object(given));
+  const Values values =
+      values_argument(name, single ? given.attr("reshape")(1) : py::object(given));
   if (!single && values.rows() != size) {
     throw_argument(name, "a number or " + std::to_string(size) + " values",
                    std::to_string(values.rows()));
@@ -147,11 +148,13 @@ struct TargetRows {
 };
 
 const EnumNames<TargetIndicator>& target_names() {
-  static const EnumNames<TargetIndicator> names{
-      {"hull", TargetIndicator::kHull},           {"keepout", TargetIndicator::kKeepOut},
-      {"ground", TargetIndicator::kGround},       {"unreachable", TargetIndicator::kUnreachable},
-      {"collision", TargetIndicator::kCollision}, {"limit", TargetIndicator::kLimit},
-      {"free", TargetIndicator::kFree}};
+  static const EnumNames<TargetIndicator> names{{"hull", TargetIndicator::kHull},
+                                                {"keepout", TargetIndicator::kKeepOut},
+                                                {"ground", TargetIndicator::kGround},
+                                                {"unreachable", TargetIndicator::kUnreachable},
+                                                {"collision", TargetIndicator::kCollision},
+                                                {"limit", TargetIndicator::kLimit},
+                                                {"free", TargetIndicator::kFree}};
   return names;
 }
 
@@ -212,8 +215,8 @@ void bind_clearances(py::module_& module) {
       .def("__repr__", [](const Rows& r) {
         double least = std::numeric_limits<double>::infinity();
         for (const Clearance& row : r.rows) least = std::min(least, row.distance);
-        return "Clearances(" + counted(static_cast<long>(r.rows.size()), "posture") +
-               ", least " + to_text(least) + " m)";
+        return "Clearances(" + counted(static_cast<long>(r.rows.size()), "posture") + ", least " +
+               to_text(least) + " m)";
       });
 }
 
@@ -253,7 +256,8 @@ void bind_target_checks(py::module_& module) {
             return text_array(names);
           },
           "(N,) the first that holds: \"hull\" (inside it), \"keepout\", \"ground\" (under the "
-          "bottom), \"unreachable\" (within the limits, in any orientation), \"collision\" (only by "
+          "bottom), \"unreachable\" (within the limits, in any orientation), \"collision\" (only "
+          "by "
           "postures that touch something), \"limit\" (only with a joint within 0.01 rad, 1 mm of a "
           "limit), \"free\".")
       .def_property_readonly(
@@ -334,8 +338,8 @@ void add_queries(py::class_<Workspace>& cls) {
         const std::vector<double> times = times_argument(time, rows.table.rows());
         ClearanceRows found{ws, {}, rows.single};
         const py::gil_scoped_release release;
-        found.rows = ws.clearance(joint_view(rows), times, tip_contact_argument(tip_contact),
-                                  num_threads);
+        found.rows =
+            ws.clearance(joint_view(rows), times, tip_contact_argument(tip_contact), num_threads);
         return found;
       },
       py::arg("q"), py::kw_only(), py::arg("time") = 0.0, py::arg("tip_contact") = false,
@@ -423,7 +427,8 @@ std::optional<Value> copy_of(const std::optional<Value>& value) {
 }
 
 void add_values(py::class_<Workspace>& cls) {
-  cls.def_property_readonly("arm", &Workspace::arm, "Its base is the mount, in the vehicle's frame.")
+  cls.def_property_readonly("arm", &Workspace::arm,
+                            "Its base is the mount, in the vehicle's frame.")
       .def_property_readonly(
           "mount",
           [](const Workspace& ws) { return to_numpy(ws.surroundings().vehicle_from_base); },
@@ -438,8 +443,7 @@ void add_values(py::class_<Workspace>& cls) {
           "keepouts", [](const Workspace& ws) { return ws.surroundings().keepouts; },
           "List of KeepOut.")
       .def_property_readonly(
-          "vehicle_pose",
-          [](const Workspace& ws) { return ws.surroundings().world_from_vehicle; },
+          "vehicle_pose", [](const Workspace& ws) { return ws.surroundings().world_from_vehicle; },
           "Trajectory: world_from_vehicle; of a single pose at rest.")
       .def_property_readonly(
           "vehicle_body",
@@ -497,6 +501,7 @@ void bind_workspace_class(py::module_& module) {
   bind_clearances(module);
   bind_motion_check(module);
   bind_target_checks(module);
+  bind_motion_plan(module);
   py::class_<Workspace> cls(module, "Workspace", workspace_docs::kWorkspace);
   cls.def(py::init(&make_workspace), py::arg("arm"), py::arg("mount") = py::none(), py::kw_only(),
           py::arg("hull") = py::none(), py::arg("scene") = py::none(),
@@ -505,6 +510,7 @@ void bind_workspace_class(py::module_& module) {
           py::arg("radii") = py::none(), py::arg("capsules") = py::none(),
           py::arg("allowed") = py::list());
   add_queries(cls);
+  add_plan(cls);
   add_variants(cls);
   add_values(cls);
   module.def(

@@ -17,6 +17,12 @@ namespace bathyal::python {
 /// Capsule, Workspace and what it answers; after Hull and KeepOut.
 void bind_workspace_class(py::module_& module);
 
+/// MotionPlan; before the method that returns it.
+void bind_motion_plan(py::module_& module);
+
+/// Workspace.plan
+void add_plan(py::class_<Workspace>& cls);
+
 inline JointView joint_view(const Rows& rows) {
   return {rows.table.data(), rows.table.rows(), rows.table.cols()};
 }

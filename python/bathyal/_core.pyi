@@ -9,7 +9,7 @@ import numpy.typing
 import os
 import plotly.graph_objects
 import typing
-__all__: list[str] = ['Arm', 'ArmFit', 'BEYOND_NOISE', 'Capsule', 'Cause', 'CleanReport', 'CleanResult', 'Clearances', 'CorrectedArm', 'DhTable', 'Diagnosis', 'Effect', 'EffectRange', 'EffectRows', 'Error', 'Estimate', 'FitParameter', 'FoundEffect', 'HeldOut', 'HeldOutPart', 'Hits', 'Hull', 'HullReport', 'InverseResult', 'KeepOut', 'Link', 'MeshReport', 'MotionCheck', 'NamedEffect', 'Nearest', 'NearestSegments', 'Outlier', 'Plane', 'PlaneFit', 'PointCloud', 'Polyline', 'RigidBody', 'Scene', 'Shape', 'SheetPatch', 'SheetReport', 'Structure', 'Support', 'TargetChecks', 'Targets', 'TextTable', 'ToolPath', 'TouchForecast', 'TouchPlan', 'Touches', 'Tracked', 'Trade', 'Trajectory', 'TriangleMesh', 'Verification', 'Voxels', 'Workspace', 'arm_from_chain', 'arm_from_parts', 'arm_parts', 'chain_from_arm', 'check_bytes', 'clean_cloud', 'cover_polygon', 'diagnose', 'find_effect_with', 'find_sheets', 'find_targets', 'fit_plane', 'forecast_touches', 'generate_survey', 'identify_arm', 'intersect_moller_trumbore', 'library_effects', 'mesh_report', 'plan_toolpath', 'plan_touches', 'read_mesh_with', 'read_pcd', 'read_text_table', 'set_simd_level', 'simd_level', 'survey_height', 'triangulate', 'triangulate_delaunay', 'verify_positions', 'warn_of_support_with', 'with_link_radii', 'write_xyz']
+__all__: list[str] = ['Arm', 'ArmFit', 'BEYOND_NOISE', 'Capsule', 'Cause', 'CleanReport', 'CleanResult', 'Clearances', 'CorrectedArm', 'DhTable', 'Diagnosis', 'Effect', 'EffectRange', 'EffectRows', 'Error', 'Estimate', 'FitParameter', 'FoundEffect', 'HeldOut', 'HeldOutPart', 'Hits', 'Hull', 'HullReport', 'InverseResult', 'KeepOut', 'Link', 'MeshReport', 'MotionCheck', 'MotionPlan', 'NamedEffect', 'Nearest', 'NearestSegments', 'Outlier', 'Plane', 'PlaneFit', 'PointCloud', 'Polyline', 'RigidBody', 'Scene', 'Shape', 'SheetPatch', 'SheetReport', 'Structure', 'Support', 'TargetChecks', 'Targets', 'TextTable', 'ToolPath', 'TouchForecast', 'TouchPlan', 'Touches', 'Tracked', 'Trade', 'Trajectory', 'TriangleMesh', 'Verification', 'Voxels', 'Workspace', 'arm_from_chain', 'arm_from_parts', 'arm_parts', 'chain_from_arm', 'check_bytes', 'clean_cloud', 'cover_polygon', 'diagnose', 'find_effect_with', 'find_sheets', 'find_targets', 'fit_plane', 'forecast_touches', 'generate_survey', 'identify_arm', 'intersect_moller_trumbore', 'library_effects', 'mesh_report', 'plan_toolpath', 'plan_touches', 'read_mesh_with', 'read_pcd', 'read_text_table', 'set_simd_level', 'simd_level', 'survey_height', 'triangulate', 'triangulate_delaunay', 'verify_positions', 'warn_of_support_with', 'with_link_radii', 'write_xyz']
 class Error(RuntimeError):
     """
     A broken file, a solver that failed or a part that is not installed.
@@ -2664,6 +2664,44 @@ class TargetChecks:
         """
         (N,) the first that holds: "hull" (inside it), "keepout", "ground" (under the bottom), "unreachable" (within the limits, in any orientation), "collision" (only by postures that touch something), "limit" (only with a joint within 0.01 rad, 1 mm of a limit), "free".
         """
+class MotionPlan:
+    """
+    A motion from rest to rest that touches nothing, or why none was found; falsy without one.
+    """
+    def __bool__(self) -> bool:
+        ...
+    def __repr__(self) -> str:
+        ...
+    @property
+    def checks(self) -> int:
+        """
+        Postures and straight motions looked at.
+        """
+    @property
+    def path(self) -> numpy.ndarray | None:
+        """
+        (K, n) [rad] or [m], straight in joint space between rows; None where there is none.
+        """
+    @property
+    def reason(self) -> str:
+        """
+        Why there is no path, a sentence; empty if there is.
+        """
+    @property
+    def status(self) -> str:
+        """
+        "solved", or why there is no path: "start_in_collision", "start_outside_limits", "goal_in_collision" (of a pose or point: in every posture found), "goal_outside_limits", "unreachable" (by no posture), "no_path" (found within the checks), "time_limit" (the safety stop).
+        """
+    @property
+    def time(self) -> numpy.ndarray:
+        """
+        (K,) of the rows, from 0 at the start, in equal steps [s].
+        """
+    @property
+    def way_out(self) -> numpy.ndarray | None:
+        """
+        (2, n) from a start that touches or is outside the limits on a short straight line to a posture that is free; None where none is needed, or found.
+        """
 class Workspace:
     """
     An arm on a vehicle among what it must not touch.
@@ -2858,6 +2896,70 @@ class Workspace:
         (N, C, 7) array
             Of each capsule start and end of the axis in the vehicle's frame and the radius [m]; `C` as in
             `capsule_links`. Of a single posture (C, 7).
+        """
+    def plan(self, q_start: numpy.typing.ArrayLike, goal: numpy.typing.ArrayLike | None = None, *, pose: numpy.typing.ArrayLike | None = None, point: numpy.typing.ArrayLike | None = None, seed: typing.SupportsInt | typing.SupportsIndex = 0, max_checks: typing.SupportsInt | typing.SupportsIndex = 20000, max_seconds: typing.SupportsFloat | typing.SupportsIndex = 60.0, velocity: numpy.typing.ArrayLike | None = None, acceleration: numpy.typing.ArrayLike | None = None, jerk: numpy.typing.ArrayLike | None = None, step: typing.SupportsFloat | typing.SupportsIndex = 0.02, tolerance: typing.SupportsFloat | typing.SupportsIndex = 0.05, tip_contact: bool = False, time: typing.SupportsFloat | typing.SupportsIndex = 0.0) -> MotionPlan:
+        """
+        A motion to a goal that touches nothing.
+        
+        The straight motion in joint space where it is free; else two trees of straight motions that grow
+        from the start and from the goal towards each other (RRT-Connect, Kuffner, LaValle 2000), each
+        checked without gaps as `check_motion`; then shortcuts; then the corners are rounded and the motion
+        is timed within speed, acceleration and jerk limits. Limits and `check_motion` are verified again on
+        the rows handed out. Where the vehicle or a keep-out moves, the motion is free at its own times.
+        
+        Give one of `goal`, `pose` and `point`. A pose and a point are reached by one of several postures,
+        in the vehicle's place at `time`.
+        
+        Parameters
+        ----------
+        q_start : (n,) array
+            [rad] or [m].
+        goal : (n,) array, optional
+            Joint values, taken as they are: no whole turns are left out.
+        pose : (4, 4) array, optional
+            world_from_tool.
+        point : (3,) array, optional
+            Of the tip in the world [m], in any orientation.
+        seed : int
+            Of the search: the same seed gives the same bytes.
+        max_checks : int
+            Postures and straight motions that are looked at, at most.
+        max_seconds : float
+            A safety stop [s].
+        velocity, acceleration, jerk : float or (n,) array, optional
+            Limits of each joint, [rad] or [m] with s, s² and s³. Unless given: the arm's speeds (1 rad/s,
+            0.25 m/s where a joint has none), reached from rest in half a second (1 rad/s², 0.5 m/s²), and
+            the acceleration within 0.1 s.
+        step : float
+            Between two rows, at most [s].
+        tolerance : float
+            How far any joint may leave the straight motions at their corners [rad], [m]; 0: a stop at each.
+        tip_contact : bool
+            Whether the end of the tool may touch the scene.
+        time : float
+            Of the start [s]; matters where something moves.
+        
+        Returns
+        -------
+        MotionPlan
+        
+        Raises
+        ------
+        ValueError
+            For a goal that is missing or given twice, of another length or not finite, a pose that is not
+            rigid, limits that are not positive.
+        
+        Examples
+        --------
+        >>> import bathyal
+        >>> arm = bathyal.Arm.from_dh(a=[0.5, 0.4], alpha=[0, 0], d=[0, 0], theta=[0, 0])
+        >>> post = bathyal.KeepOut.sphere(0.1, (0.7, 0, 0), name="post")
+        >>> ws = bathyal.Workspace(arm, keepouts=[post], radii=0.03)
+        >>> plan = ws.plan([-0.6, 0], [0.6, 0])
+        >>> plan.status, plan.path.shape[1], bool(ws.check_motion(plan.path))
+        ('solved', 2, True)
+        >>> ws.plan([-0.6, 0], [0, 0])
+        MotionPlan(goal_in_collision: At the goal link_2 touches post.)
         """
     def with_vehicle_pose(self, vehicle_pose: Trajectory | numpy.typing.ArrayLike | collections.abc.Callable[[float], numpy.typing.ArrayLike] | None) -> Workspace:
         """

@@ -11,11 +11,6 @@ namespace {
 /// What moves is at rest for a straight motion of this duration, to 10⁻⁸ m at 10 m/s [s].
 constexpr double kInstant = 1e-9;
 
-std::string name_of_link(const Arm& arm, int link) {
-  const std::string& name = arm.links()[static_cast<std::size_t>(link)].name;
-  return name.empty() ? "link " + std::to_string(link) : name;
-}
-
 }  // namespace
 
 PlanCheck::PlanCheck(const Workspace& workspace, const PlanOptions& options)
@@ -81,9 +76,9 @@ std::string contact_text(const Workspace& workspace, const Clearance& clearance)
   const int link = own ? clearance.self_links.first : clearance.link;
   if (link < 0) return "something touches";
   const std::string other =
-      own ? name_of_link(workspace.arm(), clearance.self_links.second)
+      own ? link_name(workspace.arm(), clearance.self_links.second)
           : workspace.obstacles()[static_cast<std::size_t>(clearance.obstacle)];
-  return name_of_link(workspace.arm(), link) + " touches " + other;
+  return link_name(workspace.arm(), link) + " touches " + other;
 }
 
 }  // namespace bathyal::workspace
