@@ -20,13 +20,14 @@ bool cross(const PlanPoint& a, const PlanPoint& b, const PlanPoint& c, const Pla
 }
 
 /// Where the tool's point moves against the travel of the bottom's point beneath it.
-void flag_turning_back(ToolPath& path) {
+void flag_turning_back(ToolPath& path, bool is_rolled) {
   for (std::size_t j = 0; j + 1 < path.size(); ++j) {
-    if (path.gap[j]) continue;
+    if (path.gap[j] || (is_rolled && path.segment[j] != path.segment[j + 1])) continue;
     const Vec3 moved = path.position[j + 1] - path.position[j];
     const Vec3 below = path.surface[j + 1] - path.surface[j];
     // At an edge of the piecewise-constant form the bottom's point rests: use the travel.
-    const Vec3 ahead = below.isZero() ? Vec3(path.travel[j] + path.travel[j + 1]) : below;
+    const Vec3 ahead =
+        below.isZero() || is_rolled ? Vec3(path.travel[j] + path.travel[j + 1]) : below;
     if (moved.dot(ahead) < -1e-12 * ahead.norm()) path.crossing[j] = path.crossing[j + 1] = true;
   }
 }
@@ -76,10 +77,10 @@ bool meets_ground(const Scene& scene, const ToolBody& body, const Vec3& tip, con
 
 }  // namespace
 
-void flag_crossings(ToolPath& path, const Vec3& up, double standoff) {
+void flag_crossings(ToolPath& path, const Vec3& up, double standoff, bool is_rolled) {
   path.crossing.assign(path.size(), false);
   if (standoff == 0.0) return;
-  flag_turning_back(path);
+  flag_turning_back(path, is_rolled);
   for (std::size_t begin = 0; begin < path.size();) {
     std::size_t end = begin + 1;
     while (end < path.size() && !path.gap[end - 1] && path.segment[end] == path.segment[begin])
