@@ -159,7 +159,8 @@ void bind_path(py::module_& module) {
       "Positions [m], times [s], angles [rad]. All arrays are read-only.");
   add_array(cls, "position", &ToolPath::position,
             "(M, 3) the tool's point: T_j, T_j + standoff · a_j, or the rolling ball's centre.");
-  add_array(cls, "surface", &ToolPath::surface, "(M, 3) T_j, on the bottom; what the rolling ball touches.");
+  add_array(cls, "surface", &ToolPath::surface,
+            "(M, 3) T_j, on the bottom; what the rolling ball touches.");
   add_array(cls, "approach", &ToolPath::approach,
             "(M, 3) a_j, unit, out of the bottom; the tool's z is −a_j.");
   add_array(cls, "travel", &ToolPath::travel,

@@ -109,12 +109,13 @@ Rolling, no sample is nearer to any mesh of the scene than `standoff`, and of th
 between two samples d apart nothing is nearer than √(standoff² − d²/4). The ball's centre keeps to
 the upright plane of each section, moved sideways by the standoff times the section's mean sine of
 the slope across it; `surface` is what the ball touches, up to the standoff off the section, and a_j
-points from there to the centre. It passes over hollows too narrow for it, touching both sides: there
-a_j jumps and is blended, or turned in place, as between facets. With `normal_radius` > 0 a_j is the
-normal of the footprint round what is touched. A stretch the ball cannot roll over keeps the plain
-offset, raised off the bottom, with a warning. `tool_radius` plays no part: a body wider than the
-standoff may meet ground, which `contact` flags. Plain, the path over ground more concave than the
-standoff turns back, crosses itself and comes nearer; `crossing` flags it.
+points from there to the centre. A hollow too narrow for the ball it touches on both sides and
+passes over: there a_j jumps, which is blended (over two standoffs at most) or turned in place, as
+between facets. A target it cannot touch is passed straight above. With `normal_radius` > 0 a_j is
+the normal of the footprint round what is touched. A section the ball cannot roll over keeps the
+plain offset, raised off the bottom, with a warning. `tool_radius` plays no part: a body wider than
+the standoff may meet ground, which `contact` flags. Plain, the path over ground more concave than
+the standoff turns back, crosses itself and comes nearer; `crossing` flags it.
 
 References
 ----------

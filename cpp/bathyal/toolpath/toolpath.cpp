@@ -67,9 +67,9 @@ void stand_off(ToolPath& path, double standoff) {
   for (std::size_t j = 0; j < path.size(); ++j) path.position[j] += standoff * path.approach[j];
 }
 
-/// On a plane the plain offset is the ball's way already.
+/// On a plane the plain offset is the ball's way already, and no ball is smaller than 10 µm.
 bool is_rolled(const Surface& surface, const ToolPathOptions& options) {
-  return std::holds_alternative<Scene>(surface) && options.standoff > 0.0 &&
+  return std::holds_alternative<Scene>(surface) && options.standoff > 1e-5 &&
          options.offset == Offset::kRolling;
 }
 
@@ -164,7 +164,11 @@ ToolPath plan_toolpath(const Surface& surface, const Aims& aims, const ToolPathO
   ToolPath path = sample_route(route, surface, targets, up, options);
   path.targets = std::move(targets);
   set_times(path, {options.speed, options.acceleration, options.angular_rate});
-  flag_crossings(path, up, options.standoff, is_rolled(surface, options));
+  if (is_rolled(surface, options)) {
+    flag_rolled_crossings(path, up, options.standoff);
+  } else {
+    flag_crossings(path, up, options.standoff);
+  }
   flag_contacts(path, surface,
                 {options.tool_radius, options.tool_length, options.contact_tolerance}, threads);
   warn_of_flags(path);

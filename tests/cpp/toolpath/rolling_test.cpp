@@ -206,10 +206,6 @@ TEST(Rolling, OverARoughReefNeitherCrossesNorComesNearer) {
         EXPECT_LT(steepest, 0.35) << "continuous";
       }
       const ToolPath plain = plan_toolpath(scene, aims, plainly(at(r, o)));
-      std::printf("seed %d: plain crossing %ld of %zu, least %.4f; rolled %zu, steepest %.3f\n",
-                  static_cast<int>(seed),
-                  std::count(plain.crossing.begin(), plain.crossing.end(), true), plain.size(),
-                  least_distance(scene, plain), rolled.size(), steepest);
       if (o == Orientation::kPiecewiseConstant) {
         EXPECT_GT(std::count(plain.crossing.begin(), plain.crossing.end(), true),
                   static_cast<long>(plain.size() / 5));
@@ -294,11 +290,11 @@ TEST(Rolling, FootprintNormalsTurnTheApproachAndNotThePosition) {
   options.normal_radius = 0.15;
   const ToolPath footprint = plan_toolpath(scene, aims, options);
   EXPECT_GE(least_distance(scene, footprint), 0.1);
-  for (const Vec3& a : footprint.approach) EXPECT_GT(a.z(), 0.95) << "level on the whole";
+  for (const Vec3& a : footprint.approach) EXPECT_GT(a.z(), 0.97) << "level on the whole";
   EXPECT_LT(std::min_element(ball.approach.begin(), ball.approach.end(),
                              [](const Vec3& a, const Vec3& b) { return a.z() < b.z(); })
                 ->z(),
-            0.9);
+            0.97);
 }
 
 }  // namespace

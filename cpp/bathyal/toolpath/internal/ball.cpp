@@ -53,12 +53,16 @@ Touch Ball::nearest(const Vec3& centre) const {
 
 Touch Ball::touch(std::int32_t mesh, std::int32_t triangle, const Vec3& centre) const {
   const TriangleMesh& on = scene_.meshes()[static_cast<std::size_t>(mesh)];
-  const Vec3 away = closest_to_origin(on.corner(triangle, 0) - centre,
-                                      on.corner(triangle, 1) - centre,
-                                      on.corner(triangle, 2) - centre);
+  const Vec3 away =
+      closest_to_origin(on.corner(triangle, 0) - centre, on.corner(triangle, 1) - centre,
+                        on.corner(triangle, 2) - centre);
   const double distance = away.norm();
   return {centre + away, distance > 0.0 ? Vec3(-away / distance) : Vec3(Vec3::Zero()), distance,
           mesh, triangle};
+}
+
+bool Ball::is_free(const Vec3& from, const Vec3& to) const {
+  return !(scene_.nearest_segment(from, to, {2.0 * radius_}).distance < radius_);
 }
 
 std::optional<Vec3> Ball::lift(const Vec3& from, const Vec3& direction, double reach) const {
@@ -87,6 +91,14 @@ std::optional<Vec3> Ball::lift(const Vec3& from, const Vec3& direction, double r
     }
   }
   return from + high * direction;
+}
+
+std::optional<Vec3> Ball::lay(const Vec3& near, const Vec3& direction) const {
+  for (const double back : {0.0, 0.25, 0.5, 1.0, 1.5, 2.0}) {
+    const Vec3 from = near - back * radius_ * direction;
+    if (!is_free(from)) return lift(from, direction, 30.0 * radius_);
+  }
+  return near;
 }
 
 }  // namespace bathyal::toolpath

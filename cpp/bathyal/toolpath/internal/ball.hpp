@@ -36,8 +36,16 @@ class Ball {
 
   bool is_free(const Vec3& centre) const { return nearest(centre).distance >= radius_; }
 
+  /// Whether every centre on the straight way is.
+  bool is_free(const Vec3& from, const Vec3& to) const;
+
   /// The first free centre from `from` along the unit `direction`, none within `reach` [m].
   std::optional<Vec3> lift(const Vec3& from, const Vec3& direction, double reach) const;
+
+  /// The centre nearest to `near` up along `direction` where the ball touches; looked for from as
+  /// far back as two radii. `near` itself where the ball lies free even there; none where nothing
+  /// is free within 30 radii.
+  std::optional<Vec3> lay(const Vec3& near, const Vec3& direction) const;
 
  private:
   const Scene& scene_;

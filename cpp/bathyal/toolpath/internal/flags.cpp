@@ -20,14 +20,13 @@ bool cross(const PlanPoint& a, const PlanPoint& b, const PlanPoint& c, const Pla
 }
 
 /// Where the tool's point moves against the travel of the bottom's point beneath it.
-void flag_turning_back(ToolPath& path, bool is_rolled) {
+void flag_turning_back(ToolPath& path) {
   for (std::size_t j = 0; j + 1 < path.size(); ++j) {
-    if (path.gap[j] || (is_rolled && path.segment[j] != path.segment[j + 1])) continue;
+    if (path.gap[j]) continue;
     const Vec3 moved = path.position[j + 1] - path.position[j];
     const Vec3 below = path.surface[j + 1] - path.surface[j];
     // At an edge of the piecewise-constant form the bottom's point rests: use the travel.
-    const Vec3 ahead =
-        below.isZero() || is_rolled ? Vec3(path.travel[j] + path.travel[j + 1]) : below;
+    const Vec3 ahead = below.isZero() ? Vec3(path.travel[j] + path.travel[j + 1]) : below;
     if (moved.dot(ahead) < -1e-12 * ahead.norm()) path.crossing[j] = path.crossing[j + 1] = true;
   }
 }
@@ -59,6 +58,16 @@ void flag_loops(ToolPath& path, std::size_t begin, std::size_t end, const Vec3& 
   }
 }
 
+void flag_all_loops(ToolPath& path, const Vec3& up, double standoff) {
+  for (std::size_t begin = 0; begin < path.size();) {
+    std::size_t end = begin + 1;
+    while (end < path.size() && !path.gap[end - 1] && path.segment[end] == path.segment[begin])
+      ++end;
+    flag_loops(path, begin, end, up, 10.0 * standoff);
+    begin = end;
+  }
+}
+
 bool meets_ground(const Scene& scene, const ToolBody& body, const Vec3& tip, const Vec3& back) {
   const double begin = std::min(body.tolerance, body.length);
   if (scene.cast(tip + begin * back, back).range <= body.length - begin) return true;
@@ -77,17 +86,15 @@ bool meets_ground(const Scene& scene, const ToolBody& body, const Vec3& tip, con
 
 }  // namespace
 
-void flag_crossings(ToolPath& path, const Vec3& up, double standoff, bool is_rolled) {
+void flag_crossings(ToolPath& path, const Vec3& up, double standoff) {
   path.crossing.assign(path.size(), false);
   if (standoff == 0.0) return;
-  flag_turning_back(path, is_rolled);
-  for (std::size_t begin = 0; begin < path.size();) {
-    std::size_t end = begin + 1;
-    while (end < path.size() && !path.gap[end - 1] && path.segment[end] == path.segment[begin])
-      ++end;
-    flag_loops(path, begin, end, up, 10.0 * standoff);
-    begin = end;
-  }
+  flag_turning_back(path);
+  flag_all_loops(path, up, standoff);
+}
+
+void flag_rolled_crossings(ToolPath& path, const Vec3& up, double standoff) {
+  flag_all_loops(path, up, standoff);
 }
 
 void flag_contacts(ToolPath& path, const Surface& surface, const ToolBody& body, int num_threads) {

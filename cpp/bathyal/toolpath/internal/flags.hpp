@@ -9,9 +9,12 @@ namespace bathyal::toolpath {
 /// its travel, and all samples of a loop that path makes in the upright plane of its
 /// segment (the swallowtail over ground more concave than the standoff; loops shorter than ten
 /// standoffs along the bottom are looked for). Without standoff nothing is flagged: the path is the
-/// bottom's own section. What a rolling ball touches may jump to and fro across a hollow: there the
-/// travel counts in place of the bottom's points.
-void flag_crossings(ToolPath& path, const Vec3& up, double standoff, bool is_rolled = false);
+/// bottom's own section.
+void flag_crossings(ToolPath& path, const Vec3& up, double standoff);
+
+/// The same for a rolled path, whose travel is that of the ball: loops are added to the stretches
+/// rolled backwards, which are flagged already.
+void flag_rolled_crossings(ToolPath& path, const Vec3& up, double standoff);
 
 /// The tool's body: a capsule of `radius` whose round end touches the tool's point and which
 /// reaches `length` back from there along a.

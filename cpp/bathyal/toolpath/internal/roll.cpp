@@ -10,6 +10,7 @@ namespace {
 constexpr double kSideways = 1e-7;  // a touch across the plane gives no way within it
 constexpr double kStep = 0.1;       // of the radius
 constexpr double kMostTurn = 0.1;   // of the approach between two centres [rad]
+constexpr double kNoTurn = 1e-9;    // [rad]
 
 /// Follows the outline step by step.
 class Roller {
@@ -25,14 +26,15 @@ class Roller {
     if (sideways(contact_)) return false;
     double length = step_;
     std::optional<Vec3> ahead = step_to(length);
-    while (ahead && turn_at(*ahead) > kMostTurn && length > 1e-6 * ball_.radius()) {
+    while (ahead && length > 1e-6 * ball_.radius() && is_too_long(*ahead, length)) {
       length *= 0.5;
       ahead = step_to(length);
     }
     if (!ahead) return false;
     const Touch other = ball_.nearest(*ahead);
     if (other.distance < ball_.radius()) return change_to(other, length);
-    step_ = std::min(kStep * ball_.radius(), 2.0 * length);
+    const bool is_straight = turn_at(*ahead) <= kNoTurn;
+    step_ = is_straight ? 2.0 * length : std::min(kStep * ball_.radius(), 2.0 * length);
     go_to(*ahead);
     return true;
   }
@@ -43,9 +45,7 @@ class Roller {
   std::vector<Rest>& rests() { return rests_; }
 
  private:
-  bool sideways(const Touch& touch) const {
-    return plane_.within(touch.toward).norm() < kSideways;
-  }
+  bool sideways(const Touch& touch) const { return plane_.within(touch.toward).norm() < kSideways; }
 
   Vec3 travel_of(const Touch& touch) const {
     return plane_.sense * plane_.normal.cross(plane_.within(touch.toward)).normalized();
@@ -61,12 +61,21 @@ class Roller {
   }
 
   double turn_at(const Vec3& centre) const {
-    return std::acos(std::clamp(same_at(centre).toward.dot(contact_.toward), -1.0, 1.0));
+    return (same_at(centre).toward - contact_.toward).norm();
+  }
+
+  /// Steps beyond a tenth of the radius are straight and free all along.
+  bool is_too_long(const Vec3& ahead, double length) const {
+    const double turn = turn_at(ahead);
+    if (length <= kStep * ball_.radius()) return turn > kMostTurn;
+    return turn > kNoTurn || !ball_.is_free(centre_, ahead);
   }
 
   void add(bool is_turn) {
-    append_rest(rests_, {centre_, contact_.point, contact_.toward, travel_of(contact_),
-                         contact_.mesh, contact_.triangle, 0, is_turn});
+    Rest rest{centre_,       contact_.point,   contact_.toward, travel_of(contact_),
+              contact_.mesh, contact_.triangle};
+    rest.is_turn = is_turn;
+    append_rest(rests_, rest);
   }
 
   void go_to(const Vec3& centre) {
@@ -186,19 +195,17 @@ std::optional<Vec3> settle(const Ball& ball, const RollingPlane& plane, std::int
 }
 
 void append_rest(std::vector<Rest>& rests, const Rest& rest) {
-  constexpr double kStraight = 1e-9;
   const auto continues = [&](const Rest& a, const Rest& b) {
     return a.mesh == b.mesh && a.triangle == b.triangle &&
-           (a.approach - b.approach).norm() < kStraight && (a.travel - b.travel).norm() < kStraight;
+           (a.approach - b.approach).norm() < kNoTurn && (a.travel - b.travel).norm() < kNoTurn;
   };
-  if (!rests.empty() && (rests.back().centre - rest.centre).norm() == 0.0 &&
+  if (!rests.empty() && !rest.is_turn && (rests.back().centre - rest.centre).norm() == 0.0 &&
       (rests.back().approach - rest.approach).norm() < 1e-6) {
     // On to a neighbour without a turn. Where that begins is known to half the digits only: on a
     // straight way the approach stays what it was.
     Rest& last = rests.back();
-    const bool was_turn = last.is_turn;
     const bool is_straight =
-        rests.size() > 1 && (rests[rests.size() - 2].approach - last.approach).norm() < kStraight;
+        rests.size() > 1 && (rests[rests.size() - 2].approach - last.approach).norm() < kNoTurn;
     const Rest kept = last;
     last = rest;
     if (is_straight) {
@@ -206,7 +213,7 @@ void append_rest(std::vector<Rest>& rests, const Rest& rest) {
       last.approach = kept.approach;
       last.travel = kept.travel;
     }
-    last.is_turn = was_turn || rest.is_turn;
+    last.is_turn = kept.is_turn;
     return;
   }
   if (!rests.empty() && rest.is_turn && rests.back().is_turn &&
@@ -227,7 +234,7 @@ std::optional<std::vector<Rest>> roll(const Ball& ball, const RollingPlane& plan
   const double near = 16.0 * ball.slack() + 1e-9 * ball.radius();
   Roller roller(ball, plane, start);
   double length = 0.0;
-  const auto most = static_cast<std::size_t>(std::min(1e7, 1e3 + 2e3 * longest / ball.radius()));
+  const auto most = static_cast<std::size_t>(std::min(2e6, 1e5 + 200.0 * longest / ball.radius()));
   if ((goal - start).norm() <= near) return std::move(roller.rests());
   for (std::size_t i = 0; i < most && length <= longest; ++i) {
     const Vec3 from = roller.centre();
@@ -238,7 +245,10 @@ std::optional<std::vector<Rest>> roll(const Ball& ball, const RollingPlane& plan
     const Vec3 to_goal = goal - from;
     const double along = way > 0.0 ? to_goal.dot(moved) / way : 0.0;
     const double aside = way > 0.0 ? (to_goal - along / way * moved).norm() : to_goal.norm();
-    if (along < -near || along > way + near || aside > 0.1 * way + near) continue;
+    // Between two centres the way bulges by far less than a tenth of their distance.
+    if (along < -near || along > way + near ||
+        aside > 0.1 * std::min(way, kStep * ball.radius()) + near)
+      continue;
     std::vector<Rest> rests = std::move(roller.rests());
     // The last step went past the goal.
     while (rests.size() > 1 && rests.back().centre == roller.centre()) rests.pop_back();

@@ -12,13 +12,14 @@ namespace bathyal::toolpath {
 /// goes from the one to the other.
 struct Rest {
   Vec3 centre = Vec3::Zero();
-  Vec3 touch = Vec3::Zero();     ///< on the bottom
+  Vec3 touch = Vec3::Zero();      ///< on the bottom
   Vec3 approach = Vec3::UnitZ();  ///< unit, from the touch to the centre
   Vec3 travel = Vec3::Zero();     ///< unit, the way the centre goes on
   std::int32_t mesh = -1;
   std::int32_t triangle = -1;
   std::int32_t segment = 0;
-  bool is_turn = false;  ///< the approach jumps from the rest before
+  bool is_turn = false;      ///< the approach jumps from the rest before
+  bool is_backward = false;  ///< on a leg rolled against its sense
 };
 
 /// The upright plane the ball's centre keeps to.

@@ -45,8 +45,8 @@ std::vector<std::vector<Piece>> touched_pieces(const RolledRoute& rolled, const 
       piece.from = piece.to = rest.touch;
       piece.mesh = rest.mesh;
       piece.triangle = rest.triangle;
-      piece.normal = outward_normal(scene.meshes()[static_cast<std::size_t>(rest.mesh)],
-                                    rest.triangle);
+      piece.normal =
+          outward_normal(scene.meshes()[static_cast<std::size_t>(rest.mesh)], rest.triangle);
       if (piece.normal.isZero()) piece.normal = rest.approach;
       run.pieces.push_back(piece);
     }
@@ -109,14 +109,14 @@ Quaternion blended_at(const RolledWay& way, double s, double blend_length) {
   Quaternion behind = way.stations[low].frame, ahead = way.stations[high].frame;
   for (std::size_t k = low; k < high; ++k) {
     const Eigen::AngleAxisd& turn = way.turns[k].rotation;
-    behind = Eigen::AngleAxisd(done_at(way, k, s, blend_length) * turn.angle(), turn.axis()) *
-             behind;
+    behind =
+        Eigen::AngleAxisd(done_at(way, k, s, blend_length) * turn.angle(), turn.axis()) * behind;
   }
   for (std::size_t k = high; k-- > low;) {
     const Eigen::AngleAxisd& turn = way.turns[k].rotation;
-    ahead = Eigen::AngleAxisd((done_at(way, k, s, blend_length) - 1.0) * turn.angle(),
-                              turn.axis()) *
-            ahead;
+    ahead =
+        Eigen::AngleAxisd((done_at(way, k, s, blend_length) - 1.0) * turn.angle(), turn.axis()) *
+        ahead;
   }
   return behind.slerp(0.5, ahead).normalized();
 }
@@ -138,6 +138,7 @@ void append_sample(ToolPath& path, const Station& station, const Quaternion& fra
   path.mesh.push_back(station.rest.mesh);
   path.triangle.push_back(station.rest.triangle);
   path.gap.push_back(false);
+  path.crossing.push_back(station.rest.is_backward);
   path.normal_std.push_back(station.normal_std);
 }
 
@@ -149,23 +150,20 @@ Station between(const Ball& ball, const Station& a, const Station& b, double fra
   middle.at = a.at + fraction * (b.at - a.at);
   middle.rest.centre = a.rest.centre + fraction * (b.rest.centre - a.rest.centre);
   const Vec3 a_out = a.rest.centre - a.rest.touch, b_out = b.rest.centre - b.rest.touch;
-  if ((a_out - b_out).norm() <= 1e-9 * ball.radius()) {
+  const bool is_straight = (a_out - b_out).norm() <= 1e-9 * ball.radius();
+  if (is_straight && ball.is_free(middle.rest.centre)) {
     middle.rest.touch = middle.rest.centre - (a_out + fraction * (b_out - a_out));
     return middle;
   }
-  const Vec3 across = b.rest.travel.cross(a.rest.approach + b.rest.approach);
-  if (across.norm() > 0.0) {
-    const RollingPlane plane{a.rest.centre, across.normalized(), 1.0};
-    const auto settled =
-        settle(ball, plane, a.rest.mesh, a.rest.triangle, middle.rest.centre);
-    if (settled && (*settled - middle.rest.centre).norm() < 0.1 * ball.radius()) {
-      middle.rest.centre = *settled;
-    }
-  }
-  if (!ball.is_free(middle.rest.centre)) {
-    const Vec3 out = (a.rest.approach + b.rest.approach).normalized();
-    middle.rest.centre = ball.lift(middle.rest.centre, out, ball.radius())
-                             .value_or(middle.rest.centre);
+  const Vec3 out = (a.rest.approach + b.rest.approach).normalized();
+  const RollingPlane plane{a.rest.centre, b.rest.travel.cross(out).normalized(), 1.0};
+  const Vec3 on = middle.rest.centre;
+  const double chord = (b.rest.centre - a.rest.centre).norm();
+  const auto settled = settle(ball, plane, a.rest.mesh, a.rest.triangle, on);
+  if (settled && (*settled - on).norm() < 0.05 * chord && ball.is_free(*settled)) {
+    middle.rest.centre = *settled;
+  } else if (const auto up = ball.lay(on, out)) {
+    middle.rest.centre = *up;
   }
   const Touch touch = ball.nearest(middle.rest.centre);
   middle.rest.touch = touch.point;
@@ -180,10 +178,10 @@ std::size_t parts_in(double length, double longest) {
 }
 
 /// Samples of the stretch from station k on to the next, the next left out: finer where a jump's
-/// blend reaches into it.
+/// blend reaches into it, and where parts of `step` come out longer than `most`.
 std::vector<Station> stretch_of(const Ball& ball, const RolledWay& way, std::size_t k,
                                 double last_jump, double next_jump, double blend_length,
-                                double step) {
+                                double step, double most) {
   const Station &a = way.stations[k], &b = way.stations[k + 1];
   std::vector<double> cuts{a.at};
   const double fine = step > 0.0 ? std::min(step, blend_length / 8.0) : blend_length / 8.0;
@@ -192,8 +190,7 @@ std::vector<Station> stretch_of(const Ball& ball, const RolledWay& way, std::siz
     if (end - begin <= kCoincident) return;
     const std::size_t parts = parts_in(end - begin, longest);
     for (std::size_t i = 1; i <= parts; ++i) {
-      cuts.push_back(begin +
-                     (end - begin) * static_cast<double>(i) / static_cast<double>(parts));
+      cuts.push_back(begin + (end - begin) * static_cast<double>(i) / static_cast<double>(parts));
     }
   };
   const double turned = std::min(last_jump + 0.5 * blend_length, b.at);
@@ -211,11 +208,19 @@ std::vector<Station> stretch_of(const Ball& ball, const RolledWay& way, std::siz
     if (b.at - cuts[i] <= kCoincident) break;
     stations.push_back(between(ball, a, b, (cuts[i] - a.at) / length));
   }
-  return stations;
+  // Off the straight line parts differ in length.
+  if (step <= 0.0 || length > 1e3 * step) return stations;
+  double longest = (b.rest.centre - stations.back().rest.centre).norm();
+  for (std::size_t i = 1; i < stations.size(); ++i) {
+    longest = std::max(longest, (stations[i].rest.centre - stations[i - 1].rest.centre).norm());
+  }
+  if (longest <= most * (1.0 + 1e-9) || step < most / 16.0) return stations;
+  return stretch_of(ball, way, k, last_jump, next_jump, blend_length, 0.5 * step, most);
 }
 
 void append_run(ToolPath& path, const Ball& ball, const RolledWay& way,
                 const ToolPathOptions& options) {
+  const double blend_length = std::min(options.blend_length, 2.0 * ball.radius());
   constexpr double kFar = std::numeric_limits<double>::infinity();
   const bool blended = options.orientation == Orientation::kBlended;
   const std::size_t count = way.stations.size();
@@ -229,9 +234,10 @@ void append_run(ToolPath& path, const Ball& ball, const RolledWay& way,
     const bool is_last = k + 1 == count;
     std::vector<Station> samples{way.stations[k]};
     if (!is_last) {
-      samples = blended ? stretch_of(ball, way, k, last_jump, next_jump[k], options.blend_length,
-                                     options.step)
-                        : stretch_of(ball, way, k, -kFar, kFar, options.blend_length, options.step);
+      samples =
+          blended ? stretch_of(ball, way, k, last_jump, next_jump[k], blend_length, options.step,
+                               options.step)
+                  : stretch_of(ball, way, k, -kFar, kFar, blend_length, options.step, options.step);
       // Of two stations at one place the second is the blended sample.
       const bool in_place = way.stations[k + 1].at - way.stations[k].at <= kCoincident;
       if (blended && in_place) continue;
@@ -239,9 +245,9 @@ void append_run(ToolPath& path, const Ball& ball, const RolledWay& way,
     for (const Station& sample : samples) {
       Quaternion frame = way.stations[k].frame;
       if (blended) {
-        frame = blended_at(way, sample.at, options.blend_length);
+        frame = blended_at(way, sample.at, blend_length);
       } else if (!is_last && !way.turns[k].is_jump) {
-        const double part = done_at(way, k, sample.at, options.blend_length);
+        const double part = done_at(way, k, sample.at, blend_length);
         const Eigen::AngleAxisd& turn = way.turns[k].rotation;
         frame = Quaternion(Eigen::AngleAxisd(part * turn.angle(), turn.axis())) * frame;
       }

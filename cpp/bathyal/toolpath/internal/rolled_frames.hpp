@@ -6,12 +6,14 @@
 
 namespace bathyal::toolpath {
 
-/// Samples of a rolled route. Every array is filled up to the gap flag and normal_std, and the
-/// position, which is the ball's centre; `route` gives the pairs whose gaps end the runs.
+/// Samples of a rolled route. Every array is filled up to the gap flag and normal_std, the
+/// position, which is the ball's centre, and crossing for legs rolled backwards; `route` gives the
+/// pairs whose gaps end the runs.
 ///
 /// The approach is the ball's own, from what it touches to its centre, exact at every sample away
 /// from turns and continuous between them. It jumps where the ball touches two triangles at once,
 /// and the heading jumps at targets. Blended: every jump is spread over `blend_length` of the way,
+/// at most twice the radius, over which the ball may have turned anyhow,
 /// half before and half after, in the cumulative form of sample_blended. Piecewise constant: two
 /// samples at one position, between which the tool turns in place.
 ///

@@ -30,6 +30,14 @@ double length_of(Pieces pieces) {
   return length;
 }
 
+double way_of(const std::vector<Rest>& rests) {
+  double way = 0.0;
+  for (std::size_t k = 1; k < rests.size(); ++k) {
+    way += (rests[k].centre - rests[k - 1].centre).norm();
+  }
+  return way;
+}
+
 /// Across the leg: from its targets, or where one lies above the other from the pieces themselves.
 Vec3 across(Pieces pieces, const Targets& targets, const Vec3& up) {
   const auto i = static_cast<std::size_t>(pieces.front().segment);
@@ -87,8 +95,10 @@ std::optional<Vec3> centre_at(const Ball& ball, const RollingPlane& plane, const
 
 Rest rest_at(const Ball& ball, const Vec3& centre, const Vec3& travel, std::int32_t segment) {
   const Touch touch = ball.nearest(centre);
-  return {centre,         touch.point, touch.toward, travel.normalized(), touch.mesh,
-          touch.triangle, segment,     true};
+  Rest rest{centre, touch.point, touch.toward, travel.normalized(), touch.mesh, touch.triangle};
+  rest.segment = segment;
+  rest.is_turn = true;
+  return rest;
 }
 
 /// The plain offset raised along the normals.
@@ -106,7 +116,7 @@ std::vector<Rest> raised(const Ball& ball, Pieces pieces) {
   return rests;
 }
 
-/// Straight from one centre to another, raised where that is not free.
+/// Straight on from one centre to another, raised or lowered till the ball touches.
 void go_straight(const Ball& ball, std::vector<Rest>& rests, const Rest& to) {
   const Rest from = rests.back();
   const Vec3 way = to.centre - from.centre;
@@ -115,9 +125,8 @@ void go_straight(const Ball& ball, std::vector<Rest>& rests, const Rest& to) {
     const double f = static_cast<double>(k) / parts;
     const Vec3 out = (1.0 - f) * from.approach + f * to.approach;
     const Vec3 on = from.centre + f * way;
-    if (!(out.norm() > 0.1) || ball.is_free(on)) {
-      append_rest(rests, rest_at(ball, on, way, from.segment));
-    } else if (const auto up = ball.lift(on, out.normalized(), 30.0 * ball.radius())) {
+    if (!(out.norm() > 0.1)) continue;
+    if (const auto up = ball.lay(on, out.normalized())) {
       append_rest(rests, rest_at(ball, *up, way, from.segment));
     }
   }
@@ -156,10 +165,16 @@ RolledLeg roll_leg(const Ball& ball, const std::vector<RunLeg>& legs, std::size_
       rests = std::vector<Rest>{rest_at(ball, *start, Vec3::Zero(), 0)};
     } else {
       rests = roll(ball, plane, *start, *goal, longest);
-      if (!rests) {
-        // Targets closer than the ball is wide may touch it in the other order.
+      // Targets closer than the ball is wide may touch it in the other order: on, it would have to
+      // go all the way round.
+      const double forward = rests ? way_of(*rests) : longest;
+      if (forward > 2.0 * (length + ball.radius())) {
         plane.sense = -plane.sense;
-        rests = roll(ball, plane, *start, *goal, std::min(longest, 8.0 * ball.radius()));
+        auto back = roll(ball, plane, *start, *goal, std::min(forward, 8.0 * ball.radius()));
+        if (back && way_of(*back) < forward) {
+          rests = std::move(back);
+          for (Rest& rest : *rests) rest.is_backward = true;
+        }
       }
     }
   }
