@@ -43,6 +43,10 @@ const EnumNames<Orientation>& orientation_names() {
       {"blended", Orientation::kBlended}, {"piecewise_constant", Orientation::kPiecewiseConstant}};
   return names;
 }
+const EnumNames<Offset>& offset_names() {
+  static const EnumNames<Offset> names{{"rolling", Offset::kRolling}, {"plain", Offset::kPlain}};
+  return names;
+}
 const EnumNames<MissedAims>& missed_names() {
   static const EnumNames<MissedAims> names{{"leave_out", MissedAims::kLeaveOut},
                                            {"refuse", MissedAims::kRefuse}};
@@ -154,8 +158,9 @@ void bind_path(py::module_& module) {
       "An oriented tool path along the bottom, one sample a row, in the world frame.\n\n"
       "Positions [m], times [s], angles [rad]. All arrays are read-only.");
   add_array(cls, "position", &ToolPath::position,
-            "(M, 3) the tool's point: T_j, or T_j + standoff · a_j.");
-  add_array(cls, "surface", &ToolPath::surface, "(M, 3) T_j, on the bottom.");
+            "(M, 3) the tool's point: T_j, T_j + standoff · a_j, or the rolling ball's centre.");
+  add_array(cls, "surface", &ToolPath::surface,
+            "(M, 3) T_j, on the bottom; what the rolling ball touches.");
   add_array(cls, "approach", &ToolPath::approach,
             "(M, 3) a_j, unit, out of the bottom; the tool's z is −a_j.");
   add_array(cls, "travel", &ToolPath::travel,
@@ -242,8 +247,8 @@ void bind_toolpath(py::module_& module) {
          const std::string& frame, const std::string& vertical, double grazing_angle,
          double max_range, const std::string& missed, const std::string& orientation,
          double blend_length, double angular_rate, double speed, double acceleration,
-         double standoff, double step, double normal_radius, double tool_radius, double tool_length,
-         double contact_tolerance, int num_threads) {
+         double standoff, const std::string& offset, double step, double normal_radius,
+         double tool_radius, double tool_length, double contact_tolerance, int num_threads) {
         ToolPathOptions options;
         options.targets = target_options(world_from_vehicle, frame, vertical, grazing_angle,
                                          max_range, num_threads);
@@ -254,6 +259,7 @@ void bind_toolpath(py::module_& module) {
         options.speed = speed;
         options.acceleration = acceleration;
         options.standoff = standoff;
+        options.offset = enum_argument("offset", offset, offset_names());
         options.step = step;
         options.normal_radius = normal_radius;
         options.tool_radius = tool_radius;
@@ -270,7 +276,8 @@ void bind_toolpath(py::module_& module) {
       py::arg("orientation") = enum_name(path.orientation, orientation_names()),
       py::arg("blend_length") = path.blend_length, py::arg("angular_rate") = path.angular_rate,
       py::arg("speed") = path.speed, py::arg("acceleration") = path.acceleration,
-      py::arg("standoff") = path.standoff, py::arg("step") = path.step,
+      py::arg("standoff") = path.standoff,
+      py::arg("offset") = enum_name(path.offset, offset_names()), py::arg("step") = path.step,
       py::arg("normal_radius") = path.normal_radius, py::arg("tool_radius") = path.tool_radius,
       py::arg("tool_length") = path.tool_length,
       py::arg("contact_tolerance") = path.contact_tolerance,

@@ -76,7 +76,11 @@ angular_rate : float
 speed, acceleration : float
     Limits of the tool's point along its path [m/s], [m/s²]; it starts and ends at rest.
 standoff : float
-    Of the tool's point from the bottom, along a_j [m].
+    Of the tool's point from the bottom [m].
+offset : {"rolling", "plain"}
+    How the standoff is kept. Rolling: the point is the centre of a ball of that radius that rolls
+    over the bottom. Plain: each T_j moved along its own a_j. Without standoff, and on a plane, both
+    are the same.
 step : float
     Longest stretch between samples on the bottom [m]; 0 keeps the T_j as cut. T_j always stay.
 normal_radius : float
@@ -100,6 +104,18 @@ Notes
 A gap is crossed straight between two samples, the first flagged, the tool at rest at both. Targets
 that coincide give no length. A target above the next one is joined down the wall between them. One
 target gives one sample. Read `warnings`.
+
+Rolling, no sample is nearer to any mesh of the scene than `standoff`, and of the straight stretch
+between two samples d apart nothing is nearer than √(standoff² − d²/4). The ball's centre keeps to
+the upright plane of each section, moved sideways by the standoff times the section's mean sine of
+the slope across it; `surface` is what the ball touches, up to the standoff off the section, and a_j
+points from there to the centre. A hollow too narrow for the ball it touches on both sides and
+passes over: there a_j jumps, which is blended (over two standoffs at most) or turned in place, as
+between facets. A target it cannot touch is passed straight above. With `normal_radius` > 0 a_j is
+the normal of the footprint round what is touched. A section the ball cannot roll over keeps the
+plain offset, raised off the bottom, with a warning. `tool_radius` plays no part: a body wider than
+the standoff may meet ground, which `contact` flags. Plain, the path over ground more concave than
+the standoff turns back, crosses itself and comes nearer; `crossing` flags it.
 
 References
 ----------

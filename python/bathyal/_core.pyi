@@ -1358,7 +1358,7 @@ class ToolPath:
     @property
     def position(self) -> numpy.ndarray:
         """
-        (M, 3) the tool's point: T_j, or T_j + standoff · a_j.
+        (M, 3) the tool's point: T_j, T_j + standoff · a_j, or the rolling ball's centre.
         """
     @property
     def quaternion(self) -> numpy.ndarray:
@@ -1378,7 +1378,7 @@ class ToolPath:
     @property
     def surface(self) -> numpy.ndarray:
         """
-        (M, 3) T_j, on the bottom.
+        (M, 3) T_j, on the bottom; what the rolling ball touches.
         """
     @property
     def targets(self) -> Targets:
@@ -5240,7 +5240,7 @@ def mesh_report(mesh: TriangleMesh, *, num_threads: typing.SupportsInt | typing.
     >>> round(report.rugosity, 6), report.inverted_triangles, len(report.boundary_loops)
     (1.414214, 0, 1)
     """
-def plan_toolpath(surface: Scene | Plane, aims: numpy.typing.ArrayLike, *, world_from_vehicle: numpy.typing.ArrayLike | None = None, frame: str = 'vehicle', vertical: str = 'gravity', grazing_angle: typing.SupportsFloat | typing.SupportsIndex = 1.3962634015954636, max_range: typing.SupportsFloat | typing.SupportsIndex = ..., missed: str = 'leave_out', orientation: str = 'blended', blend_length: typing.SupportsFloat | typing.SupportsIndex = 0.1, angular_rate: typing.SupportsFloat | typing.SupportsIndex = 0.5, speed: typing.SupportsFloat | typing.SupportsIndex = 0.1, acceleration: typing.SupportsFloat | typing.SupportsIndex = 0.1, standoff: typing.SupportsFloat | typing.SupportsIndex = 0.0, step: typing.SupportsFloat | typing.SupportsIndex = 0.0, normal_radius: typing.SupportsFloat | typing.SupportsIndex = 0.0, tool_radius: typing.SupportsFloat | typing.SupportsIndex = 0.0, tool_length: typing.SupportsFloat | typing.SupportsIndex = 0.0, contact_tolerance: typing.SupportsFloat | typing.SupportsIndex = 0.01, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> ToolPath:
+def plan_toolpath(surface: Scene | Plane, aims: numpy.typing.ArrayLike, *, world_from_vehicle: numpy.typing.ArrayLike | None = None, frame: str = 'vehicle', vertical: str = 'gravity', grazing_angle: typing.SupportsFloat | typing.SupportsIndex = 1.3962634015954636, max_range: typing.SupportsFloat | typing.SupportsIndex = ..., missed: str = 'leave_out', orientation: str = 'blended', blend_length: typing.SupportsFloat | typing.SupportsIndex = 0.1, angular_rate: typing.SupportsFloat | typing.SupportsIndex = 0.5, speed: typing.SupportsFloat | typing.SupportsIndex = 0.1, acceleration: typing.SupportsFloat | typing.SupportsIndex = 0.1, standoff: typing.SupportsFloat | typing.SupportsIndex = 0.0, offset: str = 'rolling', step: typing.SupportsFloat | typing.SupportsIndex = 0.0, normal_radius: typing.SupportsFloat | typing.SupportsIndex = 0.0, tool_radius: typing.SupportsFloat | typing.SupportsIndex = 0.0, tool_length: typing.SupportsFloat | typing.SupportsIndex = 0.0, contact_tolerance: typing.SupportsFloat | typing.SupportsIndex = 0.01, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> ToolPath:
     """
     Plan the path of a tool along the bottom.
     
@@ -5263,7 +5263,11 @@ def plan_toolpath(surface: Scene | Plane, aims: numpy.typing.ArrayLike, *, world
     speed, acceleration : float
         Limits of the tool's point along its path [m/s], [m/s²]; it starts and ends at rest.
     standoff : float
-        Of the tool's point from the bottom, along a_j [m].
+        Of the tool's point from the bottom [m].
+    offset : {"rolling", "plain"}
+        How the standoff is kept. Rolling: the point is the centre of a ball of that radius that rolls
+        over the bottom. Plain: each T_j moved along its own a_j. Without standoff, and on a plane, both
+        are the same.
     step : float
         Longest stretch between samples on the bottom [m]; 0 keeps the T_j as cut. T_j always stay.
     normal_radius : float
@@ -5287,6 +5291,18 @@ def plan_toolpath(surface: Scene | Plane, aims: numpy.typing.ArrayLike, *, world
     A gap is crossed straight between two samples, the first flagged, the tool at rest at both. Targets
     that coincide give no length. A target above the next one is joined down the wall between them. One
     target gives one sample. Read `warnings`.
+    
+    Rolling, no sample is nearer to any mesh of the scene than `standoff`, and of the straight stretch
+    between two samples d apart nothing is nearer than √(standoff² − d²/4). The ball's centre keeps to
+    the upright plane of each section, moved sideways by the standoff times the section's mean sine of
+    the slope across it; `surface` is what the ball touches, up to the standoff off the section, and a_j
+    points from there to the centre. A hollow too narrow for the ball it touches on both sides and
+    passes over: there a_j jumps, which is blended (over two standoffs at most) or turned in place, as
+    between facets. A target it cannot touch is passed straight above. With `normal_radius` > 0 a_j is
+    the normal of the footprint round what is touched. A section the ball cannot roll over keeps the
+    plain offset, raised off the bottom, with a warning. `tool_radius` plays no part: a body wider than
+    the standoff may meet ground, which `contact` flags. Plain, the path over ground more concave than
+    the standoff turns back, crosses itself and comes nearer; `crossing` flags it.
     
     References
     ----------

@@ -5,9 +5,12 @@
 #include <map>
 
 #include "bathyal/base/check.hpp"
+#include "bathyal/base/parallel.hpp"
 #include "bathyal/toolpath/internal/flags.hpp"
 #include "bathyal/toolpath/internal/frames.hpp"
 #include "bathyal/toolpath/internal/normals.hpp"
+#include "bathyal/toolpath/internal/rolled_frames.hpp"
+#include "bathyal/toolpath/internal/rolling.hpp"
 #include "bathyal/toolpath/internal/timing.hpp"
 
 namespace bathyal {
@@ -64,6 +67,51 @@ void stand_off(ToolPath& path, double standoff) {
   for (std::size_t j = 0; j < path.size(); ++j) path.position[j] += standoff * path.approach[j];
 }
 
+/// On a plane the plain offset is the ball's way already, and no ball is smaller than 10 µm.
+bool is_rolled(const Surface& surface, const ToolPathOptions& options) {
+  return std::holds_alternative<Scene>(surface) && options.standoff > 1e-5 &&
+         options.offset == Offset::kRolling;
+}
+
+/// Says by how much the ball's centre is too near where it could not be raised far enough.
+void warn_of_shortfall(ToolPath& path, const Scene& scene, double standoff, int num_threads) {
+  std::vector<double> missing(path.size(), 0.0);
+  parallel_for(path.size(), 256, num_threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t j = begin; j < end; ++j) {
+      missing[j] = standoff - scene.nearest(path.position[j]).distance;
+    }
+  });
+  const auto count = std::count_if(missing.begin(), missing.end(),
+                                   [&](double m) { return m > 1e-9 * std::max(1.0, standoff); });
+  if (count == 0) return;
+  path.warnings.push_back("the path comes nearer to the bottom than the standoff at " +
+                          std::to_string(count) + (count == 1 ? " sample" : " samples") +
+                          ", by up to " +
+                          to_text(*std::max_element(missing.begin(), missing.end())) + " m");
+}
+
+/// Positions at the standoff, the samples' own or those of a ball that rolls.
+ToolPath sample_route(Route& route, const Surface& surface, const Targets& targets, const Vec3& up,
+                      const ToolPathOptions& options) {
+  const int threads = options.targets.num_threads;
+  if (is_rolled(surface, options)) {
+    const Scene& scene = std::get<Scene>(surface);
+    const RolledRoute rolled = roll_along(route, scene, targets, up, options.standoff, threads);
+    ToolPath path = sample_rolled(rolled, route, scene, options);
+    path.warnings = std::move(route.warnings);
+    path.warnings.insert(path.warnings.end(), rolled.warnings.begin(), rolled.warnings.end());
+    warn_of_shortfall(path, scene, options.standoff, threads);
+    return path;
+  }
+  estimate_normals(route, surface, options.normal_radius, threads);
+  ToolPath path = options.orientation == Orientation::kBlended
+                      ? sample_blended(route, options.blend_length, options.step)
+                      : sample_piecewise_constant(route, options.step);
+  path.warnings = std::move(route.warnings);
+  stand_off(path, options.standoff);
+  return path;
+}
+
 void warn_of_flags(ToolPath& path) {
   const auto warn = [&](const std::string& what, const std::vector<bool>& flags) {
     const auto count = std::count(flags.begin(), flags.end(), true);
@@ -113,15 +161,14 @@ ToolPath plan_toolpath(const Surface& surface, const Aims& aims, const ToolPathO
   Route route = join_targets(surface, targets, up, threads);
   check_parts("step", options.step, route);
   check_parts("normal_radius", options.normal_radius, route);
-  estimate_normals(route, surface, options.normal_radius, threads);
-  ToolPath path = options.orientation == Orientation::kBlended
-                      ? sample_blended(route, options.blend_length, options.step)
-                      : sample_piecewise_constant(route, options.step);
+  ToolPath path = sample_route(route, surface, targets, up, options);
   path.targets = std::move(targets);
-  path.warnings = std::move(route.warnings);
-  stand_off(path, options.standoff);
   set_times(path, {options.speed, options.acceleration, options.angular_rate});
-  flag_crossings(path, up, options.standoff);
+  if (is_rolled(surface, options)) {
+    flag_rolled_crossings(path, up, options.standoff);
+  } else {
+    flag_crossings(path, up, options.standoff);
+  }
   flag_contacts(path, surface,
                 {options.tool_radius, options.tool_length, options.contact_tolerance}, threads);
   warn_of_flags(path);

@@ -30,6 +30,13 @@ class Down(str, Enum):
     down = "down"
 
 
+class Offset(str, Enum):
+    """How the tool keeps its standoff."""
+
+    rolling = "rolling"
+    plain = "plain"
+
+
 class Orientation(str, Enum):
     """How the approach axis goes over edges."""
 
@@ -206,7 +213,16 @@ class Following:
     ] = None
     standoff: Annotated[
         float | None,
-        _plan_option("Path", "Of the tool from the bottom, along a_j \\[m].", "standoff"),
+        _plan_option("Path", "Of the tool from the bottom \\[m].", "standoff"),
+    ] = None
+    offset: Annotated[
+        Offset | None,
+        _plan_option(
+            "Path",
+            "Keep the standoff as a ball of that radius rolls over the bottom, or plainly along "
+            "each sample's a_j, which may turn back over rough ground.",
+            "offset",
+        ),
     ] = None
     speed: Annotated[
         float | None, _plan_option("Path", "Of the tool along its path \\[m/s].", "speed")

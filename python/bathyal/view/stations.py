@@ -59,6 +59,12 @@ def unroll(path: ToolPath) -> Stations:
     start, finish = surface[first], surface[last]
     joined = np.flatnonzero(~np.asarray(path.gap, bool)[last[:-1]])
     finish[joined] = start[joined + 1]  # the target between two segments is the next one's sample
+    # What a rolling ball touches first and last lies next to the targets, not on them.
+    targets = np.asarray(path.targets.point)
+    for ends, rows in ((start, segments), (finish, segments + 1)):
+        known = np.flatnonzero(rows < len(targets))
+        known = known[np.isfinite(targets[rows[known]]).all(axis=1)]
+        ends[known] = targets[rows[known]]
     span = (finish - start) * [1.0, 1.0, 0.0]
     length = np.linalg.norm(span, axis=1)
     along = np.divide(span, length[:, None], out=np.zeros_like(span), where=length[:, None] > 0)

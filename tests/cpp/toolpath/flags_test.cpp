@@ -27,6 +27,7 @@ Scene trough(double sign) {
 ToolPath stood_off(const Scene& scene, double standoff, Orientation orientation) {
   ToolPathOptions options;
   options.standoff = standoff;
+  options.offset = Offset::kPlain;
   options.orientation = orientation;
   return plan_toolpath(scene, down({{-0.7, 0.1}, {0.7, 0.1}}, 3.0), options);
 }
@@ -47,6 +48,7 @@ TEST(Crossing, TheWholeLoopOverAValleyIsFlagged) {
   const Scene scene = scene_of(grid(valley, -4, 4, 8, -2, 2, 2));
   ToolPathOptions options;
   options.standoff = 0.5;
+  options.offset = Offset::kPlain;
   options.step = 0.02;
   const ToolPath path = plan_toolpath(scene, down({{-3, 0.3}, {3, 0.3}}), options);
   // The offset lines of 45° slopes cross above x = 0 where their feet are standoff · tan 45° away.

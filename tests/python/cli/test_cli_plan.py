@@ -26,7 +26,7 @@ CORAL = (
 def test_plan_writes_everything(job, tmp_path):
     done = bathyal_run(
         "plan", job / "survey.xyz", "--aims", job / "aims.csv", "--out", tmp_path / "plan",
-        "--step", 0.3, "--standoff", 0.1, "--max-edge", 1.2, "--json",
+        "--step", 0.3, "--standoff", 0.1, "--offset", "plain", "--max-edge", 1.2, "--json",
     )  # fmt: skip
     assert done.returncode == 0, done.stderr
     assert done.stderr == ""
@@ -39,7 +39,7 @@ def test_plan_writes_everything(job, tmp_path):
 
     path = json.loads((tmp_path / "plan/path.json").read_text())
     assert path["crs"] == "EPSG:32602"
-    assert path["settings"]["path"] == {"step": 0.3, "standoff": 0.1}
+    assert path["settings"]["path"] == {"step": 0.3, "standoff": 0.1, "offset": "plain"}
     assert path["settings"]["bottom"]["triangulate"] == {"max_edge": 1.2}
     assert path["provenance"]["input"]["file"] == "survey.xyz"
     assert path["provenance"]["cleaning"]["after"] == told["soundings"]

@@ -84,6 +84,7 @@ def test_refusals_name_the_argument(function, change, message):
     ("change", "message"),
     [
         ({"orientation": "smooth"}, '`orientation`: expected "blended" or "piecewise_constant"'),
+        ({"offset": "round"}, '`offset`: expected "rolling" or "plain", got "round"'),
         ({"missed": "skip"}, '`missed`: expected "leave_out" or "refuse"'),
         *(
             ({name: 0.0}, f"`{name}`")
@@ -204,7 +205,8 @@ def test_paths_keep_the_contract(scene, orientation):
         assert getattr(path, name).dtype == np.int32
     for name in ("gap", "crossing", "contact"):
         assert getattr(path, name).dtype == np.bool_
-    assert np.allclose(path.position, path.surface + 0.1 * path.approach)
+    assert np.allclose(np.linalg.norm(path.position - path.surface, axis=1), 0.1, atol=1e-12)
+    assert scene.nearest(path.position).distance.min() >= 0.1
     assert np.allclose(path.side, np.cross(path.approach, path.travel))
     rotation = path.frame[:, :3, :3]
     assert np.allclose(rotation, np.stack([path.travel, -path.side, -path.approach], axis=2))
@@ -221,6 +223,73 @@ def test_paths_keep_the_contract(scene, orientation):
     assert set(path.segment) == {0, 1, 2}
     assert path.targets.status.tolist() == ["hit"] * 4
     assert isinstance(path.warnings, list)
+
+
+@pytest.mark.parametrize("orientation", ["blended", "piecewise_constant"])
+def test_plain_offset_moves_every_sample_along_its_approach(scene, orientation):
+    plain = bathyal.plan_toolpath(
+        scene, TOUR, orientation=orientation, standoff=0.1, offset="plain"
+    )
+    bottom = bathyal.plan_toolpath(scene, TOUR, orientation=orientation)
+    assert np.array_equal(plain.surface, bottom.surface)
+    assert np.array_equal(plain.approach, bottom.approach)
+    assert np.array_equal(plain.position, bottom.surface + 0.1 * bottom.approach)
+
+
+def test_without_standoff_and_on_a_plane_both_offsets_are_the_same(scene):
+    for surface, standoff in ((scene, 0.0), (PLANE, 0.3), (bathyal.Plane((0.3, 0.2, 1), -5), 0.3)):
+        rolling = bathyal.plan_toolpath(surface, TOUR, standoff=standoff)
+        plain = bathyal.plan_toolpath(surface, TOUR, standoff=standoff, offset="plain")
+        assert np.array_equal(rolling.position, plain.position)
+        assert np.array_equal(rolling.time, plain.time)
+
+
+def test_rolling_over_a_rough_reef_never_comes_nearer_nor_crosses():
+    rng = np.random.default_rng(17)
+    # Facets of 1 cm, 37° along their edges in the root mean square.
+    rough = grid(lambda x, y: rng.uniform(-0.0092, 0.0092, x.shape), size=1.5, cells=150)
+    reef = bathyal.Scene(rough)
+    aims = down([[0.2, 0.3], [1.3, 0.5], [1.1, 1.2]])
+    rolling = bathyal.plan_toolpath(reef, aims, standoff=0.1)
+    assert rolling.warnings == []
+    assert not rolling.crossing.any()
+    distance = reef.nearest(rolling.position).distance
+    assert distance.min() >= 0.1
+    assert distance.max() <= 0.1 + 1e-9
+    moved = np.diff(rolling.position, axis=0)
+    between = rolling.position[:-1, None] + np.linspace(0, 1, 9)[:, None] * moved[:, None]
+    least = np.sqrt(0.1**2 - np.sum(moved**2, axis=1) / 4)
+    on_the_way = reef.nearest(between.reshape(-1, 3)).distance.reshape(-1, 9).min(axis=1)
+    assert (on_the_way >= least - 1e-12).all()
+    turned = np.arccos(np.clip(np.sum(rolling.approach[1:] * rolling.approach[:-1], axis=1), -1, 1))
+    assert turned.max() < 0.3
+    plain = bathyal.plan_toolpath(reef, aims, standoff=0.1, offset="plain", blend_length=0.02)
+    assert plain.crossing.mean() > 0.2
+    assert reef.nearest(plain.position).distance.min() < 0.08
+
+
+@settings(max_examples=40, deadline=None)
+@given(
+    seed=st.integers(0, 2**31),
+    roughness=st.floats(0, 0.3),
+    standoff=st.floats(0.02, 0.8),
+    step=st.sampled_from([0.0, 0.03]),
+    orientation=st.sampled_from(["blended", "piecewise_constant"]),
+)
+def test_rolling_keeps_the_standoff_over_any_ground(seed, roughness, standoff, step, orientation):
+    rng = np.random.default_rng(seed)
+    ground = grid(lambda x, y: roughness * rng.standard_normal(x.shape), cells=20)
+    ground = bathyal.Scene(ground)
+    aims = down(rng.uniform(0.8, 5.2, (3, 2)))
+    path = bathyal.plan_toolpath(
+        ground, aims, standoff=standoff, step=step, orientation=orientation
+    )
+    distance = ground.nearest(path.position).distance
+    assert distance.min() >= standoff
+    assert distance.max() <= standoff * (1 + 1e-9)
+    assert not any("rolled" in warning for warning in path.warnings)
+    if step:
+        assert np.linalg.norm(np.diff(path.position, axis=0), axis=1).max() <= step * (1 + 1e-9)
 
 
 def test_arrays_outlive_their_path(scene):

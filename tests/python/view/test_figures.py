@@ -102,7 +102,9 @@ def test_flat_ground_is_stretched_and_rough_is_not(slope, stretch):
 
 
 def test_unrolled_section_keeps_lengths_and_angles():
-    _, _, path = scenes.planned(hole=False, miss=False, standoff=0.2)
+    path = bathyal.plan_toolpath(
+        scenes.bottom(hole=False), scenes.aims(miss=False), step=0.2, standoff=0.2, offset="plain"
+    )
     section = stations.unroll(path)
     assert section.end[-1] == pytest.approx(
         np.linalg.norm(np.diff(path.targets.point[:, :2], axis=0), axis=1).sum()
@@ -112,6 +114,16 @@ def test_unrolled_section_keeps_lengths_and_angles():
     steps = np.linalg.norm(np.diff(section.bottom, axis=0), axis=1)
     true = np.linalg.norm(np.diff(path.surface, axis=0), axis=1)
     np.testing.assert_allclose(steps[inside], true[inside], atol=1e-9)
+
+
+def test_unrolled_section_of_a_rolled_path_runs_from_target_to_target():
+    _, _, path = scenes.planned(hole=False, miss=False, standoff=0.2)
+    section = stations.unroll(path)
+    ends = path.targets.point[:, :2]
+    assert section.end[-1] == pytest.approx(np.linalg.norm(np.diff(ends, axis=0), axis=1).sum())
+    np.testing.assert_array_equal(section.start[:, :2], ends[:-1])
+    moved = np.diff(section.tool, axis=0)[np.diff(path.segment) == 0]
+    assert (moved[:, 0] > 0).all(), "the ball rolls on along the section"
 
 
 def test_runs_cover_the_path_and_stop_at_gaps():

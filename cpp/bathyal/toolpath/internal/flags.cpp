@@ -58,6 +58,16 @@ void flag_loops(ToolPath& path, std::size_t begin, std::size_t end, const Vec3& 
   }
 }
 
+void flag_all_loops(ToolPath& path, const Vec3& up, double standoff) {
+  for (std::size_t begin = 0; begin < path.size();) {
+    std::size_t end = begin + 1;
+    while (end < path.size() && !path.gap[end - 1] && path.segment[end] == path.segment[begin])
+      ++end;
+    flag_loops(path, begin, end, up, 10.0 * standoff);
+    begin = end;
+  }
+}
+
 bool meets_ground(const Scene& scene, const ToolBody& body, const Vec3& tip, const Vec3& back) {
   const double begin = std::min(body.tolerance, body.length);
   if (scene.cast(tip + begin * back, back).range <= body.length - begin) return true;
@@ -80,13 +90,11 @@ void flag_crossings(ToolPath& path, const Vec3& up, double standoff) {
   path.crossing.assign(path.size(), false);
   if (standoff == 0.0) return;
   flag_turning_back(path);
-  for (std::size_t begin = 0; begin < path.size();) {
-    std::size_t end = begin + 1;
-    while (end < path.size() && !path.gap[end - 1] && path.segment[end] == path.segment[begin])
-      ++end;
-    flag_loops(path, begin, end, up, 10.0 * standoff);
-    begin = end;
-  }
+  flag_all_loops(path, up, standoff);
+}
+
+void flag_rolled_crossings(ToolPath& path, const Vec3& up, double standoff) {
+  flag_all_loops(path, up, standoff);
 }
 
 void flag_contacts(ToolPath& path, const Surface& surface, const ToolBody& body, int num_threads) {

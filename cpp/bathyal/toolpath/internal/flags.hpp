@@ -12,6 +12,10 @@ namespace bathyal::toolpath {
 /// bottom's own section.
 void flag_crossings(ToolPath& path, const Vec3& up, double standoff);
 
+/// The same for a rolled path, whose travel is that of the ball: loops are added to the stretches
+/// rolled backwards, which are flagged already.
+void flag_rolled_crossings(ToolPath& path, const Vec3& up, double standoff);
+
 /// The tool's body: a capsule of `radius` whose round end touches the tool's point and which
 /// reaches `length` back from there along a.
 struct ToolBody {

@@ -93,14 +93,9 @@ std::string list_text(const std::vector<std::size_t>& numbers) {
   return count > kShown ? text + ", … (" + std::to_string(count) + " in all)" : text;
 }
 
-/// "aim 6 has no target" or "aims 3 and 6 have no target": what is said of `noun` in the singular
-/// and in the plural.
 void warn(Route& route, const std::string& noun, const std::vector<std::size_t>& numbers,
           const std::string& one, const std::string& several) {
-  if (numbers.empty()) return;
-  const bool is_one = numbers.size() == 1;
-  route.warnings.push_back(noun + (is_one ? " " : "s ") + list_text(numbers) + " " +
-                           (is_one ? one : several));
+  warn_of(route.warnings, noun, numbers, one, several);
 }
 
 void warn_of_targets(Route& route, const Targets& targets) {
@@ -128,6 +123,15 @@ void warn_of_targets(Route& route, const Targets& targets) {
 }
 
 }  // namespace
+
+void warn_of(std::vector<std::string>& warnings, const std::string& noun,
+             const std::vector<std::size_t>& numbers, const std::string& one,
+             const std::string& several) {
+  if (numbers.empty()) return;
+  const bool is_one = numbers.size() == 1;
+  warnings.push_back(noun + (is_one ? " " : "s ") + list_text(numbers) + " " +
+                     (is_one ? one : several));
+}
 
 Route join_targets(const Surface& surface, const Targets& targets, const Vec3& up,
                    int num_threads) {

@@ -40,6 +40,12 @@ struct Route {
 /// standard deviations not yet. At least one target must be found.
 Route join_targets(const Surface& surface, const Targets& targets, const Vec3& up, int num_threads);
 
+/// "aim 6 has no target" or "aims 3 and 6 have no target": what is said of `noun` in the singular
+/// and in the plural. Nothing for no numbers.
+void warn_of(std::vector<std::string>& warnings, const std::string& noun,
+             const std::vector<std::size_t>& numbers, const std::string& one,
+             const std::string& several);
+
 /// Cuts every piece into equal parts no longer than `length` [m].
 void subdivide(Route& route, double length);
 
