@@ -94,7 +94,11 @@ Trajectory sampled(std::string_view name, const py::object& function, double sta
   const auto count = static_cast<int>(std::ceil((end - start) / step - 1e-9));
   for (int i = 0; i <= count; ++i) {
     time.push_back(i == count ? end : start + step * i);
-    poses.push_back(pose_argument(name, function(time.back())));
+    const py::object pose = function(time.back());
+    if (pose.is_none()) {
+      throw_argument(name, "a function that gives a (4, 4) pose", "None at " + to_text(time.back()));
+    }
+    poses.push_back(pose_argument(name, pose));
   }
   return {std::move(time), std::move(poses)};
 }

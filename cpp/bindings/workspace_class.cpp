@@ -78,7 +78,9 @@ std::vector<LinkCapsule> arm_capsules(const Arm& arm, const OptionalArray& radii
     for (const auto& [link, list] : *capsules) {
       shapes[static_cast<std::size_t>(link_index(arm, link, "capsules"))] = list;
     }
-    return capsules_of_links(arm, shapes);
+    std::vector<LinkCapsule> given = capsules_of_links(arm, shapes);
+    if (given.empty()) throw_argument("capsules", "one Capsule or more", "none");
+    return given;
   }
   if (!radii.is_none()) {
     return capsules_of_rows(
@@ -484,7 +486,7 @@ void add_values(py::class_<Workspace>& cls) {
             return pairs;
           },
           "Pairs that are not compared, as tuples of a link, the other link or obstacle, and the "
-          "reason: \"neighbours\", \"allowed\", \"fixed to it\", or \"touch in every posture\" of "
+          "reason: \"foot\", \"neighbours\", \"allowed\", \"fixed to it\", or \"touch in every posture\" of "
           "64 drawn.")
       .def("__repr__", [](const Workspace& ws) {
         const std::string around =

@@ -45,7 +45,8 @@ vehicle_pose : (4, 4) array, Trajectory or callable, optional
 vehicle_pose_std : (6,) array, optional
     Standard deviations of the vehicle's pose: of the origin along the vehicle's axes [m], then of
     the rotation about them [rad]. Distances to what is fixed to the world are less by three
-    standard deviations of where that takes a point (first order).
+    standard deviations of where that takes a point, whatever the direction (first order). Of
+    `check_target`, whose points are in the world, those to what is fixed to the vehicle.
 vehicle_body : RigidBody, optional
     Of the vehicle without the arm, in the vehicle's frame: for `static_trim`.
 radii : float or (L,) array, optional
@@ -122,8 +123,9 @@ q_path : (M, n) array
 time : (M,) array, optional
     Of each row, rising [s]; needed where the vehicle or a keep-out moves, and for `stopping`.
 stopping : bool
-    Whether the arm must be able to stop, too: at every moment each coordinate may run on by its
-    stopping distance, speed² / (2 acceleration), either way.
+    Whether the arm must be able to stop, too: at every moment it may run on along the line between
+    two rows by its stopping distance, speed² / (2 acceleration) of the coordinate that stops last.
+    The contact is then the last moment at which an order to stop comes in time.
 acceleration : float or (n,) array, optional
     With which each coordinate brakes [rad/s²] or [m/s²]; unless given its rate limit is reached from
     rest in half a second (1 rad/s², 0.5 m/s² of a joint without one).

@@ -312,11 +312,12 @@ Parameters
 ----------
 pose : (4, 4) array, Trajectory or callable
     frame_from_given: what was given in the frame is moved by it. A function of the time [s] is
-    called every 0.05 s from 0 to 600 s.
+    called every 0.05 s from 0 to 600 s. It takes the place of an earlier one.
 
 Returns
 -------
 KeepOut
+    Its own `contains` and `distance` are of the volume as it was given.
 )";
 
 }  // namespace bathyal::python::workspace_docs

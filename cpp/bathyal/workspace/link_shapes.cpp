@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -38,6 +39,17 @@ std::optional<Capsule> capsule_around(const Shape& shape, const MeshCorners& cor
   return fit_capsule(points->view());
 }
 
+/// Shapes for collisions; those for the eye of parts that have none.
+std::vector<Shape> outline_of(const Link& link) {
+  std::vector<Shape> outline = link.collision;
+  for (const Shape& shape : link.visual) {
+    if (std::ranges::find(link.collision, shape.part, &Shape::part) == link.collision.end()) {
+      outline.push_back(shape);
+    }
+  }
+  return outline;
+}
+
 /// A rotation whose z is the direction.
 Pose along(const Vec3& start, const Vec3& end) {
   Pose pose = Pose::Identity();
@@ -64,8 +76,7 @@ ArmCapsules capsules_of_shapes(const Arm& arm, const MeshCorners& corners) {
   bool any = false;
   for (std::size_t link = 0; link < shapes.size(); ++link) {
     const Link& one = arm.links()[link];
-    const std::vector<Shape>& outline = one.collision.empty() ? one.visual : one.collision;
-    for (const Shape& shape : outline) {
+    for (const Shape& shape : outline_of(one)) {
       any = true;
       const std::optional<Capsule> capsule = capsule_around(shape, corners);
       if (capsule) {

@@ -28,7 +28,13 @@ namespace {
 
 std::vector<std::string> names_of(const std::vector<workspace::Obstacle>& obstacles) {
   std::vector<std::string> names;
-  for (const workspace::Obstacle& obstacle : obstacles) names.push_back(obstacle.name());
+  for (const workspace::Obstacle& obstacle : obstacles) {
+    std::string name = obstacle.name();
+    for (int k = 2; std::ranges::find(names, name) != names.end(); ++k) {
+      name = obstacle.name() + "_" + std::to_string(k);
+    }
+    names.push_back(std::move(name));
+  }
   return names;
 }
 

@@ -45,7 +45,8 @@ struct ExcludedPair {
   int link = 0;
   int other_link = -1;  ///< or -1, and
   int obstacle = -1;    ///< an index into obstacles()
-  std::string reason;   ///< "neighbours", "allowed", "touch in every posture", "fixed to it"
+  std::string reason;   ///< "foot", "neighbours", "allowed", "touch in every posture",
+                       ///< "fixed to it"
 };
 
 /// How near a posture comes to what must not be touched. Points are in the vehicle's frame, on the
@@ -67,8 +68,10 @@ enum class TipContact { kForbidden, kAllowed };
 struct MotionOptions {
   /// Of each row [s], rising; none: at 0, or, where something moves in the world, refused.
   std::span<const double> time = {};
-  /// Whether the arm must be able to stop, too: at every moment each coordinate may run on by its
-  /// stopping distance, speed² / (2 acceleration), in either direction. Needs `time`.
+  /// Whether the arm must be able to stop, too: at every moment it may run on along the line between
+  /// two rows by its stopping distance, speed² / (2 acceleration) of the coordinate that stops last;
+  /// what moves is counted while it stops. The contact is then the last moment at which an order to
+  /// stop comes in time. Needs `time`.
   bool stopping = false;
   /// With which each coordinate brakes [rad/s²], [m/s²]; none: default_acceleration.
   std::span<const double> acceleration = {};
@@ -124,8 +127,8 @@ class Workspace {
   const std::vector<std::string>& obstacles() const;
 
   /// Pairs that are not compared: neighbouring links, those allowed, an obstacle and the link that
-  /// it is fixed to, and what touches in every one of 64 postures drawn within the limits: it is
-  /// made so.
+  /// it is fixed to, the foot and all obstacles, and what touches in every one of 64 postures drawn
+  /// within the limits: it is made so (unless that goes for the hull and all links).
   const std::vector<ExcludedPair>& excluded() const;
 
   /// What looks like a mistake: a hull that is a hundred times as large as the arm or as small, as

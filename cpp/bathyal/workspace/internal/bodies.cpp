@@ -20,6 +20,7 @@ namespace bathyal::workspace {
 namespace {
 
 constexpr int kSampledPostures = 64;
+constexpr double kLeastSlide = 1.0;  // of a sliding joint without limits, either way [m]
 
 void check_link(std::string_view name, int link, const Arm& arm) {
   if (link >= 0 && link < std::ssize(arm.links())) return;
@@ -41,6 +42,7 @@ void check(const Surroundings& surroundings, const Arm& arm) {
   for (const auto& [one, other] : surroundings.allowed) {
     check_link("allowed", one, arm);
     check_link("allowed", other, arm);
+    if (one == other) throw_argument("allowed", "two different links", link_name(arm, one) + " twice");
   }
 }
 
@@ -94,6 +96,9 @@ void pair_up(Bodies& bodies, const Surroundings& surroundings) {
       if (bodies.link_of(k) < bodies.link_of(c)) bodies.with_capsules.push_back({c, k});
     }
   }
+  for (std::size_t o = 0; o < bodies.obstacles.size(); ++o) {
+    bodies.excluded.push_back({0, -1, static_cast<int>(o), "foot"});
+  }
   const int links = static_cast<int>(bodies.arm.links().size());
   for (int link = 1; link < links; ++link) {
     for (int other = 0; other < link; ++other) {
@@ -143,6 +148,13 @@ void exclude_what_always_touches(Bodies& bodies) {
       return std::ranges::none_of(pair.obstacle < 0 ? bodies.with_capsules : bodies.with_obstacles,
                                   meets);
     });
+  }
+  // A hull that the whole arm is in is a mistake to see, too.
+  const int last = static_cast<int>(bodies.arm.links().size()) - 1;
+  if (std::ranges::any_of(always, [&](const ExcludedPair& pair) {
+        return pair.obstacle >= 0 && pair.link == last;
+      })) {
+    std::erase_if(always, [](const ExcludedPair& pair) { return pair.obstacle >= 0; });
   }
   for (const ExcludedPair& pair : always) exclude(bodies, pair);
 }
@@ -197,10 +209,20 @@ std::vector<double> drawn_posture(const Arm& arm, RandomStream& random) {
   std::vector<double> q(static_cast<std::size_t>(arm.size()));
   for (const Joint& joint : arm.joints()) {
     if (joint.coordinate < 0 || !joint.follows.empty()) continue;
-    const double reach = joint.type == JointType::kPrismatic ? chain_length(arm) : std::numbers::pi;
     const Index k = joint.coordinate;
-    q[static_cast<std::size_t>(k)] =
-        random.uniform(std::max(arm.lower()[k], -reach), std::min(arm.upper()[k], reach));
+    double low = arm.lower()[k], high = arm.upper()[k];
+    const double span = joint.type == JointType::kPrismatic
+                            ? 2.0 * std::max(kLeastSlide, chain_length(arm))
+                            : 2.0 * std::numbers::pi;
+    if (!std::isfinite(low) && !std::isfinite(high)) {
+      low = -0.5 * span;
+      high = 0.5 * span;
+    } else if (!std::isfinite(low)) {
+      low = high - span;
+    } else if (!std::isfinite(high)) {
+      high = low + span;
+    }
+    q[static_cast<std::size_t>(k)] = random.uniform(low, high);
   }
   return q;
 }
@@ -259,7 +281,7 @@ Pose Posture::obstacle_pose(const Obstacle& obstacle) const {
 Nearness Posture::to_obstacle(const Pair& pair, double within) const {
   const Obstacle& obstacle = bodies_->obstacles[pair.other];
   const Capsule& own = placed_[pair.capsule];
-  if (obstacle.frame() == kVehicleFrame && !obstacle.motion().moves()) {
+  if (obstacle.frame() == kVehicleFrame && !obstacle.moved()) {
     return obstacle.nearest(own, within);
   }
   double margin = 0.0;

@@ -45,6 +45,7 @@ class Obstacle {
   int frame() const { return frame_; }
   /// In that frame: at rest but for keep-outs that move.
   const Trajectory& motion() const { return motion_; }
+  bool moved() const { return motion_.moves() || !motion_.pose().front().matrix().isIdentity(0.0); }
 
   /// Of a capsule in the obstacle's frame. What is farther than `within` is not looked for.
   Nearness nearest(const Capsule& capsule,

@@ -26,6 +26,9 @@ void check_hull(const Bodies& bodies, const Obstacle& hull, std::vector<std::str
     warnings.push_back("the hull is " + three_digits(away) +
                        " m away from the arm's base: is it in the vehicle's frame?");
   }
+  if (hull.nearest(Capsule{base, base, 0.0}).distance < -reach) {
+    warnings.push_back("the hull holds the whole arm: no posture will be free");
+  }
 }
 
 }  // namespace

@@ -30,7 +30,8 @@ TargetCheck check_point(const Workspace& workspace, const Bodies& bodies, const 
     if (obstacle.frame() >= 0) continue;  // moves with the arm
     const Vec3 own = at_time.obstacle_pose(obstacle).inverse() * point;
     double distance = obstacle.nearest({own, own, 0.0}).distance;
-    if (bodies.is_in_world(i)) distance -= pose_margin(bodies, point);
+    // Targets are in the world: what is fixed to the vehicle may be elsewhere.
+    if (!bodies.is_in_world(i)) distance -= pose_margin(bodies, point);
     found.distance = std::min(found.distance, distance);
     if (!(distance < -kInside)) continue;
     if (obstacle.is_hull()) {
