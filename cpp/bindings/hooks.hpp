@@ -10,7 +10,7 @@ namespace bathyal::python {
 enum class Hook {
   kFindEffect,     ///< name → Effect: of the library, or registered
   kWarnOfSupport,  ///< (model, q, covariates, mask): a call beyond what the data covered
-  kMeshVertices,   ///< Shape → (N, 3) corners of its mesh along its scale, None if it cannot be read
+  kMeshVertices,  ///< Shape → (N, 3) corners of its mesh along its scale, None if it cannot be read
 };
 
 /// \throw std::logic_error where none was handed in

@@ -64,8 +64,8 @@ std::vector<Pose> poses_argument(std::string_view name, const py::object& object
   const Rows rows = rows_argument(name, array.attr("reshape")(-1, 16), 16);
   std::vector<Pose> poses(static_cast<std::size_t>(rows.table.rows()));
   for (std::size_t i = 0; i < poses.size(); ++i) {
-    poses[i].matrix() = Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(
-        rows.table.data() + 16 * i);
+    poses[i].matrix() =
+        Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(rows.table.data() + 16 * i);
   }
   return poses;
 }
@@ -96,7 +96,8 @@ Trajectory sampled(std::string_view name, const py::object& function, double sta
     time.push_back(i == count ? end : start + step * i);
     const py::object pose = function(time.back());
     if (pose.is_none()) {
-      throw_argument(name, "a function that gives a (4, 4) pose", "None at " + to_text(time.back()));
+      throw_argument(name, "a function that gives a (4, 4) pose",
+                     "None at " + to_text(time.back()));
     }
     poses.push_back(pose_argument(name, pose));
   }

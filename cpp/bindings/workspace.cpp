@@ -284,8 +284,8 @@ KeepOut keepout_from_state(const py::tuple& s) {
     case Kind::kCone:
       return KeepOut::cone(radius, length, pose, label);
     case Kind::kHalfSpace:
-      return KeepOut::half_space(
-          Plane(vector_argument("normal", s[7]), s[8].cast<double>()), label);
+      return KeepOut::half_space(Plane(vector_argument("normal", s[7]), s[8].cast<double>()),
+                                 label);
     default:
       return KeepOut::mesh(s[9].cast<Hull>(), label);
   }
@@ -348,7 +348,8 @@ void bind_keepout_values(py::class_<KeepOut>& keepout) {
           [](const KeepOut& k) {
             return py::make_tuple(static_cast<int>(k.kind()), k.frame(), k.name(), k.radius(),
                                   k.length(), to_numpy(k.size()), to_numpy(k.pose()),
-                                  to_numpy(k.border().normal()), k.border().offset(), k.hull(), k.motion());
+                                  to_numpy(k.border().normal()), k.border().offset(), k.hull(),
+                                  k.motion());
           },
           [](const py::tuple& s) {
             return keepout_from_state(s).moved(s[10].cast<Trajectory>());

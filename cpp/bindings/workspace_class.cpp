@@ -486,7 +486,8 @@ void add_values(py::class_<Workspace>& cls) {
             return pairs;
           },
           "Pairs that are not compared, as tuples of a link, the other link or obstacle, and the "
-          "reason: \"foot\", \"neighbours\", \"allowed\", \"fixed to it\", or \"touch in every posture\" of "
+          "reason: \"foot\", \"neighbours\", \"allowed\", \"fixed to it\", or \"touch in every "
+          "posture\" of "
           "64 drawn.")
       .def("__repr__", [](const Workspace& ws) {
         const std::string around =

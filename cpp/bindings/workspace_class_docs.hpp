@@ -103,7 +103,8 @@ Clearances
     Of a single posture without the first dimension.
 )";
 
-inline constexpr const char* kClearances = R"(How near each posture comes to what must not be touched.
+inline constexpr const char* kClearances =
+    R"(How near each posture comes to what must not be touched.
 
 Links that are compared with nothing are listed in ``Workspace.excluded``. Of a single posture the
 arrays have no first dimension.
@@ -152,7 +153,8 @@ Examples
 (False, 0.51, 'link_2', 'pole')
 )";
 
-inline constexpr const char* kMotionCheck = "The first contact of a motion; falsy where there is one.";
+inline constexpr const char* kMotionCheck =
+    "The first contact of a motion; falsy where there is one.";
 
 inline constexpr const char* kCheckTarget = R"(Whether the arm may be sent to points.
 
@@ -181,10 +183,12 @@ ValueError
     For a point that is not finite.
 )";
 
-inline constexpr const char* kTargetChecks = R"(Whether the arm may be sent to each point, and why not.
+inline constexpr const char* kTargetChecks =
+    R"(Whether the arm may be sent to each point, and why not.
 )";
 
-inline constexpr const char* kAttach = R"(The same workspace with a tool or a sample in the arm's hand.
+inline constexpr const char* kAttach =
+    R"(The same workspace with a tool or a sample in the arm's hand.
 
 Parameters
 ----------
@@ -214,7 +218,8 @@ Returns
     `capsule_links`. Of a single posture (C, 7).
 )";
 
-inline constexpr const char* kWithLinkRadii = R"(The same arm with thickness: a cylinder along each of its segments.
+inline constexpr const char* kWithLinkRadii =
+    R"(The same arm with thickness: a cylinder along each of its segments.
 
 The segments lead from joint to joint, along d and a of each row of the table, and to the tool
 centre point; those that a sliding joint draws out are left bare.

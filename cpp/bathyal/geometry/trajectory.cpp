@@ -37,9 +37,8 @@ Trajectory::Trajectory(std::vector<double> time, std::vector<Pose> pose)
   }
   for (std::size_t i = 0; i + 1 < time_.size(); ++i) {
     const double duration = time_[i + 1] - time_[i];
-    rates_.push_back(
-        {(pose_[i + 1].translation() - pose_[i].translation()).norm() / duration,
-         angle_between(pose_[i], pose_[i + 1]) / duration});
+    rates_.push_back({(pose_[i + 1].translation() - pose_[i].translation()).norm() / duration,
+                      angle_between(pose_[i], pose_[i + 1]) / duration});
   }
 }
 

@@ -22,7 +22,8 @@ std::size_t most_bytes() {
   const char* const end = text + std::strlen(text);
   const auto [stop, code] = std::from_chars(text, end, value);
   if (code != std::errc{} || stop != end) {
-    throw Error("BATHYAL_MOST_BYTES: expected a whole number of bytes, got " + soundings::printable(text));
+    throw Error("BATHYAL_MOST_BYTES: expected a whole number of bytes, got " +
+                soundings::printable(text));
   }
   return value;
 }

@@ -52,8 +52,9 @@ struct ArmCapsules {
 };
 
 /// Capsules around the shapes of an arm's links, one a shape: those for collisions, or where a link
-/// (or a part of it) has none, those for the eye. A link without any has its segments of capsules_of_rows, without
-/// thickness; a warning says so where no link has any, or a mesh cannot be read.
+/// (or a part of it) has none, those for the eye. A link without any has its segments of
+/// capsules_of_rows, without thickness; a warning says so where no link has any, or a mesh cannot
+/// be read.
 ArmCapsules capsules_of_shapes(const Arm& arm, const MeshCorners& corners);
 
 /// The same arm with a cylinder along each segment of capsules_of_rows but those that a sliding

@@ -82,7 +82,8 @@ ArmCapsules capsules_of_shapes(const Arm& arm, const MeshCorners& corners) {
       if (capsule) {
         shapes[link].push_back(in_frame(*capsule, shape.body_from_shape));
       } else {
-        found.warnings.push_back("link " + link_name(arm, static_cast<int>(link)) + ": its mesh " + shape.file +
+        found.warnings.push_back("link " + link_name(arm, static_cast<int>(link)) + ": its mesh " +
+                                 shape.file +
                                  " cannot be read; without it, the link may be thinner than it is");
       }
     }
@@ -112,9 +113,8 @@ Arm with_link_radii(const Arm& arm, std::span<const double> radii, std::optional
     shape.body_from_shape = along(capsule.start, capsule.end);
     if (density) {
       RigidBody& body = bodies[static_cast<std::size_t>(capsule.link)];
-      body = combined(
-          body, in_frame(solid_cylinder(shape.radius, shape.length, *density),
-                         shape.body_from_shape));
+      body = combined(body, in_frame(solid_cylinder(shape.radius, shape.length, *density),
+                                     shape.body_from_shape));
     }
     link.collision.push_back(std::move(shape));
   }

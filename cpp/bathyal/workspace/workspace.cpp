@@ -123,9 +123,13 @@ Workspace::Workspace(Arm arm, Surroundings surroundings) {
   workspace::Bodies bodies = workspace::make_bodies(std::move(arm), surroundings);
   std::vector<std::string> names = names_of(bodies.obstacles);
   std::vector<std::string> warnings = workspace::plausibility(bodies);
-  state_ = std::make_shared<const State>(
-      State{std::move(surroundings), std::move(bodies), std::move(names),
-            std::move(warnings), own, {}, {}});
+  state_ = std::make_shared<const State>(State{std::move(surroundings),
+                                               std::move(bodies),
+                                               std::move(names),
+                                               std::move(warnings),
+                                               own,
+                                               {},
+                                               {}});
 }
 
 const Arm& Workspace::arm() const { return state_->bodies.arm; }
@@ -166,8 +170,9 @@ MotionCheck Workspace::check_motion(JointView q, const MotionOptions& options) c
   MotionOptions complete = options;
   if (!options.time.empty()) check_motion_times(options.time, static_cast<std::size_t>(q.rows()));
   if (options.time.empty() && (options.stopping || moves())) {
-    throw_argument("time", options.stopping ? "the time of each row, which stopping depends on"
-                                            : "the time of each row, since something moves",
+    throw_argument("time",
+                   options.stopping ? "the time of each row, which stopping depends on"
+                                    : "the time of each row, since something moves",
                    "none");
   }
   std::vector<double> acceleration;
@@ -179,8 +184,8 @@ MotionCheck Workspace::check_motion(JointView q, const MotionOptions& options) c
                                   complete);
 }
 
-std::vector<TargetCheck> Workspace::check_target(PointView points, double time,
-                                                 std::uint64_t seed, int num_threads) const {
+std::vector<TargetCheck> Workspace::check_target(PointView points, double time, std::uint64_t seed,
+                                                 int num_threads) const {
   check_finite("time", time);
   check_points_finite("points", points);
   return workspace::check_targets(*this, state_->bodies, points, {time, seed, num_threads});
@@ -214,8 +219,8 @@ Workspace Workspace::attach(std::span<const Capsule> capsules, const RigidBody& 
   State held = *state_;
   held.attached_capsules.insert(held.attached_capsules.end(), capsules.begin(), capsules.end());
   held.attached = combined(held.attached, body);
-  held.surroundings = with_capsules(arm(), std::move(held.surroundings), held.own_capsules,
-                                    held.attached_capsules);
+  held.surroundings =
+      with_capsules(arm(), std::move(held.surroundings), held.own_capsules, held.attached_capsules);
   held.bodies = workspace::make_bodies(held.bodies.arm, held.surroundings);
   Workspace workspace = *this;
   workspace.state_ = std::make_shared<const State>(std::move(held));
@@ -230,8 +235,7 @@ Workspace Workspace::detach() const {
   State empty = *state_;
   empty.attached_capsules.clear();
   empty.attached = {};
-  empty.surroundings =
-      with_capsules(arm(), std::move(empty.surroundings), empty.own_capsules, {});
+  empty.surroundings = with_capsules(arm(), std::move(empty.surroundings), empty.own_capsules, {});
   empty.bodies = workspace::make_bodies(empty.bodies.arm, empty.surroundings);
   Workspace workspace = *this;
   workspace.state_ = std::make_shared<const State>(std::move(empty));
@@ -239,8 +243,8 @@ Workspace Workspace::detach() const {
 }
 
 std::vector<double> default_acceleration(const Arm& arm) {
-  constexpr double kRiseTime = 0.5;                     // [s]
-  constexpr double kTurning = 1.0, kSliding = 0.5;      // [rad/s²], [m/s²], without a rate limit
+  constexpr double kRiseTime = 0.5;                 // [s]
+  constexpr double kTurning = 1.0, kSliding = 0.5;  // [rad/s²], [m/s²], without a rate limit
   std::vector<double> acceleration(static_cast<std::size_t>(arm.size()), kTurning);
   for (const Joint& joint : arm.joints()) {
     if (joint.coordinate < 0 || !joint.follows.empty()) continue;

@@ -46,7 +46,7 @@ struct ExcludedPair {
   int other_link = -1;  ///< or -1, and
   int obstacle = -1;    ///< an index into obstacles()
   std::string reason;   ///< "foot", "neighbours", "allowed", "touch in every posture",
-                       ///< "fixed to it"
+                        ///< "fixed to it"
 };
 
 /// How near a posture comes to what must not be touched. Points are in the vehicle's frame, on the
@@ -68,10 +68,10 @@ enum class TipContact { kForbidden, kAllowed };
 struct MotionOptions {
   /// Of each row [s], rising; none: at 0, or, where something moves in the world, refused.
   std::span<const double> time = {};
-  /// Whether the arm must be able to stop, too: at every moment it may run on along the line between
-  /// two rows by its stopping distance, speed² / (2 acceleration) of the coordinate that stops last;
-  /// what moves is counted while it stops. The contact is then the last moment at which an order to
-  /// stop comes in time. Needs `time`.
+  /// Whether the arm must be able to stop, too: at every moment it may run on along the line
+  /// between two rows by its stopping distance, speed² / (2 acceleration) of the coordinate that
+  /// stops last; what moves is counted while it stops. The contact is then the last moment at which
+  /// an order to stop comes in time. Needs `time`.
   bool stopping = false;
   /// With which each coordinate brakes [rad/s²], [m/s²]; none: default_acceleration.
   std::span<const double> acceleration = {};
@@ -83,7 +83,8 @@ struct MotionCheck {
   bool free = true;
   /// Row and fraction of the way to the next; NaN of a free motion.
   double contact = std::numeric_limits<double>::quiet_NaN();
-  double time = std::numeric_limits<double>::quiet_NaN();  ///< of the contact [s], of a timed motion
+  double time =
+      std::numeric_limits<double>::quiet_NaN();  ///< of the contact [s], of a timed motion
   int link = -1;
   int obstacle = -1;    ///< or -1, and
   int other_link = -1;  ///< of the arm's own
@@ -157,8 +158,8 @@ class Workspace {
   /// for by inverse kinematics of the point alone, from several starts; their tip may touch the
   /// scene. The result of a point does not depend on the others.
   /// \throw std::invalid_argument for a point that is not finite.
-  std::vector<TargetCheck> check_target(PointView points, double time = 0.0,
-                                        std::uint64_t seed = 0, int num_threads = 0) const;
+  std::vector<TargetCheck> check_target(PointView points, double time = 0.0, std::uint64_t seed = 0,
+                                        int num_threads = 0) const;
 
   /// The capsules of each row of q, in the vehicle's frame: those of surroundings(), (N, C).
   /// \throw std::invalid_argument as check_joint_values.

@@ -42,7 +42,8 @@ void check(const Surroundings& surroundings, const Arm& arm) {
   for (const auto& [one, other] : surroundings.allowed) {
     check_link("allowed", one, arm);
     check_link("allowed", other, arm);
-    if (one == other) throw_argument("allowed", "two different links", link_name(arm, one) + " twice");
+    if (one == other)
+      throw_argument("allowed", "two different links", link_name(arm, one) + " twice");
   }
 }
 

@@ -21,9 +21,9 @@ struct Pair {
 
 /// The bodies of a workspace and which of them are compared.
 struct Bodies {
-  Arm arm;                         ///< its base in the vehicle's frame
-  Vec6 pose_std = Vec6::Zero();    ///< of world_from_vehicle
-  double angle_std = 0.0;          ///< the greatest of its rotation [rad]
+  Arm arm;                       ///< its base in the vehicle's frame
+  Vec6 pose_std = Vec6::Zero();  ///< of world_from_vehicle
+  double angle_std = 0.0;        ///< the greatest of its rotation [rad]
   /// Those of the arm, then what of them touches the scene only by mistake: those of the last link
   /// without the end of the tool.
   std::vector<LinkCapsule> capsules{};

@@ -38,8 +38,7 @@ std::vector<std::string> plausibility(const Bodies& bodies) {
   const Vec3 base = bodies.arm.base().translation();
   for (const Obstacle& obstacle : bodies.obstacles) {
     if (obstacle.is_hull()) check_hull(bodies, obstacle, warnings);
-    if (obstacle.is_keepout() && obstacle.frame() == kVehicleFrame &&
-        !obstacle.motion().moves()) {
+    if (obstacle.is_keepout() && obstacle.frame() == kVehicleFrame && !obstacle.motion().moves()) {
       const Vec3 own = obstacle.motion().at(0.0).inverse() * base;
       if (obstacle.nearest({own, own, 0.0}).distance < 0.0) {
         warnings.push_back("keep-out " + obstacle.name() +
