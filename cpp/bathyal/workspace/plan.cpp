@@ -18,7 +18,8 @@ using workspace::JointRow;
 using workspace::PlanCheck;
 using workspace::Postures;
 
-constexpr int kAttempts = 6;       // of search and timing, until the timed motion is free
+constexpr int kAttempts = 6;  // of search and timing, until the timed motion is free
+constexpr int kMovingAttempts = 24;
 constexpr int kRoundings = 12;     // of one path
 constexpr double kSmaller = 0.25;  // of a corner that touches
 constexpr double kLeastTolerance = 1e-3;
@@ -60,7 +61,10 @@ bool time_and_check(PlanCheck& check, const Postures& path, Plan& plan) {
     }
     const auto row = static_cast<std::size_t>(contact.contact);
     if (check.late() || !round_less(timing.row_tolerance, motion.along[row])) {
-      if (check.workspace().moves()) check.also_at(check.options().time + motion.time[row]);
+      if (check.workspace().moves()) {
+        check.also_at(check.options().time + motion.time[row]);
+        check.also_at(check.options().time + motion.time.back());
+      }
       return false;
     }
   }
@@ -75,7 +79,8 @@ Plan refused(PlanStatus status, std::string reason) {
 }
 
 Plan search(PlanCheck& check, const JointRow& start, const Postures& goals) {
-  for (int attempt = 0; attempt < kAttempts; ++attempt) {
+  const int attempts = check.workspace().moves() ? kMovingAttempts : kAttempts;
+  for (int attempt = 0; attempt < attempts; ++attempt) {
     Postures path = workspace::find_path(check, start, goals, attempt);
     if (path.empty()) break;
     path = workspace::shortened(check, std::move(path), attempt);

@@ -69,7 +69,7 @@ struct Plan {
 /// Overmars 2007), and `time_motion`. The rows handed out are checked again, against limits and by
 /// `check_motion` at their times; where a rounded corner touches its tolerance is made smaller, at
 /// last 0. Where things move, straight motions are checked as if all were at rest as at `time`, and
-/// at the times at which an earlier motion met something.
+/// at the times at which earlier motions met something and ended.
 ///
 /// Postures are drawn within the limits; of joints without limits within half a turn of start and
 /// goal. Postures of a pose or point come out by whole turns as near to the start as limits allow;
