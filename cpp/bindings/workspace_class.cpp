@@ -502,6 +502,7 @@ void bind_workspace_class(py::module_& module) {
   bind_motion_check(module);
   bind_target_checks(module);
   bind_motion_plan(module);
+  bind_static_trim(module);
   py::class_<Workspace> cls(module, "Workspace", workspace_docs::kWorkspace);
   cls.def(py::init(&make_workspace), py::arg("arm"), py::arg("mount") = py::none(), py::kw_only(),
           py::arg("hull") = py::none(), py::arg("scene") = py::none(),
@@ -513,6 +514,7 @@ void bind_workspace_class(py::module_& module) {
   add_plan(cls);
   add_variants(cls);
   add_values(cls);
+  add_statics(cls);
   module.def(
       "with_link_radii",
       [](const Arm& arm, const ArrayLike& radii, std::optional<double> density) {

@@ -57,7 +57,7 @@ std::string_view to_text(TrimStatus status) {
     case TrimStatus::kUpright:
       return "upright";
     case TrimStatus::kTurnedOver:
-      return "turned over";
+      return "turned_over";
     default:
       return "neutral";
   }
