@@ -524,6 +524,7 @@ void bind_workspace_class(py::module_& module) {
       },
       py::arg("arm"), py::arg("radii"), py::kw_only(), py::arg("density") = py::none(),
       workspace_docs::kWithLinkRadii);
+  bind_sampling(module);
 }
 
 }  // namespace bathyal::python

@@ -119,4 +119,114 @@ inline constexpr const char* kTrim = R"(How a vehicle hangs in the water.
 y port, z up. Arrays (N,) of N postures, numbers of a single one.
 )";
 
+inline constexpr const char* kSamplingPhase = R"(One part of taking a sample, from rest to rest.
+
+Its first row is the last of the phase before. Rows are joined by straight lines in joint space.
+)";
+
+inline constexpr const char* kSamplingPlan = R"(How to take a sample, or why there is no way.
+
+True where there is a plan.
+)";
+
+inline constexpr const char* kPlanSampling =
+    R"(How to take a soil sample at a point: approach, press, grab, lift, transport.
+
+The sequence of Maevskiy, Zanin (2020), Modular control systems for manipulators and intervention-
+class AUVs. The contact is where the line through the target along `direction` first meets the scene
+within a standoff before and behind the target; without a scene the target itself. The tip
+approaches to the standoff before it as `Workspace.plan` does, presses straight on by
+``min(depth, force_limit / stiffness)``, grabs, lifts straight back with the sample, and is carried
+to `q_transport` as `Workspace.plan` does. Press, grab and lift may touch the scene with the end of
+the tool (what of the last link lies within the depth and two radii of its tip), all else nowhere;
+straight ways are checked between the rows, too. The bottom pushes the
+tip back by stiffness times penetration while it presses, grabs and lifts. Every phase has a way
+back, checked with what is held then. The same seed gives the same bytes.
+
+Parameters
+----------
+ws : Workspace
+    Its vehicle at rest.
+target : (3,) array
+    On the bottom, in the world [m].
+q_start : (n,) array, optional
+    Where the arm starts. Unless given all coordinates at zero, or as near to it as limits allow;
+    where that touches, the middle of the limits; else of 64 drawn postures that with the largest
+    clearance.
+q_transport : (n,) array, optional
+    In which the sample is carried; `q_start` unless given.
+tool : RigidBody, optional
+    What the tool weighs, in the tool's frame; attached all the time.
+tool_capsules : list of Capsule
+    Its shape, in the tool's frame.
+tool_pose : (4, 4) array, optional
+    flange_from_tool in place of the arm's ``.tool``.
+sample : RigidBody, optional
+    In the tool's frame; attached from the end of the grab on.
+sample_capsules : list of Capsule
+    Its shape, in the tool's frame.
+direction : (3,) array, optional
+    Into the bottom, in the world, of any length. Unless given against the bottom's normal (the mean
+    of those within 5 cm of the target, turned upwards), and without a scene straight down.
+align : bool, optional
+    Whether `tool_axis` points along the direction; unless given for arms of five coordinates or
+    more.
+tool_axis : (3,) array
+    In the tool's frame.
+standoff : float
+    Of the tip before contact [m].
+depth : float
+    That the tip is pressed into the bottom [m].
+stiffness, force_limit : float
+    Of the bottom [N/m]; with which the tip is pressed at most [N].
+grab_time : float
+    [s]
+press_speed : float
+    Of the tip while it presses and lifts, at most [m/s].
+line_tolerance : float
+    How far the tip may leave its straight line [m].
+velocity, acceleration, jerk : float or (n,) array, optional
+    Limits of each coordinate, as of `Workspace.plan`.
+step : float
+    Between rows, at most; longer where `press_speed` holds the tip back [s].
+time : float
+    When the arm starts [s]; matters where something moves.
+max_checks : int
+    Postures and straight motions looked at by all planned motions together, each of which may use a
+    quarter.
+seed : int
+    Of the searches.
+inertia : bool
+    Whether `SamplingPlan.wrench` has the inertia of what moves, by differences of the rows, or is
+    quasi-static.
+gravity : (3,) array
+    In the world [m/s²].
+water_density : float
+    [kg/m³]
+num_threads : int
+    0 means all.
+
+Returns
+-------
+SamplingPlan
+
+Raises
+------
+ValueError
+    For a target that is not finite, a vehicle that moves, postures of another length, options out
+    of range.
+
+Examples
+--------
+>>> import bathyal
+>>> arm = bathyal.arms.maevskiy_zanin()
+>>> bottom = bathyal.TriangleMesh([[-2, -2, -0.8], [2, -2, -0.8], [0, 3, -0.8]], [[0, 1, 2]])
+>>> ws = bathyal.Workspace(arm, scene=bathyal.Scene(bottom))
+>>> plan = bathyal.plan_sampling(ws, [0.75, 0.2, -0.8], q_start=[0.0, -0.785, 0.873])
+>>> plan.status, [phase.name for phase in plan.phases]
+('planned', ['approach', 'press', 'grab', 'lift', 'transport'])
+>>> round(float(plan.contact_force.max()))  # [N]
+100
+)";
+
 }  // namespace bathyal::python::workspace_docs

@@ -85,11 +85,11 @@ struct SamplingPhase {
   JointMatrix q;             ///< (K, n), straight in joint space between rows
   std::vector<double> time;  ///< (K,) rising over all phases [s]
   std::vector<Pose> tip;     ///< vehicle_from_tool of each row
-  /// (R, n): from the last row to where the arm is safe: of "approach" its start, of "press" and
-  /// "grab" the place before contact, of "lift" the transport posture, of "transport" the place
-  /// before contact. Straight between rows; free of contact, as the phase is, with what is held
-  /// then. From an earlier row of "approach", "press" or "transport" the phase's own rows run
-  /// backwards lead to where its retreat ends or begins.
+  /// (R, n): from the last row to where the arm is safe: of "approach" its start, of "press",
+  /// "grab" and "transport" the place before contact, of "lift" the transport posture. Straight
+  /// between rows; free of contact, as the phase is, with what is held then. From an earlier row
+  /// of "approach", "press" and "transport" the phase's own rows, run backwards, lead to the same
+  /// place; those of "grab" and "lift" are followed to the end, then the retreat.
   JointMatrix retreat;
   std::vector<double> retreat_time;  ///< (R,) from 0 [s]
   std::size_t first = 0;             ///< which row of the whole plan is the first of q

@@ -189,6 +189,25 @@ TEST(Sampling, TheForceLimitKeepsTheTipHigher) {
   EXPECT_NEAR(*std::ranges::max_element(plan.contact_force), 40.0, 0.05);
 }
 
+TEST(Sampling, AThinCorerGoesDeepAndAThickOneDoesNot) {
+  Site made = panda_site();
+  made.options.tool_pose = Pose(Eigen::Translation3d(0.0, 0.0, 0.257));
+  made.options.tool.capsules = {{Vec3(0, 0, -0.25), Vec3::Zero(), 0.01}};
+  made.options.depth = 0.08;
+  made.options.stiffness = 500.0;
+  SamplingPlan plan = plan_sampling(made.workspace, made.target, made.options);
+  ASSERT_EQ(plan.status, SamplingStatus::kPlanned) << plan.reason;
+  EXPECT_NEAR(plan.depth, 0.08, 1e-15);
+  made.options.tool.capsules.push_back(
+      {Vec3(0.05, 0, -0.06), Vec3(0.05, 0, -0.06), 0.01});  // a stop
+  plan = plan_sampling(made.workspace, made.target, made.options);
+  EXPECT_EQ(plan.status, SamplingStatus::kPlanned) << plan.reason;  // within the depth
+  made.options.tool.capsules.back() = {Vec3(0.15, 0, -0.06), Vec3(0.15, 0, -0.06), 0.01};
+  plan = plan_sampling(made.workspace, made.target, made.options);
+  EXPECT_EQ(plan.status, SamplingStatus::kCollision);
+  EXPECT_NE(plan.reason.find("touches scene"), std::string::npos) << plan.reason;
+}
+
 TEST(Sampling, PandaPointsItsToolIntoTheBottom) {
   const Site made = panda_site(0.04);
   const SamplingPlan plan = plan_sampling(made.workspace, made.target, made.options);

@@ -39,11 +39,12 @@ TimedMotion reversed(const TimedMotion& motion) {
   return back;
 }
 
-MotionCheck checked(const Workspace& ws, const TimedMotion& motion, double start,
-                    TipContact contact) {
+/// Of a Workspace or InBottom.
+template <class Checker>
+MotionCheck checked(const Checker& checker, const TimedMotion& motion, double start) {
   std::vector<double> time = motion.time;
   for (double& moment : time) moment += start;
-  return ws.check_motion(view_of(motion.q), {.time = time, .tip_contact = contact});
+  return checker.check_motion(view_of(motion.q), {.time = time});
 }
 
 }  // namespace
@@ -55,6 +56,8 @@ SamplingSearch::SamplingSearch(const Workspace& workspace, const Vec3& target,
       empty_(with_tool(workspace, options)),
       loaded_(empty_.attach(options.sample.capsules, options.sample.body)),
       site_(sampling_site(empty_, target, options)),
+      empty_in_bottom_(empty_, site_.depth),
+      loaded_in_bottom_(loaded_, site_.depth),
       limits_(complete_limits(workspace.arm(), options.limits)),
       start_(options.q_start),
       checks_left_(options.max_checks) {
@@ -180,8 +183,8 @@ bool SamplingSearch::press_and_lift() {
   TimedMotion hold;
   hold.q = down_.q.bottomRows(1).replicate(2, 1);
   hold.time = {0.0, options_.grab_time};
-  return add_in_bottom(empty_, "press", down_) && add_in_bottom(empty_, "grab", hold) &&
-         add_in_bottom(loaded_, "lift", reversed(down_));
+  return add_in_bottom(kPress, "press", down_) && add_in_bottom(kGrab, "grab", hold) &&
+         add_in_bottom(kLift, "lift", reversed(down_));
 }
 
 bool SamplingSearch::plan_leg(const Workspace& ws, const std::string& name, const JointMatrix& from,
@@ -203,16 +206,18 @@ bool SamplingSearch::plan_leg(const Workspace& ws, const std::string& name, cons
   return true;
 }
 
-bool SamplingSearch::add_in_bottom(const Workspace& ws, const std::string& name,
-                                   TimedMotion motion) {
-  const MotionCheck check = checked(ws, motion, end_, TipContact::kAllowed);
+std::string SamplingSearch::link_name(int link) const {
+  const std::string& name = arm().links()[static_cast<std::size_t>(link)].name;
+  return name.empty() ? "link " + std::to_string(link) : name;
+}
+
+bool SamplingSearch::add_in_bottom(std::size_t leg, const std::string& name, TimedMotion motion) {
+  const MotionCheck check = checked(in_bottom(leg), motion, end_);
   if (!check.free) {
-    const auto link_name = [&](int link) {
-      return arm().links()[static_cast<std::size_t>(link)].name;
-    };
-    const std::string against = check.obstacle >= 0
-                                    ? ws.obstacles()[static_cast<std::size_t>(check.obstacle)]
-                                    : link_name(check.other_link);
+    // "hull" and the keep-outs come first in either workspace, the scene last.
+    const std::string against =
+        check.obstacle >= 0 ? held(leg).obstacles()[static_cast<std::size_t>(check.obstacle)]
+                            : link_name(check.other_link);
     return refuse(
         SamplingStatus::kCollision,
         "In the phase \"" + name + "\" " + link_name(check.link) + " touches " + against + ".");
@@ -235,10 +240,11 @@ bool SamplingSearch::check_retreats() {
   double end = options_.time;
   for (std::size_t i = 0; i < kLegCount; ++i) {
     end += legs_[i].motion.time.back();
-    const bool in_bottom = i == kPress || i == kGrab;
-    if (!checked(held(i), legs_[i].retreat, end,
-                 in_bottom ? TipContact::kAllowed : TipContact::kForbidden)
-             .free) {
+    const bool buried = i == kPress || i == kGrab;
+    const TimedMotion& back = legs_[i].retreat;
+    const MotionCheck check =
+        buried ? checked(in_bottom(i), back, end) : checked(held(i), back, end);
+    if (!check.free) {
       return refuse(SamplingStatus::kNoRetreat,
                     "The way back from \"" + legs_[i].name + "\" is not free when it is needed.");
     }

@@ -38,6 +38,10 @@ class SamplingSearch {
 
  private:
   const Arm& arm() const { return empty_.arm(); }
+  const InBottom& in_bottom(std::size_t leg) const {
+    return leg < kLift ? empty_in_bottom_ : loaded_in_bottom_;
+  }
+  std::string link_name(int link) const;
   bool refuse(SamplingStatus status, std::string reason);
 
   bool check_ends();
@@ -54,7 +58,7 @@ class SamplingSearch {
   bool plan_leg(const Workspace& ws, const std::string& name, const JointMatrix& from,
                 const JointMatrix& to, SamplingStatus otherwise);
   /// Adds a leg that may touch the scene by its tip; false where it touches more.
-  bool add_in_bottom(const Workspace& ws, const std::string& name, TimedMotion motion);
+  bool add_in_bottom(std::size_t leg, const std::string& name, TimedMotion motion);
   void add_leg(const std::string& name, TimedMotion motion);
 
   Vec3 target_;
@@ -62,6 +66,7 @@ class SamplingSearch {
   Workspace empty_;   ///< with the tool
   Workspace loaded_;  ///< and with the sample
   SamplingSite site_;
+  InBottom empty_in_bottom_, loaded_in_bottom_;
   MotionLimits limits_;
   std::vector<double> start_, transport_;
   SamplingStatus status_ = SamplingStatus::kPlanned;
