@@ -23,6 +23,15 @@ void bind_motion_plan(py::module_& module);
 /// Workspace.plan
 void add_plan(py::class_<Workspace>& cls);
 
+/// StaticTrim; before the method that returns it.
+void bind_static_trim(py::module_& module);
+
+/// Workspace.wrench, .momentum, .static_trim
+void add_statics(py::class_<Workspace>& cls);
+
+/// SamplingPhase, SamplingPlan, plan_sampling; after Workspace.
+void bind_sampling(py::module_& module);
+
 inline JointView joint_view(const Rows& rows) {
   return {rows.table.data(), rows.table.rows(), rows.table.cols()};
 }
