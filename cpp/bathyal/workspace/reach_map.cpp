@@ -8,8 +8,8 @@
 
 #include "bathyal/base/check.hpp"
 #include "bathyal/base/parallel.hpp"
+#include "bathyal/workspace/internal/reach_clearance.hpp"
 #include "bathyal/workspace/internal/reach_fill.hpp"
-#include "bathyal/workspace/internal/reach_solver.hpp"
 #include "bathyal/workspace/internal/reach_sweep.hpp"
 
 namespace bathyal {
@@ -25,7 +25,6 @@ constexpr std::size_t kBoxSamples = 4096;
 constexpr double kMargin = 0.08;  ///< of the box around those samples, over its half size
 constexpr int kTries = 2;
 constexpr std::size_t kMostPairs = std::size_t{1} << 28U;
-constexpr std::size_t kPostures = 8;  ///< of a voxel, looked at for clearance
 
 /// A box around the reach, the foot in the middle of a voxel: what lies in the plane of a planar
 /// arm then lies in voxels' middles.
@@ -97,63 +96,6 @@ void add_manipulability(const ReachArm& arm, const ReachState& state, const Post
   }
 }
 
-/// Codes of the postures that reach a voxel: the most manipulable one, in any orientation, then
-/// along each direction; each code once.
-std::vector<std::uint32_t> postures_of(const ReachState& state, std::size_t voxel,
-                                       std::size_t directions) {
-  std::vector<std::uint32_t> codes{state.best[voxel]};
-  for (std::size_t k = directions + 1; k-- > 0;) {
-    if (!has(state.set[voxel], k)) continue;
-    const std::uint32_t code = state.posture[voxel * (directions + 1) + k];
-    if (std::ranges::find(codes, code) == codes.end()) codes.push_back(code);
-  }
-  std::erase(codes, Postures::kNone);
-  if (codes.size() <= kPostures) return codes;
-  std::vector<std::uint32_t> some;
-  for (std::size_t k = 0; k < kPostures; ++k) some.push_back(codes[k * codes.size() / kPostures]);
-  return some;
-}
-
-/// Looks at one posture after the other of each voxel until one is free.
-void look_for_free(const Workspace& ws, const ReachArm& arm, const ReachGrid& grid,
-                   const ReachState& state, const Postures& postures, int num_threads,
-                   ReachMap& map) {
-  const Index n = arm.arm.size();
-  parallel_for(grid.total(), 1024, num_threads, [&](std::size_t begin, std::size_t end) {
-    std::vector<std::size_t> voxels;
-    std::vector<std::vector<std::uint32_t>> codes;
-    for (std::size_t v = begin; v < end; ++v) {
-      if (map.reached[v] == 0) continue;
-      voxels.push_back(v);
-      codes.push_back(postures_of(state, v, map.approach.size()));
-    }
-    for (std::size_t turn = 0; turn < kPostures; ++turn) {
-      std::vector<std::size_t> asked;
-      std::vector<workspace::ReachTarget> targets;
-      for (std::size_t k = 0; k < voxels.size(); ++k) {
-        if (map.free[voxels[k]] != 0 || turn >= codes[k].size()) continue;
-        asked.push_back(k);
-        targets.push_back({grid.middle(voxels[k]), Vec3::Zero()});
-      }
-      if (asked.empty()) break;
-      JointMatrix q(static_cast<Index>(asked.size()), n);
-      for (std::size_t a = 0; a < asked.size(); ++a) {
-        postures.get(codes[asked[a]][turn], q.row(static_cast<Index>(a)).data());
-      }
-      const workspace::ReachSolutions solved = solve_targets(arm, targets, q);
-      const std::vector<Clearance> clear =
-          ws.clearance(view_of(q), {}, TipContact::kAllowed, num_threads);
-      for (std::size_t a = 0; a < asked.size(); ++a) {
-        if (solved.reached[a] == 0) continue;
-        const std::size_t v = voxels[asked[a]];
-        const double distance = std::min(clear[a].distance, clear[a].self_distance);
-        if (distance > 0.0) map.free[v] = 1;
-        map.clearance[v] = std::fmax(map.clearance[v], static_cast<float>(distance));
-      }
-    }
-  });
-}
-
 }  // namespace
 
 void ReachMapOptions::check() const {
@@ -205,7 +147,7 @@ ReachMap reach_map(const Workspace& ws, const ReachMapOptions& options) {
   ReachMap map = map_of(grid, approach, state);
   add_manipulability(arm, state, postures, options.num_threads, map);
   if (options.check_clearance) {
-    look_for_free(ws, arm, grid, state, postures, options.num_threads, map);
+    find_free(ws, arm, grid, state, postures, options.num_threads, map);
   }
   return map;
 }

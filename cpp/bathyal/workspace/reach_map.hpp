@@ -50,7 +50,7 @@ struct ReachMap {
   /// the tip in the voxel; NaN where it is not reached.
   std::vector<float> manipulability;
   /// Greatest Clearance::distance, or self_distance where that is less, of the postures looked at
-  /// [m]: at most eight, and no more once one is free; NaN where it is not reached, and without
+  /// [m]: at most eleven, and no more once one is free; NaN where it is not reached, and without
   /// check_clearance.
   std::vector<float> clearance;
 

@@ -110,19 +110,6 @@ std::size_t round_of(const Setting& setting, int num_threads, ReachState& state,
   return sum;
 }
 
-/// Voxels with a common face, −1 outside of the box; which of them is asked first varies.
-std::array<Index, 6> neighbours(const ReachGrid& grid, std::size_t voxel) {
-  const Eigen::Array3i at = grid.at(voxel);
-  std::array<Index, 6> found{};
-  for (std::size_t k = 0; k < 6; ++k) {
-    Eigen::Array3i next = at;
-    next[static_cast<Index>(k / 2)] += k % 2 == 0 ? 1 : -1;
-    const bool inside = (next >= 0).all() && (next < grid.count).all();
-    found[k] = inside ? static_cast<Index>(grid.index(next)) : -1;
-  }
-  return found;
-}
-
 /// What is reached in a voxel and not in all that have a face in common with it.
 ReachSet border_of(const ReachGrid& grid, const std::vector<ReachSet>& set, std::size_t voxel) {
   ReachSet common = set[voxel];

@@ -30,6 +30,18 @@ std::vector<Vec3> lattice_directions(const std::vector<double>& marks) {
 
 }  // namespace
 
+std::array<Index, 6> neighbours(const ReachGrid& grid, std::size_t voxel) {
+  const Eigen::Array3i at = grid.at(voxel);
+  std::array<Index, 6> found{};
+  for (std::size_t k = 0; k < 6; ++k) {
+    Eigen::Array3i next = at;
+    next[static_cast<Index>(k / 2)] += k % 2 == 0 ? 1 : -1;
+    const bool inside = (next >= 0).all() && (next < grid.count).all();
+    found[k] = inside ? static_cast<Index>(grid.index(next)) : -1;
+  }
+  return found;
+}
+
 std::vector<Vec3> approach_directions(int count) {
   if (count == 26) return lattice_directions({-1.0, 0.0, 1.0});
   if (count == 98) {
@@ -90,7 +102,8 @@ ReachArm::ReachArm(const Arm& given)
   }
   for (std::size_t j = 0; j < size(); ++j) {
     const double half = slides[j] ? chain_length(arm) : std::numbers::pi;
-    from.push_back(std::isfinite(lower[j]) ? lower[j] : std::max(-half, upper[j] - 2.0 * half));
+    const double below = std::isfinite(upper[j]) ? upper[j] - 2.0 * half : -half;
+    from.push_back(std::isfinite(lower[j]) ? lower[j] : below);
     const double to = std::isfinite(upper[j]) ? upper[j] : from[j] + 2.0 * half;
     width.push_back(std::max(0.0, to - from[j]));
   }

@@ -37,6 +37,9 @@ struct ReachGrid {
   }
 };
 
+/// Voxels with a face in common: along +x, −x, +y …; −1 outside of the box.
+std::array<Index, 6> neighbours(const ReachGrid& grid, std::size_t voxel);
+
 /// 6, 26 or 98 unit vectors: middles of a cube's faces; and of its edges, and its corners; and
 /// between them.
 std::vector<Vec3> approach_directions(int count);
