@@ -21,17 +21,6 @@ Arm planar_arm_within(double first, double second) {
   return arm_from_dh(table, {.lower = {-first, -second}, .upper = {first, second}});
 }
 
-/// Maevskiy, Zanin (2020).
-Arm three_joints() {
-  DhTable table;
-  table.rows = {{0.193, kPi / 2, -0.117, 0.0, 0.0},
-                {0.552, 0.0, 0.0, 0.0, 0.0},
-                {0.596, 0.0, 0.0, 0.0, 0.0}};
-  table.types.assign(3, JointType::kRevolute);
-  return arm_from_dh(table, {.lower = {-kPi / 2, -kPi / 2, -0.75 * kPi},
-                             .upper = {kPi / 2, kPi, 0.75 * kPi}});
-}
-
 /// Three joints that slide along x, y and z of the base.
 Arm gantry(const Vec3& lower, const Vec3& upper) {
   std::vector<Joint> joints(3);
