@@ -29,11 +29,13 @@ from bathyal._core import (
     PlaneFit,
     PointCloud,
     Polyline,
+    ReachMap,
     RigidBody,
     Scene,
     Shape,
     SheetPatch,
     SheetReport,
+    Standpoint,
     TargetChecks,
     Targets,
     ToolPath,
@@ -45,6 +47,7 @@ from bathyal._core import (
     TriangleMesh,
     Voxels,
     Workspace,
+    best_standpoint,
     clean_cloud,
     cover_polygon,
     diagnose,
@@ -78,6 +81,8 @@ from bathyal.seabed.triangulate import SheetWarning, triangulate
 from bathyal.toolpath import methods as _toolpath_methods  # noqa: F401
 from bathyal.toolpath.aims import read_aims
 from bathyal.workspace import link_meshes as _link_meshes  # noqa: F401
+from bathyal.workspace import reach_methods as _reach_methods  # noqa: F401
+from bathyal.workspace.reach_files import read_reach_map
 
 __version__ = _version("bathyal")
 
@@ -106,12 +111,14 @@ __all__ = [
     "PlaneFit",
     "PointCloud",
     "Polyline",
+    "ReachMap",
     "RigidBody",
     "Scene",
     "Shape",
     "SheetPatch",
     "SheetReport",
     "SheetWarning",
+    "Standpoint",
     "SupportWarning",
     "TargetChecks",
     "Targets",
@@ -125,6 +132,7 @@ __all__ = [
     "Voxels",
     "Workspace",
     "arms",
+    "best_standpoint",
     "clean_cloud",
     "cover_polygon",
     "diagnose",
@@ -144,6 +152,7 @@ __all__ = [
     "read_arm",
     "read_cloud",
     "read_mesh",
+    "read_reach_map",
     "read_touches",
     "read_tracked",
     "set_simd_level",
