@@ -63,9 +63,9 @@ struct Standpoint {
 ///
 /// The hull has room where it keeps `hull_clearance` from the bottom's triangles (exact) and lies
 /// above them, seen from above; where the scene has no bottom it must lie above the scene's highest
-/// point. Keep-outs fixed to the world are kept clear of by the hull's edges (exact but for cones
-/// and cylinders in a face of the hull, of which the middle, corners and rims are looked at), and
-/// by the arm in the checks of targets. Without a hull, that goes for the vehicle's origin.
+/// point. It keeps as far from keep-outs fixed to the world: exact, but where a cylinder or a cone
+/// faces the middle of one of the hull's triangles, which is decided by 16 of its lines. The arm
+/// keeps out of them in the checks of targets. Without a hull, that goes for the vehicle's origin.
 /// \throw std::invalid_argument for no target, one that is not finite, options out of range, and as
 ///        Workspace and reach_map.
 Standpoint best_standpoint(const Arm& arm, const Surroundings& surroundings, PointView targets,

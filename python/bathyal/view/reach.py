@@ -8,6 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.colors import LinearSegmentedColormap, ListedColormap
 from matplotlib.figure import Figure
+from matplotlib.image import AxesImage
 from numpy.typing import NDArray
 
 from bathyal._core import ReachMap
@@ -46,7 +47,7 @@ def reach_figure(reach: ReachMap) -> Figure:
         ("directions reached [%]", share, 100.0),
         ("manipulability", np.asarray(reach.manipulability), _greatest(reach.manipulability)),
     ]
-    grid = figure.subplots(2, 3, squeeze=False)
+    grid = figure.subplots(2, 3, squeeze=False, gridspec_kw={"wspace": 0.35})
     for axes_row, (name, values, top) in zip(grid, rows, strict=True):
         for axes, across in zip(axes_row, (2, 1, 0), strict=True):
             at = int(np.argmax(reached.sum(axis=tuple(k for k in range(3) if k != across))))
@@ -79,16 +80,18 @@ def _draw_slice(
     shown: Floats,
     blocked: NDArray[np.bool_] | None,
     top: float,
-):  # type: ignore[no-untyped-def]
+) -> AxesImage:
     along = [k for k in range(3) if k != across]
     low = np.asarray(reach.origin)
     high = low + reach.voxel * np.array(reach.reached.shape)
     extent = (low[along[0]], high[along[0]], low[along[1]], high[along[1]])
-    options = {"origin": "lower", "extent": extent, "interpolation": "nearest"}
-    image = axes.imshow(shown.T, cmap=_SCALE, vmin=0.0, vmax=top, **options)
+    image = axes.imshow(
+        shown.T, _SCALE, vmin=0.0, vmax=top, origin="lower", extent=extent, interpolation="nearest"
+    )
     if blocked is not None and blocked.any():
         over = np.where(blocked, 1.0, np.nan)
-        axes.imshow(over.T, cmap=ListedColormap([GAP]), alpha=0.55, **options)
+        red = ListedColormap([GAP])
+        axes.imshow(over.T, red, alpha=0.55, origin="lower", extent=extent, interpolation="nearest")
     axes.set_xlabel(f"{_AXES[along[0]]} [m]")
     axes.set_ylabel(f"{_AXES[along[1]]} [m]")
     middle = low[across] + reach.voxel * (at + 0.5)

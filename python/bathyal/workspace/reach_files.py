@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import os
 import zipfile
-from typing import IO
+from typing import IO, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -41,7 +41,9 @@ def write_reach_map(reach: ReachMap, path: str | os.PathLike[str]) -> None:
     path : path
         ``.npz``: numpy's arrays in a zip, by the names of the map's properties.
     """
-    fields = {name: np.asarray(getattr(reach, name)) for name in _FIELDS if name != "format"}
+    fields: dict[str, Any] = {
+        name: np.asarray(getattr(reach, name)) for name in _FIELDS if name != "format"
+    }
     with replacing(path) as aside, open(aside, "wb") as file:
         np.savez_compressed(file, format=np.array(_FORMAT), **fields)
 

@@ -142,6 +142,26 @@ TEST(Standpoint, HullStaysAboveASteepRoughBottom) {
   }
 }
 
+TEST(Standpoint, HullIsNotPiercedByANeedle) {
+  const TriangleMesh flat = bottom_of([](double, double) { return 0.0; }, 4);
+  Targets targets(1, 3);
+  targets << 0.0, 0.0, 0.02;
+  const Standpoint alone =
+      best_standpoint(three_joints(), vehicle_over(flat), view(targets), quick());
+  ASSERT_FALSE(alone.places.empty());
+  // Up through the middle of two faces of the best place, past all edges and vertices.
+  const Vec3 tip = alone.places[0].world_from_vehicle * Vec3(0.31, 0.02, 0.3);
+  const Vec3 foot(tip.x(), tip.y(), 0.0);
+  const TriangleMesh needle = test::mesh_of(
+      {tip, foot + Vec3(0.01, 0, 0), foot + Vec3(-0.01, 0.01, 0), foot + Vec3(-0.01, -0.01, 0)},
+      {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}});
+  Surroundings around = vehicle_over(flat);
+  around.scene = Scene({flat, needle});
+  const Standpoint found = best_standpoint(three_joints(), around, view(targets), quick());
+  ASSERT_FALSE(found.places.empty());
+  expect_as_checked(found, around, targets);
+}
+
 TEST(Standpoint, KeepsOutOfVolumesFixedToTheWorld) {
   Surroundings around = vehicle_over(bottom_of([](double, double) { return 0.0; }, 4));
   Targets targets(1, 3);
@@ -153,6 +173,7 @@ TEST(Standpoint, KeepsOutOfVolumesFixedToTheWorld) {
   for (const KeepOut& keepout :
        {KeepOut::sphere(0.1, place + Vec3(0.0, 0.0, 0.25), {.frame = "world"}),
         KeepOut::box(Vec3(0.3, 0.3, 0.1), there, {.frame = "world"}),
+        KeepOut::box(Vec3(0.01, 0.01, 4.0), there, {.frame = "world", .name = "pole"}),
         KeepOut::cylinder(0.1, 4.0, there, {.frame = "world"}),
         KeepOut::mesh(Hull(test::box(Vec3::Constant(0.05), place)), {.frame = "world"})}) {
     around.keepouts = {keepout};

@@ -2,9 +2,11 @@
 #include "bathyal/workspace/internal/hull_room.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
+#include <memory>
 #include <numbers>
 
 #include "bathyal/base/parallel.hpp"
@@ -38,6 +40,31 @@ void collect(const TriangleMesh& mesh, std::vector<Vec3>& vertices,
   }
   std::ranges::sort(edges);
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+}
+
+bool overlap(const std::array<Vec3, 2>& edge, const Eigen::AlignedBox3d& box) {
+  const Vec3 low = edge[0].cwiseMin(edge[1]);
+  const Vec3 high = edge[0].cwiseMax(edge[1]);
+  return (low.array() <= box.max().array()).all() && (high.array() >= box.min().array()).all();
+}
+
+/// Edges of a mesh that may come into the box, each at least once.
+void collect_edges(const TriangleMesh& mesh, const Eigen::AlignedBox3d& box,
+                   std::vector<std::array<Vec3, 2>>& edges) {
+  std::vector<std::pair<Index, Index>> found;
+  for (Index t = 0; t < mesh.triangle_count(); ++t) {
+    for (int k = 0; k < 3; ++k) {
+      if (!overlap({mesh.corner(t, k), mesh.corner(t, (k + 1) % 3)}, box)) continue;
+      const Index a = mesh.triangles()(t, k);
+      const Index b = mesh.triangles()(t, (k + 1) % 3);
+      found.emplace_back(std::min(a, b), std::max(a, b));
+    }
+  }
+  std::ranges::sort(found);
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+  for (const auto& [a, b] : found) {
+    edges.push_back({mesh.vertices().row(a).transpose(), mesh.vertices().row(b).transpose()});
+  }
 }
 
 /// Each time the vertex that is farthest from those taken.
@@ -104,6 +131,31 @@ std::vector<Vec3> points_of(const KeepOut& keepout) {
   return points;
 }
 
+/// Of a box, a cylinder, a cone or a mesh: edges, or lines from rim to rim or apex, which may pierce
+/// a face of the hull.
+std::vector<std::array<Vec3, 2>> lines_of(const KeepOut& keepout,
+                                          const std::vector<Vec3>& points) {
+  std::vector<std::array<Vec3, 2>> lines;
+  if (keepout.kind() == KeepOutKind::kBox) {
+    for (std::size_t k = 0; k < 8; ++k) {
+      for (const std::size_t bit : {1U, 2U, 4U}) {
+        if ((k & bit) == 0) lines.push_back({points[k], points[k | bit]});
+      }
+    }
+  } else if (keepout.kind() == KeepOutKind::kCylinder || keepout.kind() == KeepOutKind::kCone) {
+    const bool cone = keepout.kind() == KeepOutKind::kCone;
+    for (std::size_t k = 0; k < 16; ++k) lines.push_back({points[k], points[16 + (cone ? 0 : k)]});
+  } else if (keepout.kind() == KeepOutKind::kMesh) {
+    std::vector<Vec3> vertices;
+    std::vector<std::pair<Index, Index>> edges;
+    collect(keepout.hull()->mesh(), vertices, edges);
+    for (const auto& [a, b] : edges) {
+      lines.push_back({vertices[static_cast<std::size_t>(a)], vertices[static_cast<std::size_t>(b)]});
+    }
+  }
+  return lines;
+}
+
 }  // namespace
 
 HullRoom::HullRoom(const Surroundings& surroundings, double clearance,
@@ -115,11 +167,11 @@ HullRoom::HullRoom(const Surroundings& surroundings, double clearance,
     vertices_.push_back(Vec3::Zero());
   }
   support_ = spread(vertices_);
-  for (const Vec3& vertex : vertices_) hull_box_.extend(vertex);
   for (const KeepOut& keepout : surroundings.keepouts) {
     if (keepout.frame() != "world") continue;
     keepouts_.push_back(keepout);
     keepout_points_.push_back(points_of(keepout));
+    keepout_lines_.push_back(lines_of(keepout, keepout_points_.back()));
   }
   if (!surroundings.scene) return;
 
@@ -128,11 +180,8 @@ HullRoom::HullRoom(const Surroundings& surroundings, double clearance,
   const Vec3 around = Vec3::Constant(radius + clearance);
   const Eigen::AlignedBox3d near(area.min() - around, area.max() + around);
   for (const TriangleMesh& mesh : surroundings.scene->meshes()) {
-    for (Index i = 0; i < mesh.vertex_count(); ++i) {
-      const Vec3 point = mesh.vertices().row(i).transpose();
-      top_ = std::max(top_, point.z());
-      if (near.contains(point)) bottom_.push_back(point);
-    }
+    if (mesh.vertex_count() > 0) top_ = std::max(top_, mesh.vertices().col(2).maxCoeff());
+    collect_edges(mesh, near, bottom_);
   }
   const Eigen::Vector2d size = near.sizes().head<2>();
   raster_step_ = std::max(kCell, size.maxCoeff() / static_cast<double>(kRaster));
@@ -190,7 +239,7 @@ bool HullRoom::above_bottom(const Pose& world_from_vehicle) const {
   });
 }
 
-/// The surfaces come nearest to each other at an edge of the hull, or at a vertex of the scene.
+/// Surfaces come nearest to each other, or meet, at an edge of one of them.
 bool HullRoom::clear_of_bottom(const Pose& world_from_vehicle) const {
   const Scene& scene = *surroundings_->scene;
   const auto too_near = [&](double distance) {
@@ -204,16 +253,25 @@ bool HullRoom::clear_of_bottom(const Pose& world_from_vehicle) const {
     if (too_near(scene.nearest_segment(from, to, within).distance)) return false;
   }
   const Pose vehicle_from_world = world_from_vehicle.inverse();
+  Eigen::AlignedBox3d box;
+  for (const Vec3& vertex : vertices_) box.extend(Vec3(world_from_vehicle * vertex));
   const Vec3 around = Vec3::Constant(clearance_);
-  const Eigen::AlignedBox3d box(hull_box_.min() - around, hull_box_.max() + around);
-  std::vector<double> near;
-  for (const Vec3& point : bottom_) {
-    const Vec3 own = vehicle_from_world * point;
-    if (box.contains(own)) near.insert(near.end(), own.begin(), own.end());
+  box = {box.min() - around, box.max() + around};
+  std::vector<double> ends;
+  for (const std::array<Vec3, 2>& edge : bottom_) {
+    if (!overlap(edge, box)) continue;
+    const Vec3 from = vehicle_from_world * edge[0];
+    const Vec3 to = vehicle_from_world * edge[1];
+    if (too_near(surroundings_->hull->scene().nearest_segment(from, to, within).distance)) {
+      return false;
+    }
+    ends.insert(ends.end(), from.begin(), from.end());
   }
-  const std::vector<double> distances = surroundings_->hull->signed_distance(
-      {near.data(), static_cast<Index>(near.size() / 3), 3}, 1);
-  return std::ranges::none_of(distances, [&](double d) { return d <= 0.0 || too_near(d); });
+  const std::size_t count = ends.size() / 3;
+  const std::unique_ptr<bool[]> inside(new bool[count]);
+  surroundings_->hull->contains({ends.data(), static_cast<Index>(count), 3}, {inside.get(), count},
+                                1);
+  return std::none_of(inside.get(), inside.get() + count, [](bool in) { return in; });
 }
 
 bool HullRoom::clear_of(const KeepOut& keepout, const Pose& world_from_vehicle) const {
@@ -250,10 +308,16 @@ bool HullRoom::clear_of(const KeepOut& keepout, const Pose& world_from_vehicle) 
     }
   }
   std::vector<double> own;
-  const std::vector<Vec3>& points =
-      keepout_points_[static_cast<std::size_t>(&keepout - keepouts_.data())];
-  for (const Vec3& point : points) {
-    const Vec3 at = given_from_vehicle.inverse() * point;
+  const auto number = static_cast<std::size_t>(&keepout - keepouts_.data());
+  const Pose vehicle_from_given = given_from_vehicle.inverse();
+  for (const auto& [start, end] : keepout_lines_[number]) {
+    const double d = surroundings_->hull->scene()
+                         .nearest_segment(vehicle_from_given * start, vehicle_from_given * end)
+                         .distance;
+    if (!(d > 0.0 && d >= clearance_)) return false;
+  }
+  for (const Vec3& point : keepout_points_[number]) {
+    const Vec3 at = vehicle_from_given * point;
     own.insert(own.end(), at.begin(), at.end());
   }
   std::vector<double> distances = surroundings_->hull->signed_distance(view(own), 1);

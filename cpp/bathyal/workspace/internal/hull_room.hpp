@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
+#include <utility>
 #include <vector>
 
 #include "bathyal/workspace/workspace.hpp"
@@ -34,8 +36,8 @@ class HullRoom {
   std::vector<Vec3> support_;                       ///< some vertices, far from each other
   std::vector<KeepOut> keepouts_;                   ///< fixed to the world
   std::vector<std::vector<Vec3>> keepout_points_;   ///< of each: middle, corners, rims
-  std::vector<Vec3> bottom_;                        ///< vertices of the scene near to the area
-  Eigen::AlignedBox3d hull_box_;
+  std::vector<std::vector<std::array<Vec3, 2>>> keepout_lines_;  ///< of each: edges, generators
+  std::vector<std::array<Vec3, 2>> bottom_;         ///< edges of the scene near to the area
   double top_;  ///< greatest height of the scene
   Eigen::Vector2d raster_origin_ = Eigen::Vector2d::Zero();
   double raster_step_ = 1.0;
