@@ -506,6 +506,7 @@ void bind_workspace_class(py::module_& module) {
   bind_target_checks(module);
   bind_motion_plan(module);
   bind_static_trim(module);
+  bind_reach(module);
   py::class_<Workspace> cls(module, "Workspace", workspace_docs::kWorkspace);
   cls.def(py::init(&make_workspace), py::arg("arm"), py::arg("mount") = py::none(), py::kw_only(),
           py::arg("hull") = py::none(), py::arg("scene") = py::none(),
@@ -515,6 +516,7 @@ void bind_workspace_class(py::module_& module) {
           py::arg("allowed") = py::list());
   add_queries(cls);
   add_plan(cls);
+  add_reach(cls);
   add_variants(cls);
   add_values(cls);
   add_statics(cls);
@@ -528,6 +530,7 @@ void bind_workspace_class(py::module_& module) {
       py::arg("arm"), py::arg("radii"), py::kw_only(), py::arg("density") = py::none(),
       workspace_docs::kWithLinkRadii);
   bind_sampling(module);
+  bind_best_standpoint(module);
 }
 
 }  // namespace bathyal::python

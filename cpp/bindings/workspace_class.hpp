@@ -14,6 +14,11 @@
 
 namespace bathyal::python {
 
+/// ReachMap, Standpoint; the method and the function that make them.
+void bind_reach(py::module_& module);
+void add_reach(py::class_<Workspace>& cls);
+void bind_best_standpoint(py::module_& module);
+
 /// Capsule, Workspace and what it answers; after Hull and KeepOut.
 void bind_workspace_class(py::module_& module);
 

@@ -29,6 +29,7 @@ from bathyal._core import (
     PlaneFit,
     PointCloud,
     Polyline,
+    ReachMap,
     RigidBody,
     SamplingPhase,
     SamplingPlan,
@@ -37,6 +38,7 @@ from bathyal._core import (
     SheetPatch,
     SheetReport,
     StaticTrim,
+    Standpoint,
     TargetChecks,
     Targets,
     ToolPath,
@@ -48,6 +50,7 @@ from bathyal._core import (
     TriangleMesh,
     Voxels,
     Workspace,
+    best_standpoint,
     clean_cloud,
     cover_polygon,
     diagnose,
@@ -82,6 +85,8 @@ from bathyal.seabed.triangulate import SheetWarning, triangulate
 from bathyal.toolpath import methods as _toolpath_methods  # noqa: F401
 from bathyal.toolpath.aims import read_aims
 from bathyal.workspace import link_meshes as _link_meshes  # noqa: F401
+from bathyal.workspace import reach_methods as _reach_methods  # noqa: F401
+from bathyal.workspace.reach_files import read_reach_map
 
 __version__ = _version("bathyal")
 
@@ -110,6 +115,7 @@ __all__ = [
     "PlaneFit",
     "PointCloud",
     "Polyline",
+    "ReachMap",
     "RigidBody",
     "SamplingPhase",
     "SamplingPlan",
@@ -119,6 +125,7 @@ __all__ = [
     "SheetReport",
     "SheetWarning",
     "StaticTrim",
+    "Standpoint",
     "SupportWarning",
     "TargetChecks",
     "Targets",
@@ -132,6 +139,7 @@ __all__ = [
     "Voxels",
     "Workspace",
     "arms",
+    "best_standpoint",
     "clean_cloud",
     "cover_polygon",
     "diagnose",
@@ -152,6 +160,7 @@ __all__ = [
     "read_arm",
     "read_cloud",
     "read_mesh",
+    "read_reach_map",
     "read_touches",
     "read_tracked",
     "set_simd_level",

@@ -9,7 +9,7 @@ import numpy.typing
 import os
 import plotly.graph_objects
 import typing
-__all__: list[str] = ['Arm', 'ArmFit', 'BEYOND_NOISE', 'Capsule', 'Cause', 'CleanReport', 'CleanResult', 'Clearances', 'CorrectedArm', 'DhTable', 'Diagnosis', 'Effect', 'EffectRange', 'EffectRows', 'Error', 'Estimate', 'FitParameter', 'FoundEffect', 'HeldOut', 'HeldOutPart', 'Hits', 'Hull', 'HullReport', 'InverseResult', 'KeepOut', 'Link', 'MeshReport', 'MotionCheck', 'MotionPlan', 'NamedEffect', 'Nearest', 'NearestSegments', 'Outlier', 'Plane', 'PlaneFit', 'PointCloud', 'Polyline', 'RigidBody', 'Scene', 'Shape', 'SheetPatch', 'SheetReport', 'Structure', 'Support', 'TargetChecks', 'Targets', 'TextTable', 'ToolPath', 'TouchForecast', 'TouchPlan', 'Touches', 'Tracked', 'Trade', 'Trajectory', 'TriangleMesh', 'Verification', 'Voxels', 'Workspace', 'arm_from_chain', 'arm_from_parts', 'arm_parts', 'chain_from_arm', 'check_bytes', 'clean_cloud', 'cover_polygon', 'diagnose', 'find_effect_with', 'find_sheets', 'find_targets', 'fit_plane', 'forecast_touches', 'generate_survey', 'identify_arm', 'intersect_moller_trumbore', 'library_effects', 'mesh_report', 'plan_toolpath', 'plan_touches', 'read_mesh_with', 'read_pcd', 'read_text_table', 'set_simd_level', 'simd_level', 'survey_height', 'triangulate', 'triangulate_delaunay', 'verify_positions', 'warn_of_support_with', 'with_link_radii', 'write_xyz']
+__all__: list[str] = ['Arm', 'ArmFit', 'BEYOND_NOISE', 'Capsule', 'Cause', 'CleanReport', 'CleanResult', 'Clearances', 'CorrectedArm', 'DhTable', 'Diagnosis', 'Effect', 'EffectRange', 'EffectRows', 'Error', 'Estimate', 'FitParameter', 'FoundEffect', 'HeldOut', 'HeldOutPart', 'Hits', 'Hull', 'HullReport', 'InverseResult', 'KeepOut', 'Link', 'MeshReport', 'MotionCheck', 'MotionPlan', 'NamedEffect', 'Nearest', 'NearestSegments', 'Outlier', 'Plane', 'PlaneFit', 'PointCloud', 'Polyline', 'ReachMap', 'RigidBody', 'Scene', 'Shape', 'SheetPatch', 'SheetReport', 'Standpoint', 'Structure', 'Support', 'TargetChecks', 'Targets', 'TextTable', 'ToolPath', 'TouchForecast', 'TouchPlan', 'Touches', 'Tracked', 'Trade', 'Trajectory', 'TriangleMesh', 'Verification', 'Voxels', 'Workspace', 'arm_from_chain', 'arm_from_parts', 'arm_parts', 'best_standpoint', 'chain_from_arm', 'check_bytes', 'clean_cloud', 'cover_polygon', 'diagnose', 'find_effect_with', 'find_sheets', 'find_targets', 'fit_plane', 'forecast_touches', 'generate_survey', 'identify_arm', 'intersect_moller_trumbore', 'library_effects', 'mesh_report', 'plan_toolpath', 'plan_touches', 'read_mesh_with', 'read_pcd', 'read_text_table', 'set_simd_level', 'simd_level', 'survey_height', 'triangulate', 'triangulate_delaunay', 'verify_positions', 'warn_of_support_with', 'with_link_radii', 'write_xyz']
 class Error(RuntimeError):
     """
     A broken file, a solver that failed or a part that is not installed.
@@ -2702,6 +2702,145 @@ class MotionPlan:
         """
         (2, n) from a start that touches or is outside the limits on a short straight line to a posture that is free; None where none is needed, or found.
         """
+class ReachMap:
+    """
+    Where the tip of an arm can be, in the vehicle's frame.
+    
+    A box of cubes around all of the reach: what `Workspace.reach_map` returns and
+    `bathyal.read_reach_map` reads. Voxel (i, j, k) begins at ``origin + voxel * (i, j, k)``; answers
+    are those of its middle.
+    
+    Parameters
+    ----------
+    origin : (3,) array
+        Corner of the first voxel, in the vehicle's frame [m].
+    voxel : float
+        Edge of a voxel [m].
+    approach : (K, 3) array
+        Unit vectors along which the tool's z axis points.
+    reached_along : (nx, ny, nz, K) array of bool
+    reached, free : (nx, ny, nz) array of bool
+    manipulability, clearance : (nx, ny, nz) array
+    
+    Raises
+    ------
+    ValueError
+        For arrays whose shapes do not match, vectors that are not of unit length, a voxel that is not
+        positive, or a voxel that is free or reached along a direction and not reached.
+    """
+    def __init__(self, *, origin: numpy.typing.ArrayLike, voxel: typing.SupportsFloat | typing.SupportsIndex, approach: numpy.typing.ArrayLike, reached_along: numpy.typing.ArrayLike, reached: numpy.typing.ArrayLike, free: numpy.typing.ArrayLike, manipulability: numpy.typing.ArrayLike, clearance: numpy.typing.ArrayLike) -> None:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def plot(self, path: str | os.PathLike[str]) -> None:
+        """
+        Draw slices of the map, one across each axis, where most is reached.
+        
+        Parameters
+        ----------
+        path : path
+            Of a PNG: see bathyal.view.reach.reach_figure.
+        """
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """
+        Write the map; `bathyal.read_reach_map` reads it.
+        
+        Parameters
+        ----------
+        path : path
+            ``.npz``: see bathyal.workspace.reach_files.write_reach_map.
+        """
+    def show(self) -> plotly.graph_objects.Figure:
+        """
+        An interactive figure: the voxels as a cloud, coloured by directions.
+        
+        See bathyal.view.reach_cloud.show_reach.
+        """
+    @property
+    def approach(self) -> numpy.ndarray:
+        """
+        (K, 3) unit vectors along which the tool's z axis points, in the vehicle's frame.
+        """
+    @property
+    def clearance(self) -> numpy.ndarray:
+        """
+        (nx, ny, nz) float32: greatest clearance of the postures looked at, at most eleven and no more once one is free [m]; nan where it is not reached or was not asked for.
+        """
+    @property
+    def directions(self) -> numpy.ndarray:
+        """
+        (nx, ny, nz) uint8: how many of them.
+        """
+    @property
+    def free(self) -> numpy.ndarray:
+        """
+        (nx, ny, nz) bool: whether one of the postures found keeps clear of obstacles and of the arm itself, the end of the tool allowed to touch the scene.
+        """
+    @property
+    def manipulability(self) -> numpy.ndarray:
+        """
+        (nx, ny, nz) float32: greatest √det(J Jᵀ) (Yoshikawa 1985) of the postures found with the tip in the voxel; nan where it is not reached.
+        """
+    @property
+    def origin(self) -> numpy.ndarray:
+        """
+        (3,) corner of the first voxel, in the vehicle's frame [m].
+        """
+    @property
+    def reached(self) -> numpy.ndarray:
+        """
+        (nx, ny, nz) bool: whether a posture within the limits brings the tip to the voxel's middle, in any orientation, whatever the arm touches.
+        """
+    @property
+    def reached_along(self) -> numpy.ndarray:
+        """
+        (nx, ny, nz, K) bool: whether the tip reaches the middle with the tool's z axis along each direction of `approach`; of an arm of fewer than five coordinates, with the axis nearest to it. Collisions are not looked at.
+        """
+    @property
+    def voxel(self) -> float:
+        """
+        Edge of a voxel [m].
+        """
+class Standpoint:
+    """
+    Where a vehicle should be, and what its arm reaches from there.
+    
+    What `bathyal.best_standpoint` returns.
+    """
+    def __bool__(self) -> bool:
+        ...
+    def __repr__(self) -> str:
+        ...
+    @property
+    def alternatives(self) -> list[Standpoint]:
+        """
+        List of the next best, at least 0.2 m or 20 degrees away from better ones; theirs are empty.
+        """
+    @property
+    def pose(self) -> numpy.ndarray | None:
+        """
+        (4, 4) world_from_vehicle, level; None where there is none.
+        """
+    @property
+    def reached(self) -> numpy.ndarray:
+        """
+        (N,) bool: whether check_target says "free" of each target.
+        """
+    @property
+    def reason(self) -> str:
+        """
+        The same as a sentence.
+        """
+    @property
+    def score(self) -> float:
+        """
+        Number of targets reached and their mean margin, in (0, 1); 0 where none is reached.
+        """
+    @property
+    def status(self) -> str:
+        """
+        Of the best one: "all" targets are reached, or "some"; else why there is none: "no_reach" (the arm always touches its hull, keep-outs or itself), "no_room" (wherever a target would be reached the hull is too near to bottom or keep-outs), "blocked" (no target is free from the places checked).
+        """
 class Workspace:
     """
     An arm on a vehicle among what it must not touch.
@@ -2960,6 +3099,48 @@ class Workspace:
         ('solved', 2, True)
         >>> ws.plan([-0.6, 0], [0, 0])
         MotionPlan(goal_in_collision: At the goal link_2 touches post.)
+        """
+    def reach_map(self, *, voxel: typing.SupportsFloat | typing.SupportsIndex = 0.05, directions: typing.SupportsInt | typing.SupportsIndex = 26, samples: typing.SupportsInt | typing.SupportsIndex = 0, seed: typing.SupportsInt | typing.SupportsIndex = 0, check_clearance: bool = True, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> ReachMap:
+        """
+        Map the reach of the arm on its vehicle.
+        
+        By forward sampling (Zacharias, Borst, Hirzinger 2007): postures of low discrepancy are swept
+        through the range of the first joint; one whose tip lies in a voxel proves that the voxel's middle
+        is reached where the first-order step to it stays within the limits and is short. The border is
+        settled by inverse kinematics from neighbours' postures. Whether anything collides is looked at
+        afterwards, at time 0 where something moves.
+        
+        Parameters
+        ----------
+        voxel : float
+            Edge of a voxel [m].
+        directions : int
+            Of approach: 6 (the faces of a cube), 26 (with its edges and corners) or 98.
+        samples : int
+            Postures drawn, at most 2²¹; 0: one for four voxels, 2¹⁶ at least.
+        seed : int
+            Of the postures.
+        check_clearance : bool
+            Whether to make `ReachMap.free` and `ReachMap.clearance`.
+        num_threads : int
+            0 means all; the same bytes for any number.
+        
+        Returns
+        -------
+        ReachMap
+        
+        Raises
+        ------
+        ValueError
+            For options out of range, or more than 2²⁸ pairs of a voxel and a direction.
+        
+        Examples
+        --------
+        >>> import bathyal
+        >>> arm = bathyal.Arm.from_dh(a=[0.5, 0.4], alpha=[0, 0], d=[0, 0], theta=[0, 0])
+        >>> reach = bathyal.Workspace(arm, radii=0.05).reach_map(voxel=0.1, directions=6)
+        >>> reach.reached.shape, int(reach.reached.sum())
+        ((21, 21, 3), 246)
         """
     def with_vehicle_pose(self, vehicle_pose: Trajectory | numpy.typing.ArrayLike | collections.abc.Callable[[float], numpy.typing.ArrayLike] | None) -> Workspace:
         """
@@ -4684,6 +4865,81 @@ def arm_from_parts(parts: dict) -> Arm:
 def arm_parts(arm: Arm) -> dict:
     """
     Everything an Arm is made of.
+    """
+def best_standpoint(arm: Arm, mount: numpy.typing.ArrayLike | None, hull: Hull | None, scene: Scene | None, targets: numpy.typing.ArrayLike, *, keepouts: collections.abc.Sequence[KeepOut] = [], radii: numpy.typing.ArrayLike | None = None, capsules: dict[str, list[Capsule]] | None = None, allowed: list[tuple[str, str]] = [], voxel: typing.SupportsFloat | typing.SupportsIndex = 0.05, headings: typing.SupportsInt | typing.SupportsIndex = 24, step: typing.SupportsFloat | typing.SupportsIndex = 0.1, hull_clearance: typing.SupportsFloat | typing.SupportsIndex = 0.05, refined: typing.SupportsInt | typing.SupportsIndex = 12, alternatives: typing.SupportsInt | typing.SupportsIndex = 3, seed: typing.SupportsInt | typing.SupportsIndex = 0, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> Standpoint:
+    """
+    Find where a vehicle should be, level, for its arm to reach most of `targets`.
+    
+    Places on a lattice and headings are scored by the reach map of arm, hull and what is fixed to them;
+    the best that leave the hull room are moved uphill, and those are scored by
+    `Workspace.check_target`, which decides. The score is the number of targets reached and their mean
+    margin, in (0, 1): depth / (depth + 0.1 m), where the depth is the distance from the target to the
+    border of the free part of the reach map: how far the vehicle may be off.
+    
+    The hull has room where it keeps `hull_clearance` from the bottom's triangles and lies above them,
+    seen from above (where the scene has no bottom: above its highest point), and keeps out of volumes
+    fixed to the world. Without a hull that goes for the vehicle's origin.
+    
+    Parameters
+    ----------
+    arm : Arm
+    mount : (4, 4) array or None
+        vehicle_from_base.
+    hull : Hull or None
+        In the vehicle's frame.
+    scene : Scene or None
+        In the world: the bottom and what lies on it.
+    targets : (N, 3) array
+        In the world [m].
+    keepouts : list of KeepOut
+        Each in the frame that it names; those that move, at time 0.
+    radii, capsules, allowed
+        As of `Workspace`.
+    voxel : float
+        Of the reach map [m].
+    headings : int
+        Looked at first, evenly over a turn, 1 to 360.
+    step : float
+        Between the places looked at first [m].
+    hull_clearance : float
+        [m], 0 or more.
+    refined : int
+        Places that are refined and checked.
+    alternatives : int
+        At most, 0 or more.
+    seed : int
+        Of the reach map and the checks of targets.
+    num_threads : int
+        0 means all; the same bytes for any number.
+    
+    Returns
+    -------
+    Standpoint
+    
+    Raises
+    ------
+    ValueError
+        For no target, one that is not finite, options out of range, and as `Workspace`.
+    
+    Warns
+    -----
+    UserWarning
+        As `Workspace`.
+    
+    Examples
+    --------
+    >>> import bathyal, numpy as np
+    >>> arm = bathyal.arms.maevskiy_zanin()
+    >>> mount = np.eye(4)
+    >>> mount[:3, 3] = 0.5, 0.0, -0.2
+    >>> square = np.array([[-3, -3, 0], [3, -3, 0], [3, 3, 0], [-3, 3, 0]], dtype=float)
+    >>> bottom = bathyal.TriangleMesh(square, [[0, 1, 2], [0, 2, 3]])
+    >>> targets = [[0.0, 0.0, 0.02], [0.3, 0.1, 0.02]]
+    >>> found = bathyal.best_standpoint(
+    ...     arm, mount, None, bathyal.Scene(bottom), targets, radii=0.03, voxel=0.1, headings=8, step=0.2
+    ... )
+    >>> found.status, found.reached.tolist()
+    ('all', [True, True])
     """
 def chain_from_arm(arm: Arm) -> dict:
     """
