@@ -44,10 +44,10 @@ std::string reason_of(const Workspace& ws, const Move& move) {
     case MoveStatus::kBlocked:
       return (move.path.rows() == 1 ? "contact at the start: " : "contact: ") + at;
     case MoveStatus::kAtLimit:
-      return move.coordinate < 0 ? "reached beyond joint limits only"
-                                 : "coordinate " + std::to_string(move.coordinate) +
-                                       (move.path.rows() == 1 ? " starts outside its limits"
-                                                              : " is at its limit");
+      return move.coordinate < 0
+                 ? "reached beyond joint limits only"
+                 : "coordinate " + std::to_string(move.coordinate) +
+                       (move.path.rows() == 1 ? " starts outside its limits" : " is at its limit");
     case MoveStatus::kUnreachable:
       return "the target is out of reach";
   }
@@ -81,8 +81,7 @@ void explain(const Workspace& ws, const TipMotion& motion, const workspace::TipT
     const InverseStatus status = inverse_status(ws, target, q_start);
     if (status == InverseStatus::kOutOfReach) {
       move.status = MoveStatus::kUnreachable;
-    } else if (motion.link < 0 &&
-               (motion.coordinate >= 0 || status == InverseStatus::kLimit)) {
+    } else if (motion.link < 0 && (motion.coordinate >= 0 || status == InverseStatus::kLimit)) {
       move.status = MoveStatus::kAtLimit;
       move.coordinate = motion.coordinate;
     } else {
@@ -158,8 +157,7 @@ Move move_tip(const Workspace& ws, std::span<const double> q_start, const Pose& 
   options.check(ws.arm());
   check_joint_values(ws.arm(), {q_start.data(), 1, static_cast<Index>(q_start.size())}, "q_start");
   check_rigid("pose", world_from_tool);
-  const Pose vehicle_from_world =
-      ws.surroundings().world_from_vehicle.at(options.time).inverse();
+  const Pose vehicle_from_world = ws.surroundings().world_from_vehicle.at(options.time).inverse();
   const workspace::TipTarget target{vehicle_from_world * world_from_tool, options.task,
                                     options.axis.normalized()};
   const TipMotion motion = options.method == MoveMethod::kDamped

@@ -63,8 +63,8 @@ struct MoveOptions {
 
 struct Move {
   MoveStatus status = MoveStatus::kReached;
-  JointMatrix path;          ///< (K, n), from the start on; all of it free of contact
-  std::vector<double> time;  ///< (K,) from `options.time` on [s]
+  JointMatrix path;             ///< (K, n), from the start on; all of it free of contact
+  std::vector<double> time;     ///< (K,) from `options.time` on [s]
   double position_error = 0.0;  ///< that remains at the end [m]
   double angle_error = 0.0;     ///< [rad]
   int link = -1;                ///< that is in the way, of kBlocked and kStuck,

@@ -45,11 +45,10 @@ double worst_rate(const Arm& arm, const Move& move) {
       const double next_duration = i < legs ? move.time[static_cast<std::size_t>(i) + 1] -
                                                   move.time[static_cast<std::size_t>(i)]
                                             : 0.0;
-      const double next =
-          i < legs ? (move.path(i + 1, k) - move.path(i, k)) / next_duration : 0.0;
+      const double next = i < legs ? (move.path(i + 1, k) - move.path(i, k)) / next_duration : 0.0;
       worst = std::max(worst, std::abs(next) / velocity[joint]);
-      worst = std::max(worst, std::abs(next - rate) / (0.5 * (duration + next_duration)) /
-                                  acceleration[joint]);
+      worst = std::max(
+          worst, std::abs(next - rate) / (0.5 * (duration + next_duration)) / acceleration[joint]);
       rate = next, duration = next_duration;
     }
   }
@@ -161,8 +160,7 @@ TEST(MoveTip, ThePapersStepsEndWhereTheArmsPseudoInverseEnds) {
     EXPECT_LE(move.position_error, 1e-2);
     InverseOptions plain{.task = task, .method = InverseMethod::kPseudoInverse};
     const Eigen::Matrix<double, 4, 4, Eigen::RowMajor> target = in_vehicle.matrix();
-    const InverseResult expected =
-        inverse(ws.arm(), {target.data(), 16}, view_of(start), plain);
+    const InverseResult expected = inverse(ws.arm(), {target.data(), 16}, view_of(start), plain);
     EXPECT_EQ(move.path.rows(), expected.iterations[0] + 1);
     EXPECT_LT((move.path.bottomRows(1) - expected.q).norm(), 1e-9);
     EXPECT_LE(worst_rate(arm, move), 1.0 + 1e-9);
@@ -237,8 +235,8 @@ TEST(MoveTip, WhatCannotBePassedIsReported) {
   const Vec3 tip = tip_of(arm, start).translation();
   Surroundings around = with_radius(arm, 0.03);
   ASSERT_LT(tip.z(), 0.08);
-  around.keepouts.push_back(
-      KeepOut::half_space(Plane(Vec3::UnitZ(), tip.z() - 0.12), {.frame = "world", .name = "floor"}));
+  around.keepouts.push_back(KeepOut::half_space(Plane(Vec3::UnitZ(), tip.z() - 0.12),
+                                                {.frame = "world", .name = "floor"}));
   const Workspace ws(arm, around);
   const MoveOptions options{.task = InverseTask::kPosition};
   const Move down = move_tip(ws, row(start), at(tip - Vec3(0.0, 0.0, 0.2)), options);
@@ -280,8 +278,7 @@ TEST(MoveTip, AStretchedArmIsMovedOutOfItsSingularPosture) {
   EXPECT_EQ(in.status, MoveStatus::kReached) << in.reason;
   MoveOptions paper = options;
   paper.method = MoveMethod::kPseudoInverse;
-  EXPECT_NE(move_tip(ws, row(start), at(Vec3(0.5, 0.0, 0.0)), paper).status,
-            MoveStatus::kReached);
+  EXPECT_NE(move_tip(ws, row(start), at(Vec3(0.5, 0.0, 0.0)), paper).status, MoveStatus::kReached);
 }
 
 TEST(MoveTip, Refusals) {

@@ -12,9 +12,9 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kViolation = 1e-11;   // by which a constraint may be missed
-constexpr double kDependent = 1e-12;   // squared sine of a normal against those of the active set
-constexpr double kNullSpace = 1e-6;    // a singular value, over the largest, that counts as none
+constexpr double kViolation = 1e-11;  // by which a constraint may be missed
+constexpr double kDependent = 1e-12;  // squared sine of a normal against those of the active set
+constexpr double kNullSpace = 1e-6;   // a singular value, over the largest, that counts as none
 constexpr int kStepsPerConstraint = 10;
 
 /// Constraints as normal · x ≥ least, one a row.

@@ -26,8 +26,8 @@ struct BoundedAnswer {
 };
 
 /// The x that minimises |a x − b|² + damping |x|², within the bounds. The dual active-set method
-/// (Goldfarb, Idnani 1983): from the free minimum, violated constraints are taken in one by one, the
-/// most violated first, and left again where their multiplier falls to zero. `damping` above 0.
+/// (Goldfarb, Idnani 1983): from the free minimum, violated constraints are taken in one by one,
+/// the most violated first, and left again where their multiplier falls to zero. `damping` above 0.
 BoundedAnswer minimize(const Eigen::MatrixXd& a, const Eigen::VectorXd& b, double damping,
                        const LinearBounds& bounds);
 

@@ -78,8 +78,8 @@ void add_ends(const Bodies& bodies, const Posture& posture, const Gradients& gra
   const Obstacle& obstacle = bodies.obstacles[pair.other];
   const Pose vehicle_from_obstacle = posture.obstacle_pose(obstacle);
   for (const Vec3& end : {own.start, own.end}) {
-    Nearness near = obstacle.nearest(
-        in_frame({end, end, own.radius}, vehicle_from_obstacle.inverse()), within);
+    Nearness near =
+        obstacle.nearest(in_frame({end, end, own.radius}, vehicle_from_obstacle.inverse()), within);
     if (!(near.distance < within)) continue;
     near.axis_point = vehicle_from_obstacle * near.axis_point;
     near.surface_point = vehicle_from_obstacle * near.surface_point;

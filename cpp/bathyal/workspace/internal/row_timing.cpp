@@ -27,8 +27,8 @@ class Legs {
   const JointMatrix& change() const { return change_; }
 
   /// Makes the rates of the two legs at a row near enough to each other (at the first and last row,
-  /// that of the leg to rest): slows one, the other or both, whichever takes the least time. Whether
-  /// it had to.
+  /// that of the leg to rest): slows one, the other or both, whichever takes the least time.
+  /// Whether it had to.
   bool join(Index row) {
     const double before = row > 0 ? duration(row - 1) : 0.0;
     const double after = row < count_ ? duration(row) : 0.0;

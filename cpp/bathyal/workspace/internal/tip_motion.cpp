@@ -14,10 +14,10 @@ namespace {
 
 using Eigen::VectorXd;
 
-constexpr int kPatience = 40;        // steps without getting nearer
-constexpr double kNearer = 1e-3;     // of the error, that counts as getting nearer
-constexpr int kMostNudges = 3;       // out of a singular posture
-constexpr int kShortenings = 4;      // of a step that would touch something
+constexpr int kPatience = 40;     // steps without getting nearer
+constexpr double kNearer = 1e-3;  // of the error, that counts as getting nearer
+constexpr int kMostNudges = 3;    // out of a singular posture
+constexpr int kShortenings = 4;   // of a step that would touch something
 constexpr double kLimitTolerance = 1e-9;
 constexpr double kRankTolerance = 1e-6;  // of the pseudo-inverse, as in the room `arm`
 
@@ -154,8 +154,8 @@ VectorXd nudged(const Arm& arm, const VectorXd& q, const VectorXd& change, int c
   for (Index k = 0; k < q.size(); ++k) {
     const double sign = (k + count) % 2 == 0 ? 1.0 : -1.0;
     const double step = sign * change[k] / (1.0 + 0.3 * static_cast<double>(k));
-    to[k] = q[k] + step > arm.upper()[k] || q[k] + step < arm.lower()[k] ? q[k] - step
-                                                                         : q[k] + step;
+    to[k] =
+        q[k] + step > arm.upper()[k] || q[k] + step < arm.lower()[k] ? q[k] - step : q[k] + step;
     to[k] = std::clamp(to[k], arm.lower()[k], arm.upper()[k]);
   }
   return to;
@@ -273,8 +273,7 @@ std::vector<double> tip_durations(const Arm& arm, const JointMatrix& rows, doubl
   for (std::size_t i = 0; i < least.size(); ++i) {
     const Eigen::Map<const Matrix4> from(poses.data() + 16 * i), to(poses.data() + 16 * (i + 1));
     const double way = (to.topRightCorner<3, 1>() - from.topRightCorner<3, 1>()).norm();
-    const Eigen::Matrix3d turn =
-        to.topLeftCorner<3, 3>() * from.topLeftCorner<3, 3>().transpose();
+    const Eigen::Matrix3d turn = to.topLeftCorner<3, 3>() * from.topLeftCorner<3, 3>().transpose();
     const double angle = Eigen::AngleAxisd(turn).angle();
     least[i] = std::max(way / speed, angle / angular_rate);
   }

@@ -22,8 +22,7 @@ MatrixXd turn_jacobian(const Arm& arm, const RowFrames& frames) {
   for (std::size_t k = 0; k < arm.joints().size(); ++k) {
     const Joint& joint = arm.joints()[k];
     if (joint.coordinate < 0 || joint.type != JointType::kRevolute) continue;
-    jacobian.col(joint.coordinate) +=
-        joint.multiplier * frames.world_from_row[k].linear().col(2);
+    jacobian.col(joint.coordinate) += joint.multiplier * frames.world_from_row[k].linear().col(2);
   }
   return jacobian;
 }
@@ -81,9 +80,10 @@ TipStep TipStepper::step(const TipTarget& target, const TipError& wanted, double
   const LinearBounds limits = bounds(pairs);
 
   std::vector<Task> tasks;
-  tasks.push_back(damped_task(point_jacobian(arm, posture_.frames(), static_cast<int>(arm.joints().size()),
-                                             tip().translation()),
-                              wanted.offset));
+  tasks.push_back(
+      damped_task(point_jacobian(arm, posture_.frames(), static_cast<int>(arm.joints().size()),
+                                 tip().translation()),
+                  wanted.offset));
   if (target.task != InverseTask::kPosition) {
     MatrixXd turning = turn_jacobian(arm, posture_.frames());
     if (target.task == InverseTask::kPositionAxis) {

@@ -29,10 +29,10 @@ TipError tip_error(const Pose& tip, const TipTarget& target);
 
 /// What a step keeps to.
 struct StepRules {
-  Eigen::VectorXd change;    ///< that each coordinate makes at most [rad], [m]
-  double clearance = 0.0;    ///< nearer than this nothing comes [m]
-  double influence = 0.0;    ///< from here on approaching is slowed [m], above `clearance`
-  double approach = 0.5;     ///< share of the way from a distance to `clearance` taken at most
+  Eigen::VectorXd change;  ///< that each coordinate makes at most [rad], [m]
+  double clearance = 0.0;  ///< nearer than this nothing comes [m]
+  double influence = 0.0;  ///< from here on approaching is slowed [m], above `clearance`
+  double approach = 0.5;   ///< share of the way from a distance to `clearance` taken at most
   TipContact tip_contact = TipContact::kForbidden;
 };
 
