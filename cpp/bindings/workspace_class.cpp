@@ -502,6 +502,7 @@ void bind_workspace_class(py::module_& module) {
   bind_motion_check(module);
   bind_target_checks(module);
   bind_motion_plan(module);
+  bind_tip_motions(module);
   py::class_<Workspace> cls(module, "Workspace", workspace_docs::kWorkspace);
   cls.def(py::init(&make_workspace), py::arg("arm"), py::arg("mount") = py::none(), py::kw_only(),
           py::arg("hull") = py::none(), py::arg("scene") = py::none(),
@@ -511,6 +512,7 @@ void bind_workspace_class(py::module_& module) {
           py::arg("allowed") = py::list());
   add_queries(cls);
   add_plan(cls);
+  add_follow(cls);
   add_variants(cls);
   add_values(cls);
   module.def(

@@ -23,6 +23,12 @@ void bind_motion_plan(py::module_& module);
 /// Workspace.plan
 void add_plan(py::class_<Workspace>& cls);
 
+/// TipMove and FollowedPath; before the methods that return them.
+void bind_tip_motions(py::module_& module);
+
+/// Workspace.move and .follow
+void add_follow(py::class_<Workspace>& cls);
+
 inline JointView joint_view(const Rows& rows) {
   return {rows.table.data(), rows.table.rows(), rows.table.cols()};
 }

@@ -22,16 +22,11 @@ void check_values(std::string_view name, const std::vector<double>& values, cons
   for (const double value : values) check_positive(name, value);
 }
 
-std::string name_of_link(const Workspace& ws, int link) {
-  const std::string& name = ws.arm().links()[static_cast<std::size_t>(link)].name;
-  return name.empty() ? "link " + std::to_string(link) : name;
-}
-
 std::string contact_text(const Workspace& ws, const Move& move) {
   if (move.link < 0) return "";
-  return name_of_link(ws, move.link) + " against " +
+  return link_name(ws.arm(), move.link) + " against " +
          (move.obstacle >= 0 ? ws.obstacles()[static_cast<std::size_t>(move.obstacle)]
-                             : name_of_link(ws, move.other_link));
+                             : link_name(ws.arm(), move.other_link));
 }
 
 std::string reason_of(const Workspace& ws, const Move& move) {

@@ -14,6 +14,7 @@ using Eigen::VectorXd;
 
 // Damping, squared: of J Jᵀ's trace, and of the squared length of what is wanted.
 constexpr double kDampingOfTrace = 1e-7, kDampingOfWanted = 0.1;
+constexpr double kHeld = 1e-8;      // off a bound that holds a step back [m], [rad]
 constexpr double kCentering = 0.1;  // of the most a coordinate may change, at the end of its range
 
 /// 3 × n: angular velocity of the tool for a unit speed of each coordinate.
@@ -108,16 +109,16 @@ TipStep TipStepper::step(const TipTarget& target, const TipError& wanted, double
   }
   tasks.push_back(std::move(ease));
 
-  BoundedAnswer answer = prioritized(tasks, limits);
-  TipStep step{std::move(answer.x), {}, {}};
-  const int n = static_cast<int>(arm.size());
-  for (const int active : answer.active) {
-    if (active >= 2 * n) {
-      step.pairs.push_back(pairs[static_cast<std::size_t>(active - 2 * n)]);
-    } else {
-      const int k = active % n;
-      const double room = active < n ? q_[k] - arm.lower()[k] : arm.upper()[k] - q_[k];
-      if (room < rules_.change[k]) step.limits.push_back(k);
+  TipStep step{prioritized(tasks, limits).x, {}, {}};
+  for (Index i = 0; i < std::ssize(pairs); ++i) {
+    const double over = limits.rows.row(i).dot(step.change) - std::min(limits.least[i], 0.0);
+    if (over < kHeld && pairs[static_cast<std::size_t>(i)].gradient.norm() > kHeld)
+      step.pairs.push_back(pairs[static_cast<std::size_t>(i)]);
+  }
+  for (Index k = 0; k < arm.size(); ++k) {
+    const double after = q_[k] + step.change[k];
+    if (after - arm.lower()[k] < kHeld || arm.upper()[k] - after < kHeld) {
+      step.limits.push_back(static_cast<int>(k));
     }
   }
   return step;
