@@ -145,9 +145,10 @@ void add_follow_path(py::class_<Workspace>& cls) {
       "follow",
       [](const Workspace& ws, const std::shared_ptr<ToolPath>& path, const OptionalArray& q_start,
          const std::string& task, double position_tolerance, double angle_tolerance, double step,
-         double lift, double transit_speed, double transit_rate, double clearance, double influence,
-         int candidates, const OptionalArray& velocity, const OptionalArray& acceleration,
-         std::optional<bool> tip_contact, double time, std::uint64_t seed) {
+         double lift, double shortest, double transit_speed, double transit_rate, double clearance,
+         double influence, int candidates, const OptionalArray& velocity,
+         const OptionalArray& acceleration, std::optional<bool> tip_contact, double time,
+         std::uint64_t seed) {
         const Index size = ws.arm().size();
         FollowOptions options;
         if (!q_start.is_none()) options.q_start = posture_argument("q_start", q_start, size);
@@ -156,6 +157,7 @@ void add_follow_path(py::class_<Workspace>& cls) {
         options.angle_tolerance = angle_tolerance;
         options.step = step;
         options.lift = lift;
+        options.shortest = shortest;
         options.transit_speed = transit_speed;
         options.transit_rate = transit_rate;
         options.clearance = clearance;
@@ -173,7 +175,8 @@ void add_follow_path(py::class_<Workspace>& cls) {
       py::arg("task") = enum_name(defaults.task, tip_task_names()),
       py::arg("position_tolerance") = defaults.position_tolerance,
       py::arg("angle_tolerance") = defaults.angle_tolerance, py::arg("step") = defaults.step,
-      py::arg("lift") = defaults.lift, py::arg("transit_speed") = defaults.transit_speed,
+      py::arg("lift") = defaults.lift, py::arg("shortest") = defaults.shortest,
+      py::arg("transit_speed") = defaults.transit_speed,
       py::arg("transit_rate") = defaults.transit_rate, py::arg("clearance") = defaults.clearance,
       py::arg("influence") = defaults.influence, py::arg("candidates") = defaults.candidates,
       py::arg("velocity") = py::none(), py::arg("acceleration") = py::none(),

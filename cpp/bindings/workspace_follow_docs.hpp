@@ -110,6 +110,8 @@ step : float
     Of the tool path between rows at most [m].
 lift : float
     Height at which gaps are crossed, along a_j [m].
+shortest : float
+    A stretch between two cuts that is shorter is cut, too [m].
 transit_speed : float
     Of the tip on the way across at most [m/s].
 transit_rate : float

@@ -41,23 +41,23 @@ class FollowedRows {
     FollowCut halt;
     while (at < follower_.size()) {
       const std::int32_t next = next_begin(at);
-      if (next > at && cuts_open_ < 0) open_cut(at, halt_at(at));
+      if (next > at) cut_from(at, halt_at(at));
       if (next == follower_.size()) break;
       at = next;
       if (!begin(at, halt)) {
-        if (cuts_open_ < 0) open_cut(at, halt);
+        cut_from(at, halt);
         ++at;
         continue;
       }
-      close_cut(at);
+      end_cut(at);
       at = ended_ + 1;
       if (complete_) continue;
       // The last sample of a stretch begins the next one, in another posture: unless that goes no
       // farther.
-      open_cut(ended_, next_begin(ended_ + 1) > ended_ + 1 ? halt_at(ended_ + 1) : halt_);
+      cut_from(ended_, next_begin(ended_ + 1) > ended_ + 1 ? halt_at(ended_ + 1) : halt_);
       if (ended_ > began_) at = ended_;
     }
-    close_cut(follower_.size() - 1);
+    end_cut(follower_.size() - 1);
   }
 
  private:
@@ -71,19 +71,24 @@ class FollowedRows {
     return halt;
   }
 
-  void open_cut(std::int32_t first, FollowCut halt) {
-    if (cuts_open_ >= 0) return;
-    cuts_open_ = first;
+  /// From a sample on nothing is followed. What is cut for another reason is another cut.
+  void cut_from(std::int32_t first, FollowCut halt) {
+    if (cutting_) {
+      FollowCut& open = cuts_.back();
+      if (open.reason == halt.reason || open.first == first) return;
+      open.last = first;
+    }
     halt.first = first;
     cuts_.push_back(halt);
+    cutting_ = true;
   }
 
-  void close_cut(std::int32_t last) {
-    if (cuts_open_ < 0) return;
+  void end_cut(std::int32_t last) {
+    if (!cutting_) return;
     cuts_.back().last = last;
     // A stretch that goes on from where another ended, in another posture, leaves nothing out.
     if (last <= cuts_.back().first && last != follower_.size() - 1) cuts_.pop_back();
-    cuts_open_ = -1;
+    cutting_ = false;
   }
 
   /// The longest stretch from a sample on, by the way there taken in; false where there is none
@@ -101,7 +106,8 @@ class FollowedRows {
     halt.reason = CutReason::kUnreachable;
     const auto consider = [&](const VectorXd& q, std::optional<JointMatrix> way) {
       Stretch stretch = follower_.follow(q, sample);
-      if (stretch.rows.empty() || stretch.last < least) {
+      const bool worth = stretch.complete || follower_.length(stretch) >= options_.shortest;
+      if (stretch.rows.empty() || stretch.last < least || !worth) {
         halt = stretch.halt;
         return false;
       }
@@ -179,8 +185,8 @@ class FollowedRows {
   workspace::Transit transit_;
   std::vector<PathRow> rows_;
   std::vector<FollowCut> cuts_;
-  std::int32_t cuts_open_ = -1, began_ = 0, ended_ = 0;
-  bool complete_ = true;
+  std::int32_t began_ = 0, ended_ = 0;
+  bool complete_ = true, cutting_ = false;
   FollowCut halt_;
 };
 
@@ -255,6 +261,7 @@ void FollowOptions::check(const Arm& arm) const {
   check_positive("angle_tolerance", angle_tolerance);
   check_positive("step", step);
   check_positive("lift", lift);
+  check_not_negative("shortest", shortest);
   check_positive("transit_speed", transit_speed);
   check_positive("transit_rate", transit_rate);
   check_range("candidates", candidates, 1, 1000);

@@ -27,7 +27,7 @@ enum class CutReason {
 std::string_view to_text(CutReason reason);
 
 /// The tool path from sample `first` to sample `last` is not followed; its ends may be, as the end
-/// and the beginning of what is.
+/// and the beginning of what is. The reason is that at its beginning.
 struct FollowCut {
   std::int32_t first = 0, last = 0;
   CutReason reason = CutReason::kUnreachable;
@@ -42,6 +42,7 @@ struct FollowOptions {
   double angle_tolerance = 1e-3;     ///< at every row [rad], above 0
   double step = 0.01;                ///< of the tool path between rows at most [m], above 0
   double lift = 0.1;                 ///< height at which gaps are crossed, along a_j [m], above 0
+  double shortest = 0.05;            ///< stretch between cuts that is worth going to [m], 0 or more
   double transit_speed = 0.1;        ///< of the tip on the way there at most [m/s], above 0
   double transit_rate = 0.5;         ///< of the tool on the way there at most [rad/s], above 0
   double clearance = 0.002;          ///< that is kept [m], 0 or more

@@ -32,6 +32,10 @@ class PathFollower {
 
   std::int32_t size() const { return static_cast<std::int32_t>(path_.size()); }
   bool gap_after(std::int32_t sample) const { return path_.gap[static_cast<std::size_t>(sample)]; }
+  double length(const Stretch& stretch) const {
+    return path_.arc_length[static_cast<std::size_t>(stretch.last)] -
+           path_.arc_length[static_cast<std::size_t>(stretch.first)];
+  }
   TipContact tip_contact() const { return tip_contact_; }
 
   /// At a sample, or between it and the next one.
