@@ -38,7 +38,7 @@ std::string link_or_none(const Workspace& ws, int link) {
   return link < 0 ? "" : link_name(ws.arm(), link);
 }
 
-std::string joint_or_none(const Workspace& ws, int coordinate) {
+std::string limited_joint(const Workspace& ws, int coordinate) {
   for (const Joint& joint : ws.arm().joints()) {
     if (joint.coordinate != coordinate || coordinate < 0 || !joint.follows.empty()) continue;
     return joint.name.empty() ? "joint " + std::to_string(coordinate) : joint.name;
@@ -121,7 +121,7 @@ void add_move(py::class_<Workspace>& cls) {
         }
         found.link = link_or_none(ws, found.move.link);
         found.against = contact_partner(ws, found.move.obstacle, found.move.other_link);
-        found.joint = joint_or_none(ws, found.move.coordinate);
+        found.joint = limited_joint(ws, found.move.coordinate);
         return found;
       },
       py::arg("q_start"), py::kw_only(), py::arg("point") = py::none(),
@@ -252,7 +252,7 @@ void bind_followed_path(py::module_& module) {
           [](const Path& p) {
             std::vector<std::string> names;
             for (const FollowCut& cut : p.followed.cut) {
-              const std::string joint = joint_or_none(p.workspace, cut.coordinate);
+              const std::string joint = limited_joint(p.workspace, cut.coordinate);
               const std::string link = link_or_none(p.workspace, cut.link);
               names.push_back(link.empty()
                                   ? joint
@@ -261,8 +261,8 @@ void bind_followed_path(py::module_& module) {
             }
             return names;
           },
-          "List of what holds the arm at each cut: a link and what it meets, or a joint; empty "
-          "where neither does.")
+          "List of the constraint at the beginning of each cut: a link and what it meets, or a "
+          "joint; empty where neither is known.")
       .def_property_readonly(
           "position_error", [](const Path& p) { return p.followed.position_error; },
           "Greatest of the rows that are not in transit [m].")

@@ -11,11 +11,11 @@ inline constexpr const char* kTipMove = R"(The tip moved towards a target, as fa
 inline constexpr const char* kMove = R"(Moves the tip straight towards a target in the world.
 
 By default damped least squares within joint limits and rates, by strict priorities: joint limits
-and rates; clearance (velocity dampers: Faverjon, Tournassoud 1987); position of the tip; its axis or
-orientation; away from limits and from what is near in what the others leave free. It slides along
-what is in its way and halts where no step brings the tip nearer; a way round is for `plan`.
-"pseudo_inverse" is the stepping of Maevskiy, Zanin (2020): Δq = J⁺ ΔX, ΔX the way to the target over
-`steps`, without regard to limits on the way; a forbidden intermediate posture ends it.
+and rates; clearance (velocity dampers: Faverjon, Tournassoud 1987); position of the tip; its axis
+or orientation; away from limits and from what is near in what the others leave free. It slides
+along what is in its way and halts where no step brings the tip nearer; a way round is for `plan`.
+"pseudo_inverse" is the stepping of Maevskiy, Zanin (2020): Δq = J⁺ ΔX, ΔX the way to the target
+over `steps`; a forbidden intermediate posture, or one beyond a limit, ends it.
 
 Parameters
 ----------
@@ -52,7 +52,8 @@ approach : float
 max_steps : int
     Of "damped".
 velocity : float or (n,) array, optional
-    Rate limits [rad/s] or [m/s]; unless given the arm's, 1 rad/s or 0.25 m/s of a joint without one.
+    Rate limits [rad/s] or [m/s]; unless given the arm's, 1 rad/s or 0.25 m/s of a joint that has
+    none.
 acceleration : float or (n,) array, optional
     [rad/s²] or [m/s²]; unless given each rate limit is reached from rest in half a second.
 tip_contact : bool
@@ -123,7 +124,8 @@ influence : float
 candidates : int
     Postures tried at the beginning of a stretch.
 velocity : float or (n,) array, optional
-    Rate limits [rad/s] or [m/s]; unless given the arm's, 1 rad/s or 0.25 m/s of a joint without one.
+    Rate limits [rad/s] or [m/s]; unless given the arm's, 1 rad/s or 0.25 m/s of a joint that has
+    none.
 acceleration : float or (n,) array, optional
     [rad/s²] or [m/s²]; unless given each rate limit is reached from rest in half a second.
 tip_contact : bool, optional

@@ -9,6 +9,7 @@
 #include "bathyal/workspace/internal/start_postures.hpp"
 #include "bathyal/workspace/internal/tip_motion.hpp"
 #include "bathyal/workspace/internal/transit.hpp"
+#include "bathyal/workspace/motion_timing.hpp"
 #include "bathyal/workspace/stepping.hpp"
 
 namespace bathyal {
@@ -229,7 +230,7 @@ Followed assembled(const Workspace& ws, const ToolPath& path, const PathFollower
   }
   if (rows.empty()) return followed;
   const std::vector<double> velocity =
-      options.velocity.empty() ? workspace::rate_limits(ws.arm()) : options.velocity;
+      options.velocity.empty() ? default_limits(ws.arm()).velocity : options.velocity;
   const std::vector<double> acceleration =
       options.acceleration.empty() ? default_acceleration(ws.arm()) : options.acceleration;
   followed.time = workspace::row_times(followed.q, velocity, acceleration,

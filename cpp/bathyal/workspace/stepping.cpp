@@ -8,6 +8,7 @@
 #include "bathyal/base/check.hpp"
 #include "bathyal/workspace/internal/row_timing.hpp"
 #include "bathyal/workspace/internal/tip_motion.hpp"
+#include "bathyal/workspace/motion_timing.hpp"
 
 namespace bathyal {
 namespace {
@@ -89,7 +90,7 @@ void explain(const Workspace& ws, const TipMotion& motion, const workspace::TipT
 /// ends in the row before.
 void time_and_verify(const Workspace& ws, const MoveOptions& options, Move& move) {
   const std::vector<double> velocity =
-      options.velocity.empty() ? workspace::rate_limits(ws.arm()) : options.velocity;
+      options.velocity.empty() ? default_limits(ws.arm()).velocity : options.velocity;
   const std::vector<double> acceleration =
       options.acceleration.empty() ? default_acceleration(ws.arm()) : options.acceleration;
   for (;;) {

@@ -8,7 +8,7 @@
 #include <cstring>
 
 #include "bathyal/arm/row_frames.hpp"
-#include "bathyal/workspace/internal/row_timing.hpp"
+#include "bathyal/workspace/motion_timing.hpp"
 #include "scene/meshes.hpp"
 #include "support/arms.hpp"
 
@@ -68,7 +68,7 @@ std::span<const double> row(const JointMatrix& q, Index i) {
 }
 
 double worst_rate(const Arm& arm, const Followed& motion) {
-  const std::vector<double> velocity = workspace::rate_limits(arm);
+  const std::vector<double> velocity = default_limits(arm).velocity;
   const std::vector<double> acceleration = default_acceleration(arm);
   double worst = 0.0;
   const Index legs = motion.q.rows() - 1;

@@ -10,7 +10,7 @@
 #include "bathyal/arm/row_frames.hpp"
 #include "bathyal/workspace/internal/bodies.hpp"
 #include "bathyal/workspace/internal/proximity.hpp"
-#include "bathyal/workspace/internal/row_timing.hpp"
+#include "bathyal/workspace/motion_timing.hpp"
 #include "support/arms.hpp"
 
 namespace bathyal {
@@ -34,7 +34,7 @@ Surroundings with_radius(const Arm& arm, double radius) {
 
 /// Rates and their changes of rows by finite differences, over the limits: 1 or less.
 double worst_rate(const Arm& arm, const Move& move) {
-  const std::vector<double> velocity = workspace::rate_limits(arm);
+  const std::vector<double> velocity = default_limits(arm).velocity;
   const std::vector<double> acceleration = default_acceleration(arm);
   double worst = 0.0;
   const Index legs = move.path.rows() - 1;

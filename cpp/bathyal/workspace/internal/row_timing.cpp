@@ -124,16 +124,4 @@ std::vector<double> row_times(const JointMatrix& rows, std::span<const double> v
   return time;
 }
 
-std::vector<double> rate_limits(const Arm& arm) {
-  constexpr double kTurning = 1.0, kSliding = 0.25;  // [rad/s], [m/s], without a limit
-  std::vector<double> velocity(static_cast<std::size_t>(arm.size()), kTurning);
-  for (const Joint& joint : arm.joints()) {
-    if (joint.coordinate < 0 || !joint.follows.empty()) continue;
-    const double unlimited = joint.type == JointType::kPrismatic ? kSliding : kTurning;
-    velocity[static_cast<std::size_t>(joint.coordinate)] =
-        std::isfinite(joint.velocity) && joint.velocity > 0.0 ? joint.velocity : unlimited;
-  }
-  return velocity;
-}
-
 }  // namespace bathyal::workspace

@@ -17,7 +17,4 @@ std::vector<double> row_times(const JointMatrix& rows, std::span<const double> v
                               std::span<const double> acceleration,
                               std::span<const double> least_duration);
 
-/// Rate limits of each coordinate; 1 rad/s, 0.25 m/s where a joint has none.
-std::vector<double> rate_limits(const Arm& arm);
-
 }  // namespace bathyal::workspace

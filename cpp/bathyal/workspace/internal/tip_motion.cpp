@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "bathyal/arm/inverse_problem.hpp"
-#include "bathyal/workspace/internal/row_timing.hpp"
+#include "bathyal/workspace/motion_timing.hpp"
 
 namespace bathyal::workspace {
 namespace {
@@ -111,7 +111,8 @@ class CheckedRows {
 };
 
 VectorXd change_in_period(const Arm& arm, const MoveOptions& options) {
-  const std::vector<double> rates = options.velocity.empty() ? rate_limits(arm) : options.velocity;
+  const std::vector<double> rates =
+      options.velocity.empty() ? default_limits(arm).velocity : options.velocity;
   return options.period * Eigen::Map<const VectorXd>(rates.data(), arm.size());
 }
 

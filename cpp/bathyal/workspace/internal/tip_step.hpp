@@ -36,7 +36,7 @@ struct StepRules {
   TipContact tip_contact = TipContact::kForbidden;
 };
 
-/// One step, and what holds it back.
+/// One step, and the constraints that hold it back.
 struct TipStep {
   Eigen::VectorXd change;
   std::vector<NearPair> pairs;  ///< that hold it back
