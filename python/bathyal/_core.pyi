@@ -9,7 +9,7 @@ import numpy.typing
 import os
 import plotly.graph_objects
 import typing
-__all__: list[str] = ['Arm', 'ArmFit', 'BEYOND_NOISE', 'Capsule', 'Cause', 'CleanReport', 'CleanResult', 'Clearances', 'CorrectedArm', 'DhTable', 'Diagnosis', 'Effect', 'EffectRange', 'EffectRows', 'Error', 'Estimate', 'FitParameter', 'FoundEffect', 'HeldOut', 'HeldOutPart', 'Hits', 'Hull', 'HullReport', 'InverseResult', 'KeepOut', 'Link', 'MeshReport', 'MotionCheck', 'MotionPlan', 'NamedEffect', 'Nearest', 'NearestSegments', 'Outlier', 'Plane', 'PlaneFit', 'PointCloud', 'Polyline', 'RigidBody', 'Scene', 'Shape', 'SheetPatch', 'SheetReport', 'Structure', 'Support', 'TargetChecks', 'Targets', 'TextTable', 'ToolPath', 'TouchForecast', 'TouchPlan', 'Touches', 'Tracked', 'Trade', 'Trajectory', 'TriangleMesh', 'Verification', 'Voxels', 'Workspace', 'arm_from_chain', 'arm_from_parts', 'arm_parts', 'chain_from_arm', 'check_bytes', 'clean_cloud', 'cover_polygon', 'diagnose', 'find_effect_with', 'find_sheets', 'find_targets', 'fit_plane', 'forecast_touches', 'generate_survey', 'identify_arm', 'intersect_moller_trumbore', 'library_effects', 'mesh_report', 'plan_toolpath', 'plan_touches', 'read_mesh_with', 'read_pcd', 'read_text_table', 'set_simd_level', 'simd_level', 'survey_height', 'triangulate', 'triangulate_delaunay', 'verify_positions', 'warn_of_support_with', 'with_link_radii', 'write_xyz']
+__all__: list[str] = ['Arm', 'ArmFit', 'BEYOND_NOISE', 'Capsule', 'Cause', 'CleanReport', 'CleanResult', 'Clearances', 'CorrectedArm', 'DhTable', 'Diagnosis', 'Effect', 'EffectRange', 'EffectRows', 'Error', 'Estimate', 'FitParameter', 'FollowedPath', 'FoundEffect', 'HeldOut', 'HeldOutPart', 'Hits', 'Hull', 'HullReport', 'InverseResult', 'KeepOut', 'Link', 'MeshReport', 'MotionCheck', 'MotionPlan', 'NamedEffect', 'Nearest', 'NearestSegments', 'Outlier', 'Plane', 'PlaneFit', 'PointCloud', 'Polyline', 'RigidBody', 'Scene', 'Shape', 'SheetPatch', 'SheetReport', 'Structure', 'Support', 'TargetChecks', 'Targets', 'TextTable', 'TipMove', 'ToolPath', 'TouchForecast', 'TouchPlan', 'Touches', 'Tracked', 'Trade', 'Trajectory', 'TriangleMesh', 'Verification', 'Voxels', 'Workspace', 'arm_from_chain', 'arm_from_parts', 'arm_parts', 'chain_from_arm', 'check_bytes', 'clean_cloud', 'cover_polygon', 'diagnose', 'find_effect_with', 'find_sheets', 'find_targets', 'fit_plane', 'forecast_touches', 'generate_survey', 'identify_arm', 'intersect_moller_trumbore', 'library_effects', 'mesh_report', 'plan_toolpath', 'plan_touches', 'read_mesh_with', 'read_pcd', 'read_text_table', 'set_simd_level', 'simd_level', 'survey_height', 'triangulate', 'triangulate_delaunay', 'verify_positions', 'warn_of_support_with', 'with_link_radii', 'write_xyz']
 class Error(RuntimeError):
     """
     A broken file, a solver that failed or a part that is not installed.
@@ -2702,6 +2702,107 @@ class MotionPlan:
         """
         (2, n) from a start that touches or is outside the limits on a short straight line to a posture that is free; None where none is needed, or found.
         """
+class TipMove:
+    """
+    The tip moved towards a target, as far as it came.
+    """
+    def __repr__(self) -> str:
+        ...
+    @property
+    def against(self) -> str:
+        """
+        Of what: "hull", "scene", a keep-out's name or another link's.
+        """
+    @property
+    def angle_error(self) -> float:
+        """
+        That remains at the end [rad].
+        """
+    @property
+    def joint(self) -> str:
+        """
+        Name of the joint that is at its limit; empty where there is none.
+        """
+    @property
+    def link(self) -> str:
+        """
+        Name of the link that is in the way; empty where there is none.
+        """
+    @property
+    def path(self) -> numpy.ndarray:
+        """
+        (K, n) from the start on [rad] or [m]; all of it free of contact, but for a start that is not.
+        """
+    @property
+    def position_error(self) -> float:
+        """
+        That remains at the end [m].
+        """
+    @property
+    def reason(self) -> str:
+        """
+        A short sentence; empty when it was reached.
+        """
+    @property
+    def status(self) -> str:
+        """
+        "reached"; "stuck": no step brings the tip nearer, by what is near or by a singular posture; "blocked": the next step or the start touches something; "at_limit": held by a joint's limit or sent beyond it; "unreachable": in no posture.
+        """
+    @property
+    def time(self) -> numpy.ndarray:
+        """
+        (K,) rising [s].
+        """
+class FollowedPath:
+    """
+    A tool path as joint motion.
+    
+    Rows are joined by straight lines in joint space and free of contact between them, too.
+    """
+    def __len__(self) -> int:
+        ...
+    def __repr__(self) -> str:
+        ...
+    @property
+    def angle_error(self) -> float:
+        """
+        Greatest of the rows that are not in transit [rad]; 0 of the task "position".
+        """
+    @property
+    def cut(self) -> list[tuple[int, int, str]]:
+        """
+        List of (first, last, reason): the tool path from sample `first` to sample `last` is not followed (these two may be, as an end and a beginning), because it is "unreachable", only within reach beyond a "limit", only in "collision", because the arm would have to jump ("singular"), or no way there was found ("no_transit").
+        """
+    @property
+    def cut_by(self) -> list[str]:
+        """
+        List of the constraint at the beginning of each cut: a link and what it meets, or a joint; empty where neither is known.
+        """
+    @property
+    def fraction(self) -> numpy.ndarray:
+        """
+        (K,) of the way from that sample to the next one; 0 in transit.
+        """
+    @property
+    def position_error(self) -> float:
+        """
+        Greatest of the rows that are not in transit [m].
+        """
+    @property
+    def q(self) -> numpy.ndarray:
+        """
+        (K, n) [rad] or [m].
+        """
+    @property
+    def sample(self) -> numpy.ndarray:
+        """
+        (K,) sample of the tool path at or before the row, −1 in transit. Samples that coincide share a row, which has the last of them.
+        """
+    @property
+    def time(self) -> numpy.ndarray:
+        """
+        (K,) rising [s].
+        """
 class Workspace:
     """
     An arm on a vehicle among what it must not touch.
@@ -2881,6 +2982,140 @@ class Workspace:
     def detach(self) -> Workspace:
         """
         Another workspace without what was attached; ValueError where nothing was.
+        """
+    def follow(self, path: ToolPath, *, q_start: numpy.typing.ArrayLike | None = None, task: str = 'position_axis', position_tolerance: typing.SupportsFloat | typing.SupportsIndex = 0.0001, angle_tolerance: typing.SupportsFloat | typing.SupportsIndex = 0.001, step: typing.SupportsFloat | typing.SupportsIndex = 0.01, lift: typing.SupportsFloat | typing.SupportsIndex = 0.1, shortest: typing.SupportsFloat | typing.SupportsIndex = 0.05, transit_speed: typing.SupportsFloat | typing.SupportsIndex = 0.1, transit_rate: typing.SupportsFloat | typing.SupportsIndex = 0.5, clearance: typing.SupportsFloat | typing.SupportsIndex = 0.002, influence: typing.SupportsFloat | typing.SupportsIndex = 0.1, candidates: typing.SupportsInt | typing.SupportsIndex = 8, velocity: numpy.typing.ArrayLike | None = None, acceleration: numpy.typing.ArrayLike | None = None, tip_contact: bool | None = None, time: typing.SupportsFloat | typing.SupportsIndex = 0.0, seed: typing.SupportsInt | typing.SupportsIndex = 0) -> FollowedPath:
+        """
+        Turns a tool path of `plan_toolpath` into joint motion.
+        
+        Sample by sample, with rows between where samples are far apart, by the priorities of `move`. It
+        begins in that of several postures with which the longest stretch is followed. The path's times are
+        kept where the arm can, and stretched near singular postures and wherever rates or accelerations
+        would be passed. At a gap, and where a stretch ends, the tool is lifted along a_j, taken across and
+        brought down again; what no posture follows is cut out and listed. It begins and ends at rest on the
+        path: the way there and away is for `plan`.
+        
+        Parameters
+        ----------
+        path : ToolPath
+            In the world.
+        q_start : (n,) array, optional
+            Posture near which to begin [rad] or [m].
+        task : {"position_axis", "pose", "position"}
+            The turn about the tool's z is free; its x runs along the path, too; or the position alone.
+        position_tolerance : float
+            At every row [m].
+        angle_tolerance : float
+            At every row [rad].
+        step : float
+            Of the tool path between rows at most [m].
+        lift : float
+            Height at which gaps are crossed, along a_j [m].
+        shortest : float
+            A stretch between two cuts that is shorter is cut, too [m].
+        transit_speed : float
+            Of the tip on the way across at most [m/s].
+        transit_rate : float
+            Of the tool on the way across at most [rad/s].
+        clearance : float
+            That is kept to what must not be touched [m].
+        influence : float
+            What is nearer is kept away by redundancy, where there is any [m].
+        candidates : int
+            Postures tried at the beginning of a stretch.
+        velocity : float or (n,) array, optional
+            Rate limits [rad/s] or [m/s]; unless given the arm's, 1 rad/s or 0.25 m/s of a joint that has
+            none.
+        acceleration : float or (n,) array, optional
+            [rad/s²] or [m/s²]; unless given each rate limit is reached from rest in half a second.
+        tip_contact : bool, optional
+            Whether the end of the tool may touch the scene; unless given, where the path has no standoff.
+        time : float
+            At which it begins [s].
+        seed : int
+            Of the postures.
+        
+        Returns
+        -------
+        FollowedPath
+        
+        Raises
+        ------
+        ValueError
+            For a workspace in which something moves, a path without samples, options out of range.
+        """
+    def move(self, q_start: numpy.typing.ArrayLike, *, point: numpy.typing.ArrayLike | None = None, pose: numpy.typing.ArrayLike | None = None, method: str = 'damped', task: str | None = None, axis: numpy.typing.ArrayLike = (0.0, 0.0, 1.0), position_tolerance: typing.SupportsFloat | typing.SupportsIndex | None = None, angle_tolerance: typing.SupportsFloat | typing.SupportsIndex | None = None, steps: typing.SupportsInt | typing.SupportsIndex = 100, speed: typing.SupportsFloat | typing.SupportsIndex = 0.25, angular_rate: typing.SupportsFloat | typing.SupportsIndex = 0.5, period: typing.SupportsFloat | typing.SupportsIndex = 0.02, clearance: typing.SupportsFloat | typing.SupportsIndex = 0.005, influence: typing.SupportsFloat | typing.SupportsIndex = 0.1, approach: typing.SupportsFloat | typing.SupportsIndex = 0.5, max_steps: typing.SupportsInt | typing.SupportsIndex = 5000, velocity: numpy.typing.ArrayLike | None = None, acceleration: numpy.typing.ArrayLike | None = None, tip_contact: bool = False, time: typing.SupportsFloat | typing.SupportsIndex = 0.0) -> TipMove:
+        """
+        Moves the tip straight towards a target in the world.
+        
+        By default damped least squares within joint limits and rates, by strict priorities: joint limits
+        and rates; clearance (velocity dampers: Faverjon, Tournassoud 1987); position of the tip; its axis
+        or orientation; away from limits and from what is near in what the others leave free. It slides
+        along what is in its way and halts where no step brings the tip nearer; a way round is for `plan`.
+        "pseudo_inverse" is the stepping of Maevskiy, Zanin (2020): Δq = J⁺ ΔX, ΔX the way to the target
+        over `steps`; a forbidden intermediate posture, or one beyond a limit, ends it.
+        
+        Parameters
+        ----------
+        q_start : (n,) array
+            Where it begins [rad] or [m].
+        point : (3,) array, optional
+            Where the tip is to be, in the world [m]; this or `pose`.
+        pose : (4, 4) array, optional
+            world_from_tool; this or `point`.
+        method : {"damped", "pseudo_inverse"}
+        task : {"pose", "position_axis", "position"}, optional
+            What of the pose must be met; "position_axis" leaves the turn about `axis` free. Unless given
+            "pose"; of a point "position".
+        axis : (3,) array
+            In the tool's frame; of "position_axis".
+        position_tolerance : float, optional
+            [m]; unless given 1e-4, and 1e-2 of "pseudo_inverse" as in the paper.
+        angle_tolerance : float, optional
+            [rad]; unless given 1e-3, and 1e-2 of "pseudo_inverse".
+        steps : int
+            k of "pseudo_inverse".
+        speed : float
+            Of the tip at most [m/s].
+        angular_rate : float
+            Of the tool at most [rad/s].
+        period : float
+            Between the steps of "damped" [s]; slowed where limits ask for it.
+        clearance : float
+            Kept by "damped" [m].
+        influence : float
+            Below this distance approaching is slowed [m].
+        approach : float
+            Greatest speed of approach at `influence`, falling to 0 at `clearance` [m/s].
+        max_steps : int
+            Of "damped".
+        velocity : float or (n,) array, optional
+            Rate limits [rad/s] or [m/s]; unless given the arm's, 1 rad/s or 0.25 m/s of a joint that has
+            none.
+        acceleration : float or (n,) array, optional
+            [rad/s²] or [m/s²]; unless given each rate limit is reached from rest in half a second.
+        tip_contact : bool
+            As of `clearance`: whether the end of the tool may touch the scene.
+        time : float
+            At which it begins [s]; the target is taken as it lies then.
+        
+        Returns
+        -------
+        TipMove
+        
+        Raises
+        ------
+        ValueError
+            For a target that is not finite or not rigid, both or none of `point` and `pose`, values of
+            another count, options out of range.
+        
+        Examples
+        --------
+        >>> import bathyal
+        >>> arm = bathyal.Arm.from_dh(a=[0.5, 0.4], alpha=[0, 0], d=[0, 0], theta=[0, 0])
+        >>> ws = bathyal.Workspace(arm, radii=0.05)
+        >>> move = ws.move([0.5, 0.5], point=[0.3, 0.6, 0.0])
+        >>> move.status, bool(move.position_error <= 1e-4)
+        ('reached', True)
         """
     def place_capsules(self, q: numpy.typing.ArrayLike) -> numpy.ndarray:
         """
