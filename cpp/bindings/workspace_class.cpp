@@ -507,6 +507,7 @@ void bind_workspace_class(py::module_& module) {
   bind_motion_plan(module);
   bind_static_trim(module);
   bind_reach(module);
+  bind_tip_motions(module);
   py::class_<Workspace> cls(module, "Workspace", workspace_docs::kWorkspace);
   cls.def(py::init(&make_workspace), py::arg("arm"), py::arg("mount") = py::none(), py::kw_only(),
           py::arg("hull") = py::none(), py::arg("scene") = py::none(),
@@ -517,6 +518,7 @@ void bind_workspace_class(py::module_& module) {
   add_queries(cls);
   add_plan(cls);
   add_reach(cls);
+  add_follow(cls);
   add_variants(cls);
   add_values(cls);
   add_statics(cls);

@@ -36,6 +36,11 @@ void add_statics(py::class_<Workspace>& cls);
 
 /// SamplingPhase, SamplingPlan, plan_sampling; after Workspace.
 void bind_sampling(py::module_& module);
+/// TipMove and FollowedPath; before the methods that return them.
+void bind_tip_motions(py::module_& module);
+
+/// Workspace.move and .follow
+void add_follow(py::class_<Workspace>& cls);
 
 inline JointView joint_view(const Rows& rows) {
   return {rows.table.data(), rows.table.rows(), rows.table.cols()};
