@@ -178,7 +178,7 @@ class _Reader:
             self.fail(event.start_mark, f"tags are refused, got {event.tag!r:.60}")
         mark = _mark(event.start_mark)
         if isinstance(event, kinds.ScalarEvent):
-            return _Node(mark, _plain(event.value) if event.style is None else event.value)
+            return _Node(mark, event.value if event.style else _plain(event.value))
         if len(stack) >= _DEEPEST:
             self.fail(event.start_mark, f"expected at most {_DEEPEST} levels, got more")
         value: Any = {} if isinstance(event, kinds.MappingStartEvent) else []

@@ -49,24 +49,26 @@ def name_of(place: Sequence[str | int]) -> str:
 
 
 def _lines(error: ValidationError, document: Document) -> list[str]:
-    found = []
+    found: dict[tuple[str | int, ...], str] = {}
     for one in error.errors(include_url=False):
-        place = _place(one["loc"], document)
-        mark = document.marks.get(place) or document.marks.get(place[:-1])
-        order = (mark.line, mark.column) if mark else (0, 0)
-        found.append((order, f"{document.where(place)}: {name_of(place)}: {_reason(one)}"))
-    lines = [line for _, line in sorted(found, key=lambda pair: pair[0])]
-    lines = list(dict.fromkeys(lines))
+        place = _place(one["loc"], document, missing=one["type"] == "missing")
+        # Of a value that may be one of two kinds there is an error for each: the first says it.
+        found.setdefault(place, f"{document.where(place)}: {name_of(place)}: {_reason(one)}")
+    marks = {place: document.marks.get(place) or document.marks.get(place[:-1]) for place in found}
+    order = sorted(found, key=lambda p: (m.line, m.column) if (m := marks[p]) else (0, 0))
+    lines = [found[place] for place in order]
     more = len(lines) - _MOST_SHOWN
     return lines[:_MOST_SHOWN] + ([f"and {more} more"] if more > 0 else [])
 
 
-def _place(parts: Sequence[str | int], document: Document) -> tuple[str | int, ...]:
-    """Where in the document; what pydantic adds to it, such as the shape of a keep-out, goes."""
+def _place(
+    parts: Sequence[str | int], document: Document, *, missing: bool
+) -> tuple[str | int, ...]:
+    """Where in the document; what pydantic adds to it, such as the shape of a keep-out, goes. The
+    last part of a key that is missing is in no document."""
     place: tuple[str | int, ...] = ()
     for number, part in enumerate(parts):
-        last = number == len(parts) - 1
-        if (*place, part) in document.marks or (last and isinstance(part, str)):
+        if (*place, part) in document.marks or (missing and number == len(parts) - 1):
             place = (*place, part)
     return place
 

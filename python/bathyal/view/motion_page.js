@@ -18,6 +18,8 @@
     byId("lights").append(box);
     return {...one, lamp, words: text};
   });
+  const cursor = document.createElement("div");
+  cursor.id = "cursor";
   slider.max = last;
   let frame = 0, drawn = -1, busy = false, playing = false, clock = 0, before = 0;
 
@@ -50,6 +52,15 @@
     slider.value = frame;
   }
 
+  // The line through the curves lies over the drawing: to draw that again would take longer.
+  function point() {
+    if (!curves) return;
+    const {xaxis, _size} = curves._fullLayout, x = xaxis.d2p(time[frame]);
+    cursor.style.display = x < 0 || x > xaxis._length ? "none" : "block";
+    cursor.style.transform = `translate(${_size.l + x}px, ${_size.t}px)`;
+    cursor.style.height = `${_size.h}px`;
+  }
+
   async function draw() {
     if (busy || drawn === frame) return;
     busy = true;
@@ -61,9 +72,7 @@
       await Plotly.restyle(bodies, {x: axis(0), y: axis(1), z: axis(2)},
                            moving.map((one) => one.trace));
     }
-    if (curves) {
-      await Plotly.relayout(curves, {"shapes[0].x0": time[at], "shapes[0].x1": time[at]});
-    }
+    point();
     drawn = at;
     busy = false;
     if (at !== frame) requestAnimationFrame(draw);
@@ -107,7 +116,12 @@
     if (event.target.tagName === "SELECT" || event.target === play) return;
     if (event.key === " ") { event.preventDefault(); set(!playing); }
   });
-  if (curves) curves.on("plotly_click", (event) => { set(false); show(frameAt(event.points[0].x)); });
+  if (curves) {
+    byId("right").append(cursor);
+    curves.on("plotly_click", (event) => { set(false); show(frameAt(event.points[0].x)); });
+    curves.on("plotly_afterplot", point);
+  }
   window.bathyalShow = show;
+  for (const one of [bodies, curves]) if (one) Plotly.Plots.resize(one);
   show(0);
 })();

@@ -25,6 +25,7 @@ LIGHTS = {"go": "#12924f", "caution": "#d98a00", "stop": GAP}
 
 _CURVES = ("#1f6f9c", "#e07b00", "#12924f", "#8f5bff", "#c2189b", "#7a3b00", "#5b6068")
 _BANDS = ("rgba(27,31,36,0.05)", "rgba(27,31,36,0.0)")
+_ROOM = 0.9  # of the camera about what moves
 _LEAST_OPACITY = 0.999  # from which a body hides what is behind it
 
 
@@ -142,6 +143,7 @@ def _drawing(
         )  # fmt: skip
     size = high - low
     aspect = 1.9 * size / np.linalg.norm(size)
+    center, eye = _camera(motion, (low + high) / 2, aspect / size)
     axes = {
         f"{name}axis": {
             "range": [float(low[k] - origin[k]), float(high[k] - origin[k])],
@@ -154,7 +156,7 @@ def _drawing(
         scene={
             "aspectmode": "manual",
             "aspectratio": dict(zip("xyz", map(float, aspect), strict=True)),
-            "camera": {"eye": {"x": 0.85, "y": -1.25, "z": 0.55}},
+            "camera": {"center": center, "eye": eye},
             "uirevision": "kept",
             **axes,
         },
@@ -164,6 +166,20 @@ def _drawing(
         font={"color": INK},
     )
     return figure, moving
+
+
+def _camera(
+    motion: Motion, middle: Floats, scale: Floats
+) -> tuple[dict[str, float], dict[str, float]]:
+    """Plotly's camera, which counts in its own units from the middle of the axes' box: at what
+    moves, from the starboard bow."""
+    low, high = motion.box()
+    center = ((low + high) / 2 - middle) * scale
+    back = np.array([0.55, -1.0, 0.38])
+    away = _ROOM * float(np.linalg.norm((high - low) * scale)) / 2 / np.sin(np.radians(45 / 2))
+    eye = center + away * back / np.linalg.norm(back)
+    named = [dict(zip("xyz", map(float, point), strict=True)) for point in (center, eye)]
+    return named[0], named[1]
 
 
 def _groups(bodies: Sequence[Body]) -> list[list[Body]]:
@@ -188,7 +204,8 @@ def _trace(bodies: Sequence[Body], vertices: Sequence[Floats], origin: Floats) -
         colours = {"facecolor": [body.colour for body in bodies for _ in body.triangles]}
     return go.Mesh3d(
         x=x, y=y, z=z, i=i, j=j, k=k, name="arm" if len(bodies) > 1 else bodies[0].name,
-        opacity=bodies[0].opacity, hoverinfo="name", showlegend=True, flatshading=False,
+        opacity=bodies[0].opacity, hoverinfo="name", showlegend=True,
+        flatshading=bodies[0].kind == "hull",
         lighting={"ambient": 0.6, "diffuse": 0.7, "specular": 0.15, "roughness": 0.6},
         lightposition={"x": 20000, "y": -20000, "z": 30000}, **colours,
     )  # fmt: skip
@@ -228,12 +245,8 @@ def _curves(motion: Motion) -> go.Figure:
         for number, (_, begin, end) in enumerate(motion.phases)
     ]
     start = float(motion.time[0])
-    cursor = {
-        "type": "line", "xref": "x", "yref": "paper", "y0": 0, "y1": 1, "x0": start, "x1": start,
-        "line": {"color": GAP, "width": 1.5},
-    }  # fmt: skip
     figure.update_layout(
-        shapes=[cursor, *bands], margin={"l": 48, "r": 10, "t": 22, "b": 38},
+        shapes=bands, margin={"l": 48, "r": 10, "t": 22, "b": 38},
         font={"color": INK, "size": 11}, plot_bgcolor="#fbfbfa", hovermode="closest",
     )  # fmt: skip
     figure.update_annotations(font_size=12)

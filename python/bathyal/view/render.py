@@ -114,7 +114,7 @@ class Stage:
         dark = np.zeros(len(points), bool)
         if len(points):
             for group in groups:
-                hits = group.scene.cast(points, _LIGHT)  # type: ignore[union-attr]
+                hits = group.scene.cast(points, np.broadcast_to(_LIGHT, points.shape))  # type: ignore[union-attr]
                 dark |= np.isfinite(np.asarray(hits.range))
         return dark
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
@@ -29,7 +29,7 @@ from bathyal.arm.files import find_arm
 from bathyal.io.files import PathLike, shown
 from bathyal.io.yaml_documents import Document, Place
 from bathyal.io.yaml_schema import at
-from bathyal.seabed.bottom import make_bottom
+from bathyal.seabed.bottom import make_bottom, noting
 from bathyal.seabed.meshes import read_mesh
 from bathyal.view.arm_solid import resting_pose
 from bathyal.view.solids import box
@@ -48,10 +48,9 @@ def scenario_of(
     document: Document,
     *,
     inside: PathLike | None,
-    packages: Mapping[str, PathLike],
 ) -> Scenario:
     """Build what the sections describe; as `read_scenario`."""
-    build = _Builder(document, inside, packages)
+    build = _Builder(document, inside)
     arm = build.arm(sections.arm)
     hull = build.hull(sections.hull)
     keepouts = [build.keepout(one, ("keepouts", k)) for k, one in enumerate(sections.keepouts)]
@@ -83,12 +82,9 @@ def scenario_of(
 class _Builder:
     """One document's sections, its files found within one folder."""
 
-    def __init__(
-        self, document: Document, inside: PathLike | None, packages: Mapping[str, PathLike]
-    ) -> None:
+    def __init__(self, document: Document, inside: PathLike | None) -> None:
         self.document = document
         self.within = Path(os.path.realpath(document.folder if inside is None else inside))
-        self.packages = packages
         self.warnings: list[str] = []
 
     @contextmanager
@@ -279,9 +275,18 @@ class _Builder:
             with self.placed(("vehicle", "body")):
                 options["vehicle_body"] = body_of(vehicle.body)
         if sections.arm.radius is not None:
-            options["radius"] = sections.arm.radius
-        with self.placed(()):
-            return Workspace(arm, sections.mount.matrix(), keepouts=keepouts, **options)
+            options["radii"] = sections.arm.radius
+        lines: list[str] = []
+        with self.placed(("arm",)), noting(lines):
+            workspace = Workspace(
+                arm,
+                sections.mount.matrix(),
+                keepouts=keepouts,
+                allowed=sections.arm.allowed,
+                **options,
+            )
+        self.warnings += [f"{self.document.where(('arm',))}: {line}" for line in lines]
+        return workspace
 
     def apart(self, hull: Hull, scene: Scene, vehicle: own.VehicleSection) -> list[str]:
         """A vehicle that is nowhere near its bottom is a mistake in one of the two."""

@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
@@ -81,12 +80,7 @@ class Scenario:
         raise argument_error("target", known, repr(target))
 
 
-def read_scenario(
-    path: PathLike,
-    *,
-    inside: PathLike | None = None,
-    packages: Mapping[str, PathLike] | None = None,
-) -> Scenario:
+def read_scenario(path: PathLike, *, inside: PathLike | None = None) -> Scenario:
     """Read a scenario.
 
     Parameters
@@ -97,8 +91,6 @@ def read_scenario(
     inside : path, optional
         A folder in which the files that it names may lie, that and all below it; that of the
         scenario unless given. Links are resolved.
-    packages : mapping of str to path, optional
-        Where ``package://name/`` of a URDF leads, in addition to what the file says.
 
     Returns
     -------
@@ -134,4 +126,4 @@ def read_scenario(
 
     document = read_yaml(path)
     sections = validated(ScenarioSections, document)
-    return scenario_of(sections, document, inside=inside, packages=packages or {})
+    return scenario_of(sections, document, inside=inside)

@@ -83,32 +83,29 @@ class BodySection(Section):
     center_of_buoyancy: Vector = _ORIGIN
 
 
-class LinkSection(BodySection):
-    """The body of one link, in its own frame, where the arm's own file says nothing of it."""
-
-    name: Name
-
-
 class ArmSection(Section):
-    """An arm by its name in `bathyal.arms`, or from a URDF or bathyal's JSON."""
+    """An arm by its name in `bathyal.arms`, or from a URDF or bathyal's JSON.
+
+    `radius`: thickness, one number or one a link; unless given that of the links' shapes.
+    `allowed`: pairs of links that may touch.
+    """
 
     name: Name | None = None
     file: FileName | None = None
     tip: Name | None = None
     root: Name | None = None
-    packages: dict[str, FileName] = {}
     tool: PoseSection | None = None
     radius: NotNegative | list[NotNegative] | None = None
+    allowed: list[tuple[Name, Name]] = []
     q_start: list[Number] | None = None
     q_start_deg: list[Number] | None = None
-    links: list[LinkSection] = []
 
     @model_validator(mode="after")
     def _one_source(self) -> ArmSection:
         _one_of(self, "name", "file", needed=True)
         _one_of(self, "q_start", "q_start_deg")
-        if self.file is None and (self.tip or self.root or self.packages):
-            raise ValueError("expected tip, root and packages with a file only")
+        if self.file is None and (self.tip or self.root):
+            raise ValueError("expected tip and root with a file only")
         return self
 
 
@@ -278,14 +275,6 @@ class TargetSection(Section):
         return self
 
 
-class SampleToolSection(Section):
-    """What the arm holds: a capsule from the flange's tool point back along its z."""
-
-    length: NotNegative = 0.0
-    radius: NotNegative = 0.0
-    body: BodySection | None = None
-
-
 class SamplingSection(Section):
     """How a sample is taken: `target` by name or row; the rest as `bathyal.plan_sampling`."""
 
@@ -298,6 +287,10 @@ class SamplingSection(Section):
     def _one_unit(self) -> SamplingSection:
         _one_of(self, "transport", "transport_deg")
         return self
+
+    def keywords(self) -> dict[str, Any]:
+        """Of `bathyal.plan_sampling`."""
+        return dict(self.options)
 
 
 class ScenarioSections(Section):
