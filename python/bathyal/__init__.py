@@ -82,6 +82,9 @@ from bathyal.seabed.triangulate import SheetWarning, triangulate
 from bathyal.toolpath import methods as _toolpath_methods  # noqa: F401
 from bathyal.toolpath.aims import read_aims
 from bathyal.workspace import link_meshes as _link_meshes  # noqa: F401
+from bathyal.workspace.joint_trajectory import write_joint_trajectory
+from bathyal.workspace.scenario import Scenario, read_scenario
+from bathyal.workspace.srdf import read_srdf, write_srdf
 
 __version__ = _version("bathyal")
 
@@ -113,6 +116,7 @@ __all__ = [
     "RigidBody",
     "SamplingPhase",
     "SamplingPlan",
+    "Scenario",
     "Scene",
     "Shape",
     "SheetPatch",
@@ -152,6 +156,8 @@ __all__ = [
     "read_arm",
     "read_cloud",
     "read_mesh",
+    "read_scenario",
+    "read_srdf",
     "read_touches",
     "read_tracked",
     "set_simd_level",
@@ -161,5 +167,7 @@ __all__ = [
     "verify_arm",
     "with_link_radii",
     "write_cloud",
+    "write_joint_trajectory",
     "write_mesh",
+    "write_srdf",
 ]

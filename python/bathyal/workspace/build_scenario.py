@@ -23,6 +23,8 @@ from bathyal._core import (
     Trajectory,
     TriangleMesh,
     Workspace,
+    arm_from_parts,
+    arm_parts,
     survey_height,
 )
 from bathyal.arm.files import find_arm
@@ -123,9 +125,25 @@ class _Builder:
             path = self.file(section.file, ("arm", "file"))
             with self.placed(("arm", "file")):
                 arm = find_arm(path, **given)
+        if section.links:
+            arm = self.weighed(arm, section.links)
         if section.tool is not None:
             arm.tool = section.tool.matrix()
         return arm
+
+    def weighed(self, arm: Arm, sections: Sequence[own.LinkSection]) -> Arm:
+        """The arm with masses and volumes of its links."""
+        names = [name or f"link_{k}" for k, name in enumerate(arm.link_names)]
+        parts = arm_parts(arm)
+        for row, section in enumerate(sections):
+            with self.placed(("arm", "links", row, "name")):
+                if section.name not in names:
+                    raise ValueError(f"expected one of {', '.join(names)}, got {section.name!r}")
+            parts["links"][names.index(section.name)] |= section.model_dump(
+                exclude={"name"}, exclude_unset=True, exclude_none=True
+            )
+        with self.placed(("arm", "links")):
+            return arm_from_parts(parts)
 
     def mesh(
         self, name: str, place: Place, scale: float | None, pose: own.PoseSection | None
@@ -202,9 +220,8 @@ class _Builder:
             if q.shape != (arm.size,):
                 raise ValueError(f"expected {arm.size} joint values, got {q.size}")
             if degrees is not None:
-                kinds = [kind for kind in arm.joint_types if kind != "fixed"]
-                turning = np.array([kind != "prismatic" for kind in kinds])
-                q = np.where(turning[: arm.size], np.radians(q), q)
+                turning = [kind != "prismatic" for kind in arm.joint_types]
+                q = np.where(turning, np.radians(q), q)
         return q
 
     def target(self, section: own.TargetSection, scene: Scene | None, row: int) -> Sequence[float]:

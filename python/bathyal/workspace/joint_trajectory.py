@@ -104,24 +104,11 @@ def write_joint_trajectory(
         Where the file cannot be written.
     """
     suffix = known_suffix(path, (".yaml", ".yml", ".json"), "trajectory")
-    names = moving_joints(arm) if isinstance(arm, Arm) else list(arm)
+    names = arm.joint_names if isinstance(arm, Arm) else list(arm)
     message = joint_trajectory(q, time, names, frame=frame)
     text = _json(message) if suffix == ".json" else _yaml(message)
     with replacing(path) as aside:
         aside.write_text(text, encoding="utf-8")
-
-
-def moving_joints(arm: Arm) -> list[str]:
-    """Names of the joints behind an arm's coordinates, in their order; "joint_1" … where an arm
-    gives none."""
-    named = [
-        name
-        for name, kind in zip(arm.joint_names, arm.joint_types, strict=True)
-        if kind != "fixed"
-    ]
-    if len(named) != arm.size:  # joints that follow others
-        named = named[: arm.size]
-    return [name or f"joint_{k}" for k, name in enumerate(named, start=1)]
 
 
 def _velocities(q: NDArray[np.float64], time: NDArray[np.float64]) -> NDArray[np.float64]:

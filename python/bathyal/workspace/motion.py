@@ -15,14 +15,14 @@ from bathyal.errors import argument_error
 from bathyal.view import solids
 from bathyal.view.decimate import crop, decimate
 from bathyal.view.motion import AT_REST, Body, Light, Motion, Panel, frames_of
-from bathyal.view.palette import DEPTH, GAP
+from bathyal.view.palette import GAP
 
 Floats = NDArray[np.float64]
 
 MOST_FRAMES = 400
 BOTTOM_BUDGET = 9_000  # triangles: a browser moves the arm over them in some 30 ms a frame
 HULL_BUDGET = 6_000
-_LINKS = (DEPTH[2], DEPTH[4])
+_LINKS = ("#f4f5f7", "#9aa0a9")
 _HULL = "#d9a521"
 _KEEPOUT = "#c2189b"
 _THIN = 0.006  # [m], the radius at which a bare segment is drawn
@@ -247,15 +247,9 @@ def _in_contact(time: Floats, phases: Sequence[Phase]) -> NDArray[np.bool_]:
 
 def _joint_panel(workspace: Workspace, q: Floats) -> Panel:
     arm = workspace.arm
-    kinds = list(arm.joint_types)
-    names = [name for name, kind in zip(arm.joint_names, kinds, strict=True) if kind != "fixed"]
-    turning = [kind != "prismatic" for kind in kinds if kind != "fixed"]
-    curves = {
-        names[k] if k < len(names) and names[k] else f"joint {k + 1}": (
-            np.degrees(q[:, k]) if k < len(turning) and turning[k] else 1000 * q[:, k]
-        )
-        for k in range(q.shape[1])
-    }
+    turning = [kind != "prismatic" for kind in arm.joint_types]
+    shown = np.where(turning, np.degrees(q), 1000 * q)
+    curves = {name: shown[:, k] for k, name in enumerate(arm.joint_names)}
     return Panel("joints [deg]" if all(turning) else "joints [deg], [mm]", curves)
 
 

@@ -83,6 +83,13 @@ class BodySection(Section):
     center_of_buoyancy: Vector = _ORIGIN
 
 
+class LinkSection(BodySection):
+    """What one link weighs and displaces, in its own frame: a URDF knows no volumes, and an arm by
+    its name no masses. What is not given stays as it is."""
+
+    name: Name
+
+
 class ArmSection(Section):
     """An arm by its name in `bathyal.arms`, or from a URDF or bathyal's JSON.
 
@@ -97,6 +104,7 @@ class ArmSection(Section):
     tool: PoseSection | None = None
     radius: NotNegative | list[NotNegative] | None = None
     allowed: list[tuple[Name, Name]] = []
+    links: list[LinkSection] = []
     q_start: list[Number] | None = None
     q_start_deg: list[Number] | None = None
 

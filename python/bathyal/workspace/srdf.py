@@ -98,11 +98,10 @@ def write_srdf(workspace: Workspace, path: PathLike, *, name: str = "") -> None:
 def link_pairs(workspace: Workspace) -> list[tuple[str, str, str]]:
     """(link, other link, reason) of a workspace's `excluded`, obstacles left out."""
     obstacles = set(workspace.obstacles)
-    links = {link.name for link in workspace.arm.links} - {""}
     return [
         (one, other, reason)
         for one, other, reason in workspace.excluded
-        if reason in _REASONS and (other in links or other not in obstacles)
+        if reason in _REASONS and other not in obstacles
     ]
 
 
