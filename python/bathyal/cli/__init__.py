@@ -24,7 +24,8 @@ from bathyal.cli.triangulate import triangulate
 
 _EXIT_CODES = (
     "Exit codes: 0 done (warnings are printed, they do not fail a job), 1 the job failed or a file "
-    "is broken, 2 wrong usage, 3 (check, sample) what was asked for is not allowed, 130 interrupted (Ctrl-C), 143 terminated (SIGTERM)."
+    "is broken, 2 wrong usage, 3 the arm may not do what was asked (check, sample), "
+    "130 interrupted (Ctrl-C), 143 terminated (SIGTERM)."
 )
 
 app = typer.Typer(

@@ -82,8 +82,7 @@ def read_yaml(path: PathLike) -> Document:
     with opened(path) as (stream, size):
         if size > MOST_BYTES:
             raise Error(
-                f"{shown(path)}: expected a YAML file of at most {MOST_BYTES:,} bytes, "
-                f"got {size:,}"
+                f"{shown(path)}: expected a YAML file of at most {MOST_BYTES:,} bytes, got {size:,}"
             )
         content = stream.read(MOST_BYTES + 1)
     try:
@@ -113,12 +112,11 @@ class _Reader:
     def __init__(self, path: str) -> None:
         self.path = shown(path)
 
-    def fail(self, mark: Any, text: str) -> NoReturn:
-        at = _mark(mark)
+    def fail(self, at: Mark, text: str) -> NoReturn:
         raise Error(f"{self.path}:{at.line}:{at.column}: {text}")
 
     def root(self, text: str) -> _Node:
-        import yaml
+        import yaml  # type: ignore[import-untyped]
 
         loader = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
         try:
@@ -128,7 +126,7 @@ class _Reader:
             mark = error.problem_mark or error.context_mark
             if mark is None:
                 raise Error(f"{self.path}: not readable YAML: {reason}") from error
-            self.fail(mark, f"not readable YAML: {reason}")
+            self.fail(_mark(mark), f"not readable YAML: {reason}")
         except yaml.YAMLError as error:
             reason = " ".join(str(error).split())
             raise Error(f"{self.path}: not readable YAML: {reason}") from error
@@ -142,17 +140,19 @@ class _Reader:
         done: _Node | None = None
         for event in events:
             if isinstance(event, kinds.DocumentStartEvent) and done is not None:
-                self.fail(event.start_mark, "expected one document, got a second")
+                self.fail(_mark(event.start_mark), "expected one document, got a second")
             if isinstance(event, (kinds.MappingEndEvent, kinds.SequenceEndEvent)):
                 node = stack.pop()
                 keys.pop()
                 node.open = False
             elif isinstance(event, kinds.AliasEvent):
                 if event.anchor not in anchors:
-                    self.fail(event.start_mark, f"alias *{event.anchor} has no anchor before it")
+                    self.fail(
+                        _mark(event.start_mark), f"alias *{event.anchor} has no anchor before it"
+                    )
                 node = anchors[event.anchor]
                 if node.open:
-                    self.fail(event.start_mark, f"anchor &{event.anchor} contains itself")
+                    self.fail(_mark(event.start_mark), f"anchor &{event.anchor} contains itself")
             elif isinstance(event, kinds.NodeEvent):
                 node = self._begin(event, stack)
                 if event.anchor:
@@ -175,31 +175,31 @@ class _Reader:
         from yaml import events as kinds
 
         if event.tag is not None:
-            self.fail(event.start_mark, f"tags are refused, got {event.tag!r:.60}")
+            self.fail(_mark(event.start_mark), f"tags are refused, got {event.tag!r:.60}")
         mark = _mark(event.start_mark)
         if isinstance(event, kinds.ScalarEvent):
             return _Node(mark, event.value if event.style else _plain(event.value))
         if len(stack) >= _DEEPEST:
-            self.fail(event.start_mark, f"expected at most {_DEEPEST} levels, got more")
+            self.fail(_mark(event.start_mark), f"expected at most {_DEEPEST} levels, got more")
         value: Any = {} if isinstance(event, kinds.MappingStartEvent) else []
         return _Node(mark, value, open=True)
 
     def _put(self, into: _Node, node: _Node, keys: list[_Node | None], event: Any) -> None:
         into.size += node.size
         if into.size > MOST_VALUES:
-            self.fail(event.start_mark, f"expected at most {MOST_VALUES:,} values, got more")
+            self.fail(_mark(event.start_mark), f"expected at most {MOST_VALUES:,} values, got more")
         into.depth = max(into.depth, node.depth + 1)
         if into.depth > _DEEPEST:  # by aliases
-            self.fail(event.start_mark, f"expected at most {_DEEPEST} levels, got more")
+            self.fail(_mark(event.start_mark), f"expected at most {_DEEPEST} levels, got more")
         if isinstance(into.value, list):
             into.value.append(node)
             return
         key = keys[-1]
         if key is None:
             if not isinstance(node.value, (str, int, float)) or isinstance(node.value, bool):
-                self.fail(event.start_mark, "expected a word as key")
+                self.fail(node.mark, "expected a word as key")
             if str(node.value) in into.value:
-                self.fail(event.start_mark, f"key {node.value!r:.60} comes twice")
+                self.fail(node.mark, f"key {node.value!r:.60} comes twice")
             keys[-1] = node
         else:
             into.value[str(key.value)] = (key.mark, node)

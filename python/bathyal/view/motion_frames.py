@@ -136,9 +136,7 @@ def _text(motion: Motion, frame: int) -> str:
 
 def _labelled(motion: Motion, picture: Picture, frame: int) -> Figure:
     height, width = picture.shape[:2]
-    figure = Figure(
-        figsize=(width / _DPI, (height + _STRIP) / _DPI), dpi=_DPI, facecolor="white"
-    )
+    figure = Figure(figsize=(width / _DPI, (height + _STRIP) / _DPI), dpi=_DPI, facecolor="white")
     FigureCanvasAgg(figure)
     share = _STRIP / (height + _STRIP)
     axes = figure.add_axes((0, share, 1, 1 - share))

@@ -343,11 +343,10 @@ def seabed_mesh(section: own.SeabedSection) -> TriangleMesh:
         np.linspace(low[0], low[0] + length, columns), np.linspace(low[1], low[1] + width, rows)
     )
     shape = section.model_dump(exclude={"size", "spacing", "center"}, exclude_none=True)
-    height = survey_height(
-        x.ravel(), y.ravel(), origin=low, length=length, width=width, **shape
-    )
+    height = survey_height(x.ravel(), y.ravel(), origin=low, length=length, width=width, **shape)
     first = (np.arange(rows - 1)[:, None] * columns + np.arange(columns - 1)).reshape(-1, 1)
-    triangles = np.vstack([first + [0, 1, columns], first + [1, columns + 1, columns]])
+    halves = np.array([[0, 1, columns], [1, columns + 1, columns]])
+    triangles = np.vstack([first + half for half in halves])
     return TriangleMesh(np.column_stack([x.ravel(), y.ravel(), height]), triangles)
 
 

@@ -114,7 +114,9 @@ class Checked:
         if not self.start_free:
             return "Refused: the arm may not begin where it is."
         if refused:
-            what = "target is" if count == 1 else f"{count} targets {'is' if refused == 1 else 'are'}"
+            what = (
+                "target is" if count == 1 else f"{count} targets {'is' if refused == 1 else 'are'}"
+            )
             return f"Refused: {refused} of {what} not free."
         if not count:
             return "Free: the start; the scenario has no targets."

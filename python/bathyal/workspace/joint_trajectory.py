@@ -38,8 +38,8 @@ def joint_trajectory(
     Returns
     -------
     dict
-        With ``header``, ``joint_names`` and ``points``; velocities by central differences, 0 at both
-        ends.
+        With ``header``, ``joint_names`` and ``points``; velocities by central differences, 0 at
+        both ends.
 
     Raises
     ------

@@ -274,7 +274,9 @@ def _clearance_light(
         "contact" if near < 0 else "clear" if np.isinf(near) else f"clear by {1000 * near:.0f} mm"
         for near in nearest
     ]
-    text = [f"{one}, tool at the bottom" if at else one for one, at in zip(text, contact, strict=True)]
+    text = [
+        f"{one}, tool at the bottom" if at else one for one, at in zip(text, contact, strict=True)
+    ]
     return Light("clearance", state.tolist(), text)
 
 
@@ -293,4 +295,3 @@ def _target_light(workspace: Workspace, target: Floats, frames: int) -> Light:
     status = str(workspace.check_target(target.reshape(1, 3)).status[0])
     state = {"free": "go", "limit": "caution"}.get(status, "stop")
     return Light("target", [state] * frames, [_TARGETS.get(status, status)] * frames)
-
