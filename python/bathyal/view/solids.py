@@ -45,6 +45,7 @@ def ball(center: Floats, radius: float) -> Mesh:
     """A sphere."""
     angle = np.linspace(0, np.pi, _BALL_RINGS)
     profile = radius * np.column_stack([-np.cos(angle), np.sin(angle)])
+    profile[[0, -1], 1] = 0.0  # the poles are points
     return turned(profile, np.asarray(center, float), np.array([0.0, 0.0, 1.0]), 2 * SIDES)
 
 

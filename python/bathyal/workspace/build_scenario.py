@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from bathyal._core import (
     Arm,
+    Capsule,
     Error,
     Hull,
     KeepOut,
@@ -260,7 +261,15 @@ class _Builder:
         keywords = section.keywords()
         transport = self.posture(arm, section, "transport", ("sampling",))
         if transport is not None:
-            keywords["transport"] = transport
+            keywords["q_transport"] = transport
+        for key in ("tool", "sample"):
+            held = getattr(section, key)
+            if held is not None:
+                with self.placed(("sampling", key)):
+                    keywords[key] = (
+                        [Capsule(one.start, one.end, one.radius) for one in held.capsules],
+                        body_of(held.body),
+                    )
         return sampled, keywords
 
     def workspace(

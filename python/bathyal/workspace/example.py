@@ -52,7 +52,12 @@ vehicle:
 targets:
   - {name: ahead, on_bottom: [1.55, 0]}
   - {name: port, on_bottom: [1.25, 0.6]}
-sampling: {target: ahead}
+sampling:
+  target: ahead
+  depth: 0.03                        # pressed into a bottom of this stiffness [N/m]
+  stiffness: 4000
+  force_limit: 150
+  sample: {body: {mass: 1.2, volume: 0.0007}}
 """
 
 

@@ -283,13 +283,40 @@ class TargetSection(Section):
         return self
 
 
+class CapsuleSection(Section):
+    """All within `radius` of a segment, in the tool's frame."""
+
+    start: Vector
+    end: Vector
+    radius: NotNegative
+
+
+class HeldSection(Section):
+    """What the arm holds: its outline and its body, in the tool's frame."""
+
+    capsules: list[CapsuleSection] = []
+    body: BodySection = BodySection()
+
+
 class SamplingSection(Section):
-    """How a sample is taken: `target` by name or row; the rest as `bathyal.plan_sampling`."""
+    """How a sample is taken at `target`, a name or a row: keywords of `bathyal.plan_sampling`."""
 
     target: Name | Whole | None = None
     transport: list[Number] | None = None
     transport_deg: list[Number] | None = None
-    options: dict[str, Any] = {}
+    tool: HeldSection | None = None
+    sample: HeldSection | None = None
+    direction: Vector | None = None
+    align: Annotated[bool, Field(strict=True)] | None = None
+    tool_axis: Vector | None = None
+    standoff: Positive | None = None
+    depth: NotNegative | None = None
+    stiffness: NotNegative | None = None
+    force_limit: Positive | None = None
+    grab_time: Positive | None = None
+    press_speed: Positive | None = None
+    max_checks: Annotated[Whole, Field(ge=1)] | None = None
+    seed: Whole | None = None
 
     @model_validator(mode="after")
     def _one_unit(self) -> SamplingSection:
@@ -297,8 +324,9 @@ class SamplingSection(Section):
         return self
 
     def keywords(self) -> dict[str, Any]:
-        """Of `bathyal.plan_sampling`."""
-        return dict(self.options)
+        """What is given, but for the target, postures and what is held."""
+        left_out = {"target", "transport", "transport_deg", "tool", "sample"}
+        return self.model_dump(exclude=left_out, exclude_none=True)
 
 
 class ScenarioSections(Section):
