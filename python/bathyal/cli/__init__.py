@@ -15,6 +15,8 @@ from bathyal.cli.groups import spread
 from bathyal.cli.identify import identify
 from bathyal.cli.info import info
 from bathyal.cli.plan import plan
+from bathyal.cli.reach import reach
+from bathyal.cli.sample import sample
 from bathyal.cli.scenario_example import example as example_scenario
 from bathyal.cli.survey import survey
 from bathyal.cli.talk import Commands
@@ -36,7 +38,7 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     epilog=_EXIT_CODES,
 )
-for command in (plan, triangulate, info, survey, identify, diagnose, check):
+for command in (plan, triangulate, info, survey, identify, diagnose, check, reach, sample):
     app.command(epilog=_EXIT_CODES)(spread(command))
 
 touches = typer.Typer(rich_markup_mode="rich", no_args_is_help=True)

@@ -276,3 +276,33 @@ def _packed(values: Floats) -> str:
 
 def _rounded(values: NDArray[np.float64], digits: int) -> list[float]:
     return [round(float(value), digits) for value in values]
+
+
+class MotionPage:
+    """A motion to look at: in Jupyter where it is the last value of a cell, or as a file.
+
+    Attributes
+    ----------
+    text : str
+        The page, HTML that needs no network.
+    """
+
+    def __init__(self, motion: Motion) -> None:
+        self.text = motion_page(motion)
+
+    def write(self, path: PathLike) -> None:
+        """Write the page; it appears whole or not at all.
+
+        Raises
+        ------
+        OSError
+            Where the file cannot be written.
+        """
+        with replacing(path) as aside:
+            aside.write_text(self.text, encoding="utf-8")
+
+    def _repr_html_(self) -> str:
+        return (
+            '<iframe style="width: 100%; height: 640px; border: 0" '
+            f'srcdoc="{html.escape(self.text, quote=True)}"></iframe>'
+        )

@@ -25,6 +25,7 @@ HULL_BUDGET = 6_000
 _LINKS = ("#f4f5f7", "#9aa0a9")
 _HULL = "#d9a521"
 _KEEPOUT = "#c2189b"
+_STEP = 0.1  # [s] between rows that come without times
 _THIN = 0.006  # [m], the radius at which a bare segment is drawn
 _FAR = 1.6  # of the bottom that is shown, as a share of the size of what moves
 _NEAR = 0.05  # [m] of clearance below which the indicator warns
@@ -112,6 +113,12 @@ def motion_of(
         return motion
     low, high = motion.box()
     return Motion(**{**vars(motion), "bodies": [*_bottom(workspace.scene, low, high), *bodies]})
+
+
+def evenly_timed(q: ArrayLike, time: ArrayLike | None) -> tuple[Floats, Floats]:
+    """Rows (K, n), and their times, `_STEP` apart where none are given."""
+    rows = np.atleast_2d(np.asarray(q, float))
+    return rows, _STEP * np.arange(len(rows)) if time is None else np.asarray(time, float)
 
 
 def _vehicle_poses(workspace: Workspace, time: Floats) -> Floats:
