@@ -35,7 +35,7 @@ def sample(
     frames: Annotated[
         int | None,
         typer.Option(
-            help="Pictures of the motion in frames/, 0 to 999. [dim]\\[default: 16][/]",
+            help="Pictures of the motion in frames/, 0 to 999. [dim]\\[default: 12][/]",
             min=0,
             max=999,
         ),

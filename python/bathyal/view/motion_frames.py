@@ -16,7 +16,7 @@ from bathyal.view.figure import write_png
 from bathyal.view.motion import AT_REST, Floats, Motion, frames_of
 from bathyal.view.motion_page import LIGHTS
 from bathyal.view.palette import GAP, INK
-from bathyal.view.render import Camera, Drawn, Stage, looking_at
+from bathyal.view.render import Drawn, Stage, looking_at
 
 _DPI = 100
 _SIZE = (720, 450)  # pixels of a frame
@@ -114,11 +114,14 @@ class _Pictures:
     """Frames of one motion from one camera."""
 
     def __init__(self, motion: Motion, size: tuple[int, int]) -> None:
-        self.motion, self.size = motion, size
+        self.motion = motion
         still = [body for body in motion.bodies if body.carrier == AT_REST]
-        self.stage = Stage([Drawn(b.vertices, b.triangles, b.colour, b.opacity) for b in still])
         low, high = motion.box()
-        self.camera: Camera = looking_at(low, high, size[0] / size[1])
+        self.stage = Stage(
+            [Drawn(b.vertices, b.triangles, b.colour, b.opacity) for b in still],
+            looking_at(low, high, size[0] / size[1]),
+            size,
+        )
 
     def at(self, frame: int) -> Picture:
         moving = [
@@ -126,7 +129,7 @@ class _Pictures:
             for b in self.motion.bodies
             if b.carrier != AT_REST
         ]
-        return self.stage.picture(moving, self.camera, *self.size)
+        return self.stage.picture(moving)
 
 
 def _text(motion: Motion, frame: int) -> str:

@@ -70,67 +70,94 @@ def looking_at(low: Floats, high: Floats, aspect: float, field: float = 0.6) -> 
 
 
 class Stage:
-    """Bodies at rest, made ready once for the pictures of a series."""
+    """Bodies at rest as one camera sees them, made ready once for the pictures of a series."""
 
-    def __init__(self, bodies: Sequence[Drawn]) -> None:
+    def __init__(
+        self, bodies: Sequence[Drawn], camera: Camera, size: tuple[int, int], samples: int = 2
+    ) -> None:
+        """`size` is width and height [pixels]; each is the mean of `samples`² rays."""
+        self.camera, self.size, self.samples = camera, size, samples
+        self.directions = camera.rays(size[0] * samples, size[1] * samples)
         self.solid = _Group([body for body in bodies if body.opacity >= 1])
         self.glass = [_Group([body]) for body in bodies if body.opacity < 1]
+        rays = len(self.directions)
+        seen = _Seen(
+            _sky(self.directions), np.full(rays, np.inf), np.zeros((rays, 3)), np.zeros(rays),
+            np.zeros(rays, bool),
+        )  # fmt: skip
+        self._look(self.solid, seen)
+        rows = np.flatnonzero(np.isfinite(seen.range))
+        seen.dark[rows] = self.solid.shades(seen.point[rows])
+        self.seen = seen
+        self.panes = [self._pane(group) for group in self.glass]
 
-    def picture(
-        self, moving: Sequence[Drawn], camera: Camera, width: int, height: int, samples: int = 2
-    ) -> NDArray[np.uint8]:
-        """(height, width, 3) 8-bit picture of the bodies at rest and those that move.
-
-        Each pixel is the mean of `samples`² rays.
-        """
+    def picture(self, moving: Sequence[Drawn] = ()) -> NDArray[np.uint8]:
+        """(height, width, 3) 8-bit picture of the bodies at rest and those that move."""
+        seen = _Seen(*(part.copy() for part in vars(self.seen).values()))
         solid = _Group([body for body in moving if body.opacity >= 1])
-        glass = self.glass + [_Group([body]) for body in moving if body.opacity < 1]
-        directions = camera.rays(width * samples, height * samples)
-        groups = [group for group in (self.solid, solid) if group.scene is not None]
-        colour = _sky(directions)
-        nearest = np.full(len(directions), np.inf)
-        point = np.zeros_like(directions)
-        lit = np.zeros(len(directions))
-        for group in groups:
-            hits = group.scene.cast(camera.eye, directions)  # type: ignore[union-attr]
-            front = np.flatnonzero(np.asarray(hits.range) < nearest)
-            nearest[front] = np.asarray(hits.range)[front]
-            point[front] = np.asarray(hits.point)[front]
-            normal = _facing(np.asarray(hits.normal)[front], directions[front])
-            lit[front] = normal @ _LIGHT
-            point[front] += normal * _OFF * nearest[front, None]
-            colour[front] = group.colours(hits, front)
-        seen = np.flatnonzero(np.isfinite(nearest))
-        lit[seen[self._shadowed(groups, point[seen])]] *= _IN_SHADOW
-        shade = _AMBIENT + _DIFFUSE * np.clip(lit[seen], 0, 1)
-        colour[seen] *= shade[:, None]
-        for group in glass:
-            self._mix(group, camera, directions, nearest, colour)
-        tiles = colour.reshape(height, samples, width, samples, 3).mean(axis=(1, 3))
+        front = self._look(solid, seen)
+        seen.dark[front] = self.solid.shades(seen.point[front])
+        rows = np.flatnonzero(np.isfinite(seen.range) & ~seen.dark)
+        seen.dark[rows] = solid.shades(seen.point[rows])
+        rows = np.flatnonzero(np.isfinite(seen.range))
+        lit = np.clip(seen.lit[rows], 0, 1) * np.where(seen.dark[rows], _IN_SHADOW, 1.0)
+        seen.colour[rows] *= (_AMBIENT + _DIFFUSE * lit)[:, None]
+        panes = self.panes + [self._pane(_Group([b])) for b in moving if b.opacity < 1]
+        for pane in panes:
+            before = pane.range < seen.range[pane.rows]
+            rows, opacity = pane.rows[before], pane.opacity
+            seen.colour[rows] = (1 - opacity) * seen.colour[rows] + opacity * pane.tint[before]
+        (width, height), fine = self.size, self.samples
+        tiles = seen.colour.reshape(height, fine, width, fine, 3).mean(axis=(1, 3))
         return np.asarray(np.clip(255 * tiles + 0.5, 0, 255).astype(np.uint8))
 
-    @staticmethod
-    def _shadowed(groups: Sequence[_Group], points: Floats) -> NDArray[np.bool_]:
-        dark = np.zeros(len(points), bool)
-        if len(points):
-            for group in groups:
-                hits = group.scene.cast(points, np.broadcast_to(_LIGHT, points.shape))  # type: ignore[union-attr]
-                dark |= np.isfinite(np.asarray(hits.range))
-        return dark
-
-    @staticmethod
-    def _mix(
-        group: _Group, camera: Camera, directions: Floats, nearest: Floats, colour: Floats
-    ) -> None:
+    def _look(self, group: _Group, seen: _Seen) -> NDArray[np.intp]:
+        """Enter what a group shows in front of all before; the rays that meet it."""
         if group.scene is None:
-            return
-        hits = group.scene.cast(camera.eye, directions)
-        front = np.flatnonzero(np.asarray(hits.range) < nearest)
-        normal = _facing(np.asarray(hits.normal)[front], directions[front])
+            return np.empty(0, np.intp)
+        hits = group.scene.cast(self.camera.eye, self.directions)
+        reach = np.asarray(hits.range)
+        front = np.flatnonzero(reach < seen.range)
+        seen.range[front] = reach[front]
+        normal = _facing(np.asarray(hits.normal)[front], self.directions[front])
+        seen.lit[front] = normal @ _LIGHT
+        off = normal * _OFF * reach[front, None]
+        seen.point[front] = np.asarray(hits.point)[front] + off
+        seen.colour[front] = group.colours(hits, front)
+        return front
+
+    def _pane(self, group: _Group) -> _Pane:
+        """The nearest surface of a body that one sees through."""
+        if group.scene is None:
+            return _Pane(np.empty(0, np.intp), np.empty(0), np.empty((0, 3)), 0.0)
+        hits = group.scene.cast(self.camera.eye, self.directions)
+        reach = np.asarray(hits.range)
+        rows = np.flatnonzero(np.isfinite(reach))
+        normal = _facing(np.asarray(hits.normal)[rows], self.directions[rows])
         shade = (0.8 + 0.2 * np.clip(normal @ _LIGHT, 0, 1))[:, None]
-        opacity = group.bodies[0].opacity
-        tint = shade * np.array(to_rgb(group.bodies[0].colour))
-        colour[front] = (1 - opacity) * colour[front] + opacity * tint
+        body = group.bodies[0]
+        return _Pane(rows, reach[rows], shade * np.array(to_rgb(body.colour)), body.opacity)
+
+
+@dataclass(frozen=True)
+class _Seen:
+    """What each ray meets: colour, range, place just off the surface, light on it, shadow."""
+
+    colour: Floats
+    range: Floats
+    point: Floats
+    lit: Floats
+    dark: NDArray[np.bool_]
+
+
+@dataclass(frozen=True)
+class _Pane:
+    """Rays that meet a body that one sees through, how far it is, its colour there."""
+
+    rows: NDArray[np.intp]
+    range: Floats
+    tint: Floats
+    opacity: float
 
 
 class _Group:
@@ -140,6 +167,13 @@ class _Group:
         self.bodies = [body for body in bodies if len(body.triangles)]
         meshes = [TriangleMesh(body.vertices, body.triangles) for body in self.bodies]
         self.scene = Scene(meshes) if meshes else None
+
+    def shades(self, points: Floats) -> NDArray[np.bool_]:
+        """Which of (N, 3) points lie in a body's shadow."""
+        if self.scene is None or not len(points):
+            return np.zeros(len(points), bool)
+        hits = self.scene.cast(points, np.broadcast_to(_LIGHT, points.shape))
+        return np.isfinite(np.asarray(hits.range))
 
     def colours(self, hits: object, rows: NDArray[np.intp]) -> Floats:
         mesh = np.asarray(hits.mesh)[rows]  # type: ignore[attr-defined]

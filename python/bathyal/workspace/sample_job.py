@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 
 Floats = NDArray[np.float64]
 
-FRAMES = 16
+FRAMES = 12
 _TOUCHING = ("press", "grab", "lift")
 _SHORT = {
     "start": "Refused: the arm may not begin, or end, where it is asked to.",

@@ -179,7 +179,7 @@ def test_solids_are_closed_with_normals_outwards(mesh, volume):
 
 def looked_at(bodies, moving=()):
     camera = Camera(np.array([0.0, -10, 0]), np.zeros(3), 0.5)
-    return Stage(bodies).picture(moving, camera, 60, 40)
+    return Stage(bodies, camera, (60, 40)).picture(moving)
 
 
 def test_near_bodies_hide_far_ones_and_glass_lets_them_through():
@@ -202,6 +202,8 @@ def test_bodies_cast_shadows():
     roof = Drawn(*patch(np.array([0, 0, 3.0]), np.array([0, 0, 1.0]), 9.0), "#ffffff")
     lit, dark = looked_at([floor])[32, 30], looked_at([floor, roof])[32, 30]
     assert lit.min() > dark.max() + 30
+    np.testing.assert_array_equal(looked_at([floor], [roof]), looked_at([floor, roof]))
+    np.testing.assert_array_equal(looked_at([roof], [floor]), looked_at([floor, roof]))
 
 
 def test_frames_and_the_sheet_are_written(motion, tmp_path):
