@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy as np
 import plotly.graph_objects as go  # type: ignore[import-untyped]
+from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
 from plotly.subplots import make_subplots  # type: ignore[import-untyped]
 
@@ -25,6 +26,11 @@ LIGHTS = {"go": "#12924f", "caution": "#d98a00", "stop": GAP}
 
 _CURVES = ("#1f6f9c", "#e07b00", "#12924f", "#8f5bff", "#c2189b", "#7a3b00", "#5b6068")
 _BANDS = ("rgba(27,31,36,0.05)", "rgba(27,31,36,0.0)")
+# Plotly leaves triangles below an area unlit, which those of a fine hull are.
+_LIGHTING = {
+    "ambient": 0.6, "diffuse": 0.7, "specular": 0.15, "roughness": 0.6,
+    "facenormalsepsilon": 0, "vertexnormalsepsilon": 0,
+}  # fmt: skip
 _ROOM = 0.9  # of the camera about what moves
 _LEAST_OPACITY = 0.999  # from which a body hides what is behind it
 
@@ -47,10 +53,11 @@ def motion_page(motion: Motion) -> str:
         Some hundreds of frames, some ten thousand triangles: browsers draw it frame by frame.
     """
     low, high = _corners(motion)
-    origin = origin_of(low, high)
+    origin = np.floor((low + high) / 2)  # plotly lights bodies well only near the origin
     figure, moving = _drawing(motion, low, high, origin)
     data = {
         "time": _rounded(motion.time, 4),
+        "origin": [float(value) for value in origin],
         "poses": _packed(_about(motion.poses, origin)),
         "carriers": int(motion.poses.shape[1]) if motion.poses.size else 0,
         "moving": moving,
@@ -144,10 +151,12 @@ def _drawing(
     size = high - low
     aspect = 1.9 * size / np.linalg.norm(size)
     center, eye = _camera(motion, (low + high) / 2, aspect / size)
+    shown = origin_of(low, high)
     axes = {
         f"{name}axis": {
             "range": [float(low[k] - origin[k]), float(high[k] - origin[k])],
-            "title": {"text": f"{name} [m]" + (f" + {origin[k]:,.0f}" if origin[k] else "")},
+            "title": {"text": f"{name} [m]" + (f" + {shown[k]:,.0f}" if shown[k] else "")},
+            **_ticks(low[k], high[k], origin[k], shown[k]),
             "backgroundcolor": "#f3f3f1", "gridcolor": "#dddddd", "zerolinecolor": "#dddddd",
         }
         for k, name in enumerate("xyz")
@@ -166,6 +175,16 @@ def _drawing(
         font={"color": INK},
     )
     return figure, moving
+
+
+def _ticks(low: float, high: float, origin: float, shown: float) -> dict[str, list[Any]]:
+    """Round numbers of the world, less `shown`, at their places about the origin."""
+    values = [v for v in MaxNLocator(6).tick_values(low - shown, high - shown) if v >= low - shown]
+    values = [v for v in values if v <= high - shown]
+    return {
+        "tickvals": [float(v + shown - origin) for v in values],
+        "ticktext": [f"{v:g}".replace("-", "−") for v in np.round(values, 9)],
+    }
 
 
 def _camera(
@@ -206,7 +225,7 @@ def _trace(bodies: Sequence[Body], vertices: Sequence[Floats], origin: Floats) -
         x=x, y=y, z=z, i=i, j=j, k=k, name="arm" if len(bodies) > 1 else bodies[0].name,
         opacity=bodies[0].opacity, hoverinfo="name", showlegend=True,
         flatshading=bodies[0].kind == "hull",
-        lighting={"ambient": 0.6, "diffuse": 0.7, "specular": 0.15, "roughness": 0.6},
+        lighting=_LIGHTING,
         lightposition={"x": 20000, "y": -20000, "z": 30000}, **colours,
     )  # fmt: skip
 

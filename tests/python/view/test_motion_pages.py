@@ -66,7 +66,7 @@ def test_what_moves_on_the_page_is_where_the_engine_places_it(scenario, path, mo
     first = 0
     for (carrier, count), one in zip(moving["carrier"], capsules, strict=True):
         pose = poses[frame, carrier]
-        own = vertices[first : first + count] @ pose[:9].reshape(3, 3).T + pose[9:]
+        own = vertices[first : first + count] @ pose[:9].reshape(3, 3).T + pose[9:] + data["origin"]
         first += count
         start, end = (one[k : k + 3] + world_from_vehicle[:3, 3] for k in (0, 3))
         share = np.clip((own - start) @ (end - start) / np.sum((end - start) ** 2), 0, 1)
