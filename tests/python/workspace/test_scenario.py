@@ -293,3 +293,22 @@ def test_a_trajectory_of_the_vehicle_is_read(scenario_file):
     np.testing.assert_allclose(pose.at(1.0)[:3, 3], [0.5, 0, -50])
     both = text.replace("vehicle:\n", "vehicle:\n  position: [0, 0, 1]\n")
     assert "expected a pose or a trajectory" in refused(scenario_file(both))
+
+
+def test_every_key_is_on_the_page_of_the_format():
+    from pathlib import Path
+
+    from bathyal.workspace import sections
+
+    page = Path(__file__).parents[3] / "docs" / "formats" / "scenario.md"
+    text = page.read_text(encoding="utf-8")
+    models = [
+        model
+        for model in vars(sections).values()
+        if isinstance(model, type) and issubclass(model, sections.Section)
+    ]
+    assert len(models) > 15
+    keys = {key for model in models for key in model.model_fields}
+    generated = set(sections.SeabedSection.model_fields) - {"size", "spacing", "center", "seed"}
+    absent = {key for key in keys - generated if f"`{key.removesuffix('_deg')}`" not in text}
+    assert absent == set()
