@@ -83,6 +83,7 @@ from bathyal.toolpath import methods as _toolpath_methods  # noqa: F401
 from bathyal.toolpath.aims import read_aims
 from bathyal.workspace import link_meshes as _link_meshes  # noqa: F401
 from bathyal.workspace import motion_methods as _motion_methods  # noqa: F401
+from bathyal.workspace import sampling_methods as _sampling_methods  # noqa: F401
 from bathyal.workspace.joint_trajectory import write_joint_trajectory
 from bathyal.workspace.scenario import Scenario, read_scenario
 from bathyal.workspace.srdf import read_srdf, write_srdf

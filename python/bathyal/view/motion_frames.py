@@ -106,7 +106,7 @@ def moments_of(motion: Motion, count: int) -> list[int]:
     if len(ends) < count:
         return [int(row) for row in frames_of(motion.time, count)]
     ends = [ends[int(k)] for k in np.unique(np.linspace(0, len(ends) - 1, count).round())]
-    rows = np.searchsorted(motion.time, np.array(ends) - 1e-9)
+    rows = np.searchsorted(motion.time, np.array(ends) + 1e-9) - 1
     return [int(row) for row in np.clip(rows, 0, len(motion.time) - 1)]
 
 

@@ -266,10 +266,10 @@ class _Builder:
             held = getattr(section, key)
             if held is not None:
                 with self.placed(("sampling", key)):
-                    keywords[key] = (
-                        [Capsule(one.start, one.end, one.radius) for one in held.capsules],
-                        body_of(held.body),
-                    )
+                    keywords[key] = body_of(held.body)
+                    keywords[f"{key}_capsules"] = [
+                        Capsule(one.start, one.end, one.radius) for one in held.capsules
+                    ]
         return sampled, keywords
 
     def workspace(

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from bathyal._core import Workspace
 from bathyal.errors import argument_error
-from bathyal.io.files import PathLike
+from bathyal.io.files import PathLike, known_suffix
 from bathyal.io.json import json_text
 from bathyal.io.provenance import Step
 from bathyal.io.result_sets import filling
@@ -38,6 +38,7 @@ _SHORT = {
     "forbidden": "Refused: the target is where the tool may not be.",
     "unreachable": "Not found: the tool does not reach the target.",
     "collision": "Refused: the target is reached only by touching something.",
+    "no_bottom": "Not found: there is no bottom at the target.",
     "no_approach": "Not found: no motion to the target.",
     "no_transport": "Not found: no motion away from the target with the sample.",
     "no_retreat": "Refused: there is no safe way back.",
@@ -146,7 +147,7 @@ class Sampled:
             self.scenario.workspace,
             self.plan,
             target=self.scenario.targets[self.row],
-            title=f"{self.scenario.name}: {brief.verdict}",
+            title=f"{self.scenario.name}: {brief.verdict.removeprefix('Planned: ')}",
             facts=brief.numbers,
             warnings=self.scenario.warnings,
         )
@@ -191,7 +192,7 @@ class Sampled:
                 with step("Writing the motion"):
                     write_motion_table(self.scenario.workspace, self.plan, aside / "motion.csv")
                     write_joint_trajectory(
-                        aside / "trajectory.yaml", rows_of(self.plan), self.plan.time,
+                        aside / "trajectory.yaml", self.plan.q, self.plan.time,
                         self.scenario.arm,
                     )  # fmt: skip
                 with step("Drawing the page"):
@@ -236,15 +237,10 @@ def sample(scenario: Scenario, target: str | int | None = None, **options: Any) 
     )
 
 
-def rows_of(plan: SamplingPlan) -> Floats:
-    """(T, n) joint values at `plan.time`, rows that two phases share once."""
-    return np.vstack([phase.q[min(k, 1) :] for k, phase in enumerate(plan.phases)])
-
-
 def name_rows(plan: SamplingPlan, phase: int) -> slice:
-    """The rows of `rows_of` that are a phase's, its first and last among them."""
-    ends = np.cumsum([0, *(len(one.time) - 1 for one in plan.phases)])
-    return slice(int(ends[phase]), int(ends[phase + 1]) + 1)
+    """The rows of `plan.q` that are a phase's, its first and last among them."""
+    one = plan.phases[phase]
+    return slice(one.first, one.first + len(one.time))
 
 
 def phases_of(plan: SamplingPlan) -> list[Phase]:
@@ -258,7 +254,7 @@ def phases_of(plan: SamplingPlan) -> list[Phase]:
 def clearances(workspace: Workspace, plan: SamplingPlan) -> Floats:
     """(T,) distance to what must not be touched [m]; where the tool is to touch the bottom, of all
     the rest of the arm."""
-    q, time = rows_of(plan), np.asarray(plan.time)
+    q, time = np.asarray(plan.q), np.asarray(plan.time)
     distance = np.empty(len(q))
     touching = np.zeros(len(q), bool)
     for k, phase in enumerate(plan.phases):
@@ -284,9 +280,26 @@ def motion_of_plan(
     if not plan.phases:
         raise argument_error("plan", "a plan with phases", f"status {plan.status!r}")
     return motion_of(
-        workspace, rows_of(plan), plan.time, wrench=plan.wrench, phases=phases_of(plan),
+        workspace, np.asarray(plan.q), plan.time, wrench=plan.wrench, phases=phases_of(plan),
         target=plan.contact if target is None else target, **words,
     )  # fmt: skip
+
+
+def write_plan(workspace: Workspace, plan: SamplingPlan, path: PathLike) -> None:
+    """Write a plan by the suffix of the file; what `SamplingPlan.write` does."""
+    from bathyal.view.motion_frames import write_sheet
+    from bathyal.view.motion_page import write_motion_page
+
+    suffix = known_suffix(path, (".csv", ".html", ".json", ".png", ".yaml", ".yml"), "plan's")
+    motion = motion_of_plan(workspace, plan)  # refuses a plan without phases
+    if suffix == ".html":
+        write_motion_page(motion, path)
+    elif suffix == ".png":
+        write_sheet(motion, path)
+    elif suffix == ".csv":
+        write_motion_table(workspace, plan, path)
+    else:
+        write_joint_trajectory(path, plan.q, plan.time, workspace.arm)
 
 
 def write_motion_table(workspace: Workspace, plan: SamplingPlan, path: PathLike) -> None:
@@ -294,7 +307,7 @@ def write_motion_table(workspace: Workspace, plan: SamplingPlan, path: PathLike)
     frame, the wrench on the vehicle, clearance."""
     arm = workspace.arm
     units = ["m" if kind == "prismatic" else "rad" for kind in arm.joint_types]
-    q = rows_of(plan)
+    q = np.asarray(plan.q)
     tip = np.asarray(arm.forward(q))[:, :3, 3]
     names: list[str] = [""] * len(q)
     for k, phase in enumerate(plan.phases):

@@ -218,7 +218,7 @@ def test_frames_and_the_sheet_are_written(motion, tmp_path):
     assert len(sheet.axes) == 6 + 4
     assert len(moments_of(motion, 6)) == 6
     phases = [(name, k, k + 1) for k, name in enumerate("abcde")]
-    assert moments_of(Motion(**{**vars(motion), "phases": phases}), 6) == [0, 10, 20, 30, 40, 50]
+    assert moments_of(Motion(**{**vars(motion), "phases": phases}), 6) == [0, 9, 19, 29, 39, 49]
 
 
 def test_a_motion_of_no_body_and_one_frame_is_drawn():
