@@ -282,7 +282,7 @@ def _clearance_light(
         for near in nearest
     ]
     text = [
-        f"{one}, tool at the bottom" if at else one for one, at in zip(text, contact, strict=True)
+        f"{one}, tool may touch" if at else one for one, at in zip(text, contact, strict=True)
     ]
     return Light("clearance", state.tolist(), text)
 

@@ -95,7 +95,7 @@ def test_lights_show_target_and_clearance(scenario, path, motion):
     assert near[-1] < 0 < touching[-1]
     np.testing.assert_array_equal(states[before] == "stop", near[before] < 0)
     np.testing.assert_array_equal(states[after] == "stop", touching[after] < 0)
-    assert clearance.text[-1].endswith(", tool at the bottom")
+    assert clearance.text[-1].endswith(", tool may touch")
     blind = motion_of(scenario.workspace, *path, target=scenario.targets[0])
     assert blind.lights[1].state[-1] == "stop"
     inside = motion_of(scenario.workspace, *path, target=[0.2, 0, -50.2])
