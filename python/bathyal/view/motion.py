@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 Floats = NDArray[np.float64]
 Indices = NDArray[np.int32]
 
+_SOON = 1e-9  # [s] within which times are one
 AT_REST = -1  # carrier of what does not move
 
 
@@ -91,11 +92,15 @@ class Motion:
     facts: Mapping[str, str] = field(default_factory=dict)
     warnings: Sequence[str] = ()
 
-    def phase_at(self, frame: int) -> str:
-        """The name of the phase that a frame is in; empty for none."""
-        now = self.time[frame]
+    def row_at(self, moment: float) -> int:
+        """The last row that is not after a time [s]."""
+        row = int(np.searchsorted(self.time, moment + _SOON, side="right")) - 1
+        return min(max(row, 0), len(self.time) - 1)
+
+    def phase_at(self, moment: float) -> str:
+        """The name of the phase that a time [s] is in, the first of two; empty for none."""
         for name, begin, end in self.phases:
-            if begin <= now <= end:
+            if begin <= moment <= end + _SOON:
                 return name
         return ""
 

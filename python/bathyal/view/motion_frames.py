@@ -39,7 +39,7 @@ def write_frames(
     folder : path
         Made where it is missing.
     count : int
-        How many, 1 to 999; fewer where the motion has fewer rows.
+        How many, 1 to 999; one of a posture at rest.
     size : (int, int)
         Width and height [pixels].
 
@@ -53,9 +53,11 @@ def write_frames(
     folder.mkdir(parents=True, exist_ok=True)
     pictures = _Pictures(motion, size)
     paths = []
-    for number, frame in enumerate(frames_of(motion.time, count), start=1):
+    moments = np.linspace(motion.time[0], motion.time[-1], count if len(motion.time) > 1 else 1)
+    for number, moment in enumerate(moments.tolist(), start=1):
         path = folder / f"{number:04d}.png"
-        write_png(_labelled(motion, pictures.at(int(frame)), int(frame)), path)
+        frame = motion.row_at(moment)
+        write_png(_labelled(motion, pictures.at(frame), frame, _text(motion, moment)), path)
         paths.append(path)
     return paths
 
@@ -79,7 +81,9 @@ def motion_sheet(motion: Motion, *, title: str = "") -> Figure:
         axes = figure.add_axes((0.03 + 0.316 * column, 0.633 - 0.29 * row, 0.308, 0.265))
         axes.imshow(pictures.at(frame))
         axes.set_axis_off()
-        axes.set_title(_text(motion, frame), fontsize=8, color=INK, loc="left", pad=3)
+        axes.set_title(
+            _text(motion, float(motion.time[frame])), fontsize=8, color=INK, loc="left", pad=3
+        )
         for k, light in enumerate(motion.lights):
             axes.plot(
                 0.965 - 0.05 * k, 0.93, "o", transform=axes.transAxes, markersize=8,
@@ -106,8 +110,7 @@ def moments_of(motion: Motion, count: int) -> list[int]:
     if len(ends) < count:
         return [int(row) for row in frames_of(motion.time, count)]
     ends = [ends[int(k)] for k in np.unique(np.linspace(0, len(ends) - 1, count).round())]
-    rows = np.searchsorted(motion.time, np.array(ends) + 1e-9) - 1
-    return [int(row) for row in np.clip(rows, 0, len(motion.time) - 1)]
+    return [motion.row_at(end) for end in ends]
 
 
 class _Pictures:
@@ -132,12 +135,12 @@ class _Pictures:
         return self.stage.picture(moving)
 
 
-def _text(motion: Motion, frame: int) -> str:
-    phase = motion.phase_at(frame)
-    return f"{motion.time[frame]:.2f} s" + (f", {phase}" if phase else "")
+def _text(motion: Motion, moment: float) -> str:
+    phase = motion.phase_at(moment)
+    return f"{moment:.2f} s" + (f", {phase}" if phase else "")
 
 
-def _labelled(motion: Motion, picture: Picture, frame: int) -> Figure:
+def _labelled(motion: Motion, picture: Picture, frame: int, label: str) -> Figure:
     height, width = picture.shape[:2]
     figure = Figure(figsize=(width / _DPI, (height + _STRIP) / _DPI), dpi=_DPI, facecolor="white")
     FigureCanvasAgg(figure)
@@ -145,7 +148,7 @@ def _labelled(motion: Motion, picture: Picture, frame: int) -> Figure:
     axes = figure.add_axes((0, share, 1, 1 - share))
     axes.imshow(picture, aspect="auto", interpolation="none")
     axes.set_axis_off()
-    figure.text(0.02, share / 2, _text(motion, frame), fontsize=11, color=INK, va="center")
+    figure.text(0.02, share / 2, label, fontsize=11, color=INK, va="center")
     strip = figure.add_axes((0, 0, 1, share))
     strip.set(xlim=(0, 1), ylim=(0, 1))
     strip.set_axis_off()

@@ -281,9 +281,7 @@ def _clearance_light(
         "contact" if near < 0 else "clear" if np.isinf(near) else f"clear by {1000 * near:.0f} mm"
         for near in nearest
     ]
-    text = [
-        f"{one}, tool may touch" if at else one for one, at in zip(text, contact, strict=True)
-    ]
+    text = [f"{one}, tool may touch" if at else one for one, at in zip(text, contact, strict=True)]
     return Light("clearance", state.tolist(), text)
 
 

@@ -6,6 +6,7 @@ from __future__ import annotations
 import csv
 import json
 import re
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -72,7 +73,7 @@ def test_check_refuses_and_says_why(scene, capsys):
     }  # fmt: skip
     assert known["beam"]["keepout"] == "modem beam"
     assert known["far"]["q"] is None
-    rows = list(csv.DictReader(open("targets.csv", encoding="utf-8")))
+    rows = list(csv.DictReader(Path("targets.csv").read_text().splitlines()))
     assert [row["status"] for row in rows] == [known[row["target"]]["status"] for row in rows]
     assert float(rows[1]["x_m"]) == 9
 

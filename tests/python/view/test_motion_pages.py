@@ -110,8 +110,9 @@ def test_curves_are_those_of_the_motion(path, motion):
     assert list(clearance.curves) == ["nearest", "own links"]
     np.testing.assert_array_equal(force.curves["y"], np.arange(60))
     np.testing.assert_array_equal(moment.curves["pitch (y)"], 4 * np.arange(60))
-    assert motion.phase_at(0) == "approach"
-    assert motion.phase_at(59) == "press"
+    assert motion.phase_at(3.0) == "approach"
+    assert [motion.row_at(moment) for moment in (-1, 0, 0.1, 3, 6, 7)] == [0, 0, 0, 29, 59, 59]
+    assert motion.phase_at(6.0) == "press"
 
 
 def test_a_vehicle_that_moves_takes_hull_and_arm_along(scenario, path):
