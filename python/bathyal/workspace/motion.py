@@ -33,7 +33,16 @@ _NEAR = 0.05  # [m] of clearance below which the indicator warns
 
 @dataclass(frozen=True)
 class Phase:
-    """A stretch of a motion. `contact`: whether the tool's end may touch the bottom in it."""
+    """A stretch of a motion.
+
+    Attributes
+    ----------
+    name : str
+    begin, end : float
+        [s]
+    contact : bool
+        Whether the end of the tool may touch the bottom in it.
+    """
 
     name: str
     begin: float

@@ -7,17 +7,19 @@ from contextlib import nullcontext
 from dataclasses import dataclass
 from importlib.metadata import version
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from bathyal._core import ReachMap
 from bathyal.io.files import PathLike
 from bathyal.io.json import json_text
 from bathyal.io.provenance import Step
 from bathyal.io.result_sets import filling
 from bathyal.view.brief import Brief
 from bathyal.workspace.scenario import Scenario
+
+if TYPE_CHECKING:
+    from bathyal._core import ReachMap
 
 
 @dataclass(frozen=True)
