@@ -64,13 +64,18 @@ $(STAMPS)/venv: $(STAMPS)/apt-build constraints.txt
 	$(BIN)/pip install -q -c constraints.txt pip scikit-build-core pybind11
 	touch $@
 
-# The main job, as a user would run it: a generated survey written as a file, planned over.
+# The main jobs, as a user would run them: a generated survey written as a file, planned over; a
+# scenario in which a sample is taken.
 demo: $(STAMPS)/venv
 	$(call install-package)
 	mkdir -p demo
 	$(BIN)/bathyal survey demo/survey.xyz --aims-out demo/aims.csv
 	$(BIN)/bathyal plan demo/survey.xyz --aims demo/aims.csv --out demo/plan
 	@echo "The tool path is demo/plan/path.csv; its picture is demo/plan/plan.png, and demo/plan/plan.html turns."
+	$(BIN)/bathyal scenario example demo/scene
+	$(BIN)/bathyal check demo/scene/scenario.yaml
+	$(BIN)/bathyal sample demo/scene/scenario.yaml --out demo/sample
+	@echo "The sample's motion is demo/sample/motion.csv; its picture is demo/sample/motion.png, and demo/sample/motion.html plays."
 
 # C++ tests, the same under ASan and UBSan with the fuzzers' short run, then Python, notebooks, docs.
 test: FLAGS += BATHYAL_TESTS=ON

@@ -38,8 +38,8 @@ from bathyal._core import (
     Shape,
     SheetPatch,
     SheetReport,
-    StaticTrim,
     Standpoint,
+    StaticTrim,
     TargetChecks,
     Targets,
     TipMove,
@@ -87,8 +87,13 @@ from bathyal.seabed.triangulate import SheetWarning, triangulate
 from bathyal.toolpath import methods as _toolpath_methods  # noqa: F401
 from bathyal.toolpath.aims import read_aims
 from bathyal.workspace import link_meshes as _link_meshes  # noqa: F401
+from bathyal.workspace import motion_methods as _motion_methods  # noqa: F401
 from bathyal.workspace import reach_methods as _reach_methods  # noqa: F401
+from bathyal.workspace import sampling_methods as _sampling_methods  # noqa: F401
+from bathyal.workspace.joint_trajectory import write_joint_trajectory
 from bathyal.workspace.reach_files import read_reach_map
+from bathyal.workspace.scenario import Scenario, read_scenario
+from bathyal.workspace.srdf import read_srdf, write_srdf
 
 __version__ = _version("bathyal")
 
@@ -122,13 +127,14 @@ __all__ = [
     "RigidBody",
     "SamplingPhase",
     "SamplingPlan",
+    "Scenario",
     "Scene",
     "Shape",
     "SheetPatch",
     "SheetReport",
     "SheetWarning",
-    "StaticTrim",
     "Standpoint",
+    "StaticTrim",
     "SupportWarning",
     "TargetChecks",
     "Targets",
@@ -165,6 +171,8 @@ __all__ = [
     "read_cloud",
     "read_mesh",
     "read_reach_map",
+    "read_scenario",
+    "read_srdf",
     "read_touches",
     "read_tracked",
     "set_simd_level",
@@ -174,5 +182,7 @@ __all__ = [
     "verify_arm",
     "with_link_radii",
     "write_cloud",
+    "write_joint_trajectory",
     "write_mesh",
+    "write_srdf",
 ]

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The command line: bathyal plan · triangulate · info · survey · identify · diagnose · touches."""
+"""The command line: bathyal plan · triangulate · info · survey · identify · diagnose · touches ·
+check · reach · sample · scenario."""
 
 from __future__ import annotations
 
@@ -8,11 +9,15 @@ from typing import Annotated
 
 import typer
 
+from bathyal.cli.check import check
 from bathyal.cli.diagnose import diagnose
 from bathyal.cli.groups import spread
 from bathyal.cli.identify import identify
 from bathyal.cli.info import info
 from bathyal.cli.plan import plan
+from bathyal.cli.reach import reach
+from bathyal.cli.sample import sample
+from bathyal.cli.scenario_example import example as example_scenario
 from bathyal.cli.survey import survey
 from bathyal.cli.talk import Commands
 from bathyal.cli.touches_example import example
@@ -21,7 +26,8 @@ from bathyal.cli.triangulate import triangulate
 
 _EXIT_CODES = (
     "Exit codes: 0 done (warnings are printed, they do not fail a job), 1 the job failed or a file "
-    "is broken, 2 wrong usage, 130 interrupted (Ctrl-C), 143 terminated (SIGTERM)."
+    "is broken, 2 wrong usage, 3 the arm may not do what was asked (check, sample), "
+    "130 interrupted (Ctrl-C), 143 terminated (SIGTERM)."
 )
 
 app = typer.Typer(
@@ -32,7 +38,7 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     epilog=_EXIT_CODES,
 )
-for command in (plan, triangulate, info, survey, identify, diagnose):
+for command in (plan, triangulate, info, survey, identify, diagnose, check, reach, sample):
     app.command(epilog=_EXIT_CODES)(spread(command))
 
 touches = typer.Typer(rich_markup_mode="rich", no_args_is_help=True)
@@ -44,6 +50,15 @@ app.add_typer(
     help="Plans and tables of touches, for `bathyal identify` and `diagnose`.",
 )
 
+scenario = typer.Typer(rich_markup_mode="rich", no_args_is_help=True)
+scenario.command(epilog=_EXIT_CODES)(spread(example_scenario))
+scenario.callback()(lambda: None)  # a group, though it has one verb
+app.add_typer(
+    scenario,
+    name="scenario",
+    help="Scenarios of an arm on its vehicle, for `bathyal check`, `reach` and `sample`.",
+)
+
 
 @app.callback(invoke_without_command=True)
 def main(
@@ -53,8 +68,8 @@ def main(
         bool, typer.Option("--debug", help="Show where in the program an error came from.")
     ] = False,
 ) -> None:
-    """From soundings and camera axes to an oriented tool path along the bottom, and from touches to
-    the arm that is to follow it.
+    """From soundings and camera axes to an oriented tool path along the bottom, from touches to
+    the arm that is to follow it, and from a scenario to the motion that takes a sample.
 
     [bold]Try it:[/]
 
@@ -67,6 +82,12 @@ def main(
       bathyal identify touches.csv --arm ur10e --known-distance left,right=350mm --out found
 
       bathyal diagnose touches.csv --arm ur10e --known-distance left,right=350mm --out diagnosis
+
+      bathyal scenario example scene
+
+      bathyal check scene/scenario.yaml
+
+      bathyal sample scene/scenario.yaml --out sample
     """
     if show_version:
         typer.echo(f"bathyal {version('bathyal')}")

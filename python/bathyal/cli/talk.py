@@ -129,6 +129,15 @@ class Talk:
                 escape("\n".join([*others, f"Written to {shown(folder)}: {names}"])), soft_wrap=True
             )
 
+    def verdict(self, data: dict[str, Any], text: str) -> None:
+        """The first sight of a result that no files go with, or JSON."""
+        if self.json:
+            self.result(data, {})
+        elif not self.quiet:
+            first, *others = text.splitlines()
+            self.out.print(f"[bold]{escape(first)}[/]", soft_wrap=True)
+            self.out.print(escape("\n".join(others)), soft_wrap=True)
+
     def warn(self, warnings: list[str]) -> None:
         """Warnings go to stderr, also where the rest is quiet."""
         if not self.json:

@@ -16,6 +16,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from bathyal.io.poses import pose_of
 from bathyal.io.tables import ANGLES, LENGTHS
 
 _LARGEST_SEED = 2**64 - 1
@@ -59,16 +60,7 @@ def pose_matrix(values: tuple[float, ...] | None) -> NDArray[np.float64] | None:
     """
     if values is None:
         return None
-    roll, pitch, yaw = np.radians(values[3:])
-    cr, sr, cp, sp = np.cos(roll), np.sin(roll), np.cos(pitch), np.sin(pitch)
-    cy, sy = np.cos(yaw), np.sin(yaw)
-    about_z = np.array([[cy, -sy, 0], [sy, cy, 0], [0, 0, 1]])
-    about_y = np.array([[cp, 0, sp], [0, 1, 0], [-sp, 0, cp]])
-    about_x = np.array([[1, 0, 0], [0, cr, -sr], [0, sr, cr]])
-    matrix = np.eye(4)
-    matrix[:3, :3] = about_z @ about_y @ about_x
-    matrix[:3, 3] = values[:3]
-    return matrix
+    return pose_of(values[:3], np.radians(values[3:]))
 
 
 def column_list(text: str | None) -> list[int | str] | None:

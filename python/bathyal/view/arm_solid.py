@@ -7,16 +7,12 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from bathyal._core import Arm, arm_parts
 from bathyal.view.palette import DEPTH, SEGMENTS
+from bathyal.view.solids import SIDES, Floats, Indices, capsule, prism
 
-Floats = NDArray[np.float64]
-Indices = NDArray[np.int32]
-
-_SIDES = 20
-_RINGS = 5  # of a capsule's cap
 _LINK_COLOURS = (DEPTH[2], DEPTH[3])
 _FOOT_COLOUR = "#7d8590"
 _TURNING, _SLIDING = SEGMENTS[0], SEGMENTS[1]
@@ -112,15 +108,15 @@ def solid(at: Posture, size: float) -> list[Part]:
         colour = _LINK_COLOURS[k % 2] if k else _FOOT_COLOUR
         for start, end in pairwise(stroke):
             if np.linalg.norm(end - start) > _SHORTEST:
-                mesh = _capsule(start, end, _LINK_RADIUS * size)
+                mesh = capsule(start, end, _LINK_RADIUS * size)
                 parts.append(Part(f"link {k}" if k else "foot", colour, *mesh))
     for name, (point, direction), slides in zip(at.joint_names, at.axes, at.sliding, strict=True):
         half = (_SLIDER_LENGTH if slides else _DRUM_LENGTH) * size / 2
-        mesh = _prism(
+        mesh = prism(
             point - half * direction,
             point + half * direction,
             (_SLIDER_RADIUS if slides else _DRUM_RADIUS) * size,
-            4 if slides else _SIDES,
+            4 if slides else SIDES,
         )
         parts.append(Part(name, _SLIDING if slides else _TURNING, *mesh))
     return parts
@@ -130,43 +126,3 @@ def _on_axes(points: Floats, origin: Floats, direction: Floats) -> Floats:
     """The nearest point of each axis."""
     along = np.sum((points - origin) * direction, axis=1, keepdims=True)
     return np.asarray(origin + along * direction)
-
-
-def _rings(axis: Floats, sides: int) -> Floats:
-    """(sides, 3) unit vectors square to an axis."""
-    helper = np.eye(3)[np.argmin(np.abs(axis))]
-    x = np.cross(axis, helper)
-    x /= np.linalg.norm(x)
-    angle = np.arange(sides)[:, None] * (2 * np.pi / sides)
-    return np.asarray(np.cos(angle) * x + np.sin(angle) * np.cross(axis, x))
-
-
-def _turned(profile: Floats, start: Floats, axis: Floats, sides: int) -> tuple[Floats, Indices]:
-    """A body of revolution: `profile` (K, 2) is the way along the axis and the radius there."""
-    around = _rings(axis, sides)
-    vertices = start + profile[:, None, :1] * axis + profile[:, None, 1:] * around
-    k, i = np.meshgrid(np.arange(len(profile) - 1), np.arange(sides), indexing="ij")
-    a, b = k * sides + i, k * sides + (i + 1) % sides
-    quads = np.stack([a, b, b + sides, a, b + sides, a + sides], axis=-1)
-    return vertices.reshape(-1, 3), quads.reshape(-1, 3).astype(np.int32)
-
-
-def _capsule(start: Floats, end: Floats, radius: float) -> tuple[Floats, Indices]:
-    length = float(np.linalg.norm(end - start))
-    angle = np.linspace(0, np.pi / 2, _RINGS)
-    cap = radius * np.column_stack([-np.cos(angle), np.sin(angle)])
-    profile = np.vstack([cap, _side(length, radius), cap[::-1] * [-1, 1] + [length, 0]])
-    return _turned(profile, start, (end - start) / length, _SIDES)
-
-
-def _prism(start: Floats, end: Floats, radius: float, sides: int) -> tuple[Floats, Indices]:
-    length = float(np.linalg.norm(end - start))
-    end_caps = np.array([[0, 0], [0, radius], [length, radius], [length, 0]])
-    profile = np.vstack([end_caps[:2], _side(length, radius), end_caps[2:]])
-    return _turned(profile, start, (end - start) / length, sides)
-
-
-def _side(length: float, radius: float) -> Floats:
-    """Rings between the ends: painters sort faces by their middles, which must lie close."""
-    along = np.linspace(0, length, max(2, round(length / radius)) + 1)[1:-1]
-    return np.column_stack([along, np.full(len(along), radius)])

@@ -28,6 +28,7 @@ from bathyal.view.traces import (
     bottom_trace,
     depth_scale,
     local,
+    origin_of,
     path_traces,
 )
 from bathyal.view.window import surroundings, view_window
@@ -42,7 +43,7 @@ _ROOM = 1.1  # about the box, for the numbers on its axes
 def show_mesh(mesh: TriangleMesh) -> go.Figure:
     """A mesh to turn and zoom; what `TriangleMesh.show` returns."""
     low, high = bounds(Scene(mesh))
-    origin = _origin(low, high)
+    origin = origin_of(low, high)
     vertices, triangles = decimate(
         np.asarray(mesh.vertices), np.asarray(mesh.triangles), TRIANGLE_BUDGET
     )
@@ -57,7 +58,7 @@ def show_cloud(cloud: PointCloud) -> go.Figure:
     every = max(1, -(-len(points) // POINT_BUDGET))
     shown = points[::every]
     low, high = _box(points)
-    origin = _origin(low, high)
+    origin = origin_of(low, high)
     x, y, z = local(shown, origin)
     trace = go.Scatter3d(
         x=x, y=y, z=z, mode="markers", name="soundings",
@@ -72,7 +73,7 @@ def show_path(path: ToolPath) -> go.Figure:
     low, high = _box(np.vstack([path.surface, path.position, path.targets.point]))
     size = float(np.max(high - low))
     low, high = _with_room(low, high, path, np.zeros((0, 6)))
-    origin = _origin(low, high)
+    origin = origin_of(low, high)
     return _figure(path_traces(path, origin, size), low, high, origin, "")
 
 
@@ -94,7 +95,7 @@ def show_plan(surface: Scene | Plane, aims: NDArray[Any], path: ToolPath) -> go.
     low, high = _box(np.vstack([path.surface, path.position, path.targets.point, *vertices]))
     size = float(np.max(high - low))
     low, high = _with_room(low, high, path, aims)
-    origin = _origin(low, high)
+    origin = origin_of(low, high)
     heights = np.concatenate([[], *(corners[:, 2] for corners in vertices)])
     limits = tuple(np.quantile(heights, [0.002, 0.998]) - origin[2]) if len(heights) else None
     traces = [bottom_trace(*part, origin, limits) for part in parts]
@@ -188,12 +189,6 @@ def _axis_title(name: str, offset: float) -> str:
     if offset == 0:
         return f"{name} [m]"
     return f"{name} [m] {'+' if offset > 0 else '−'} {abs(offset):,.0f}"
-
-
-def _origin(low: Floats, high: Floats) -> Floats:
-    """Whole metres in the middle; none for coordinates that are small already."""
-    middle = (low + high) / 2
-    return np.where(np.abs(middle) < 1000, 0.0, np.floor(middle))
 
 
 def _box(points: Floats) -> tuple[Floats, Floats]:

@@ -27,6 +27,12 @@ def local(points: Floats, origin: Floats) -> NDArray[np.float32]:
     return (np.asarray(points) - origin).astype(np.float32).T
 
 
+def origin_of(low: Floats, high: Floats) -> Floats:
+    """Whole metres in the middle; none for coordinates that are small already."""
+    middle = (low + high) / 2
+    return np.where(np.abs(middle) < 1000, 0.0, np.floor(middle))
+
+
 def depth_scale() -> list[list[Any]]:
     """The colours of depth as plotly takes them."""
     return [[k / (len(DEPTH) - 1), colour] for k, colour in enumerate(DEPTH)]

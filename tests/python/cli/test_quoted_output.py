@@ -26,11 +26,17 @@ def console(path):
     return [pair for pair in found if pathlib.Path(pair[0][0]).name == "bathyal"]
 
 
-@pytest.mark.parametrize("page", ["README.md", "docs/tutorial_know_your_arm.md"])
+RUN = ("touches", "identify", "diagnose", "scenario", "check", "reach", "sample")
+
+
+@pytest.mark.parametrize(
+    "page",
+    ["README.md", "docs/tutorial_know_your_arm.md", "docs/tutorial_take_a_sample.md"],
+)
 def test_commands_print_what_is_quoted(page, tmp_path, capsys, monkeypatch):
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("COLUMNS", "200")
-    commands = [pair for pair in console(page) if pair[0][1] in ("touches", "identify", "diagnose")]
+    commands = [pair for pair in console(page) if pair[0][1] in RUN]
     assert any(quoted for _, quoted in commands)
     for command, quoted in commands:
         code, out, err = run(capsys, *command[1:])

@@ -16,7 +16,8 @@ ATTACHED = [
     bathyal.Arm.from_urdf, bathyal.Arm.to_urdf, bathyal.Arm.save, bathyal.Arm.write,
     bathyal.Arm.show, bathyal.Arm.plot, bathyal.CorrectedArm.save, bathyal.CorrectedArm.write,
     bathyal.TouchPlan.write, bathyal.TouchPlan.plot, bathyal.Diagnosis.write,
-    bathyal.Diagnosis.summary,
+    bathyal.Diagnosis.summary, bathyal.Workspace.show,
+    bathyal.SamplingPlan.show, bathyal.SamplingPlan.write,
 ]  # fmt: skip
 
 
@@ -53,7 +54,8 @@ def test_attaching_keeps_what_the_class_has() -> None:
 def test_importing_draws_nothing_heavy() -> None:
     code = (
         "import bathyal, sys; "
-        "print(sorted({'matplotlib', 'plotly', 'h5py', 'rasterio', 'laspy'} & set(sys.modules)))"
+        "heavy = {'matplotlib', 'plotly', 'h5py', 'rasterio', 'laspy', 'pydantic', 'yaml'}; "
+        "print(sorted(heavy & set(sys.modules)))"
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout == "[]\n"

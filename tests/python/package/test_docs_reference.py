@@ -87,14 +87,24 @@ def sections() -> dict[str, str]:
 
 
 def test_every_command_is_in_the_reference(sections: dict[str, str]) -> None:
-    verbs = ["plan", "triangulate", "info", "survey", "identify", "diagnose"]
-    expected = [*verbs, "touches example", "touches plan"]
+    verbs = [
+        "plan",
+        "triangulate",
+        "info",
+        "survey",
+        "identify",
+        "diagnose",
+        "check",
+        "reach",
+        "sample",
+    ]
+    expected = [*verbs, "touches example", "touches plan", "scenario example"]
     assert set(sections) == {f"bathyal {verb}" for verb in expected}
 
 
 @pytest.mark.parametrize(
     "command", ["plan", "triangulate", "info", "survey", "identify", "diagnose",
-                "touches example", "touches plan"],
+                "touches example", "touches plan", "check", "reach", "sample", "scenario example"],
 )  # fmt: skip
 def test_every_option_of_a_command_is_in_the_reference(
     command: str, sections: dict[str, str], capsys: pytest.CaptureFixture[str],

@@ -74,6 +74,8 @@ def follow(blocks: list[tuple[str, str]], folder: Path) -> None:
             assert set(text.splitlines()) <= set(kept)
         elif kind == "text":
             assert text == said
+        elif kind == "yaml":
+            assert text in [file.read_text() for file in folder.rglob("*.yaml")]
         else:
             assert kind in ("cpp", "cmake")
 
@@ -90,7 +92,7 @@ def test_page_does_what_it_says(
 
 def test_there_are_fragments_of_each_kind() -> None:
     kinds = {kind for page in PAGES for kind, _ in fragments(page)}
-    assert kinds == {"cmake", "console", "cpp", "python", "text"}
+    assert kinds == {"cmake", "console", "cpp", "python", "text", "yaml"}
 
 
 @pytest.mark.parametrize(

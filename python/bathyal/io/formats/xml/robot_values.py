@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bathyal._core import Error
+from bathyal.io.poses import rotation_of
 
 Array = NDArray[np.float64]
 
@@ -92,19 +93,8 @@ def origin_of(element: Element, where: str) -> Array:
     if place is not None:
         pose[:3, 3] = place
     if angles is not None:
-        pose[:3, :3] = _turn(angles)
+        pose[:3, :3] = rotation_of(angles)
     return pose
-
-
-def _turn(angles: Array) -> Array:
-    (sr, sp, sy), (cr, cp, cy) = np.sin(angles), np.cos(angles)
-    return np.array(
-        [
-            [cp * cy, sp * (sr * cy) - cr * sy, sp * (cr * cy) + sr * sy],
-            [cp * sy, sp * (sr * sy) + cr * cy, sp * (cr * sy) - sr * cy],
-            [-sp, cp * sr, cp * cr],
-        ]
-    )
 
 
 def _number(word: str) -> float:

@@ -1,0 +1,47 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What a workspace does in Python: pages that play a motion. Attached when the package is
+imported."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from numpy.typing import ArrayLike
+
+from bathyal._core import Workspace
+from bathyal.attach import methods_of
+
+if TYPE_CHECKING:
+    from bathyal.view.motion_page import MotionPage
+
+
+@methods_of(Workspace)
+class _Workspace(Workspace):
+    def show(
+        self, q: ArrayLike, time: ArrayLike | None = None, *, target: ArrayLike | None = None
+    ) -> MotionPage:
+        """A page that plays a motion: hull, arm, bottom, keep-outs, clearance.
+
+        Parameters
+        ----------
+        q : (K, n) array
+            Joint values [rad] or [m]; one posture (n,) is drawn at rest.
+        time : (K,) array, optional
+            Of each row [s], rising; 0.1 s from row to row unless given.
+        target : (3,) array, optional
+            In the world [m].
+
+        Returns
+        -------
+        bathyal.view.motion_page.MotionPage
+            Shown by Jupyter; ``.write("motion.html")`` writes it to a file that needs no network.
+
+        Raises
+        ------
+        ValueError
+            For rows that are not as many as times, or none.
+        """
+        from bathyal.view.motion_page import MotionPage
+        from bathyal.workspace.motion import evenly_timed, motion_of
+
+        return MotionPage(motion_of(self, *evenly_timed(q, time), target=target))
