@@ -9,7 +9,7 @@ import numpy.typing
 import os
 import plotly.graph_objects
 import typing
-__all__: list[str] = ['Arm', 'ArmFit', 'BEYOND_NOISE', 'Capsule', 'Cause', 'CleanReport', 'CleanResult', 'Clearances', 'CorrectedArm', 'DhTable', 'Diagnosis', 'Effect', 'EffectRange', 'EffectRows', 'Error', 'Estimate', 'FitParameter', 'FoundEffect', 'HeldOut', 'HeldOutPart', 'Hits', 'Hull', 'HullReport', 'InverseResult', 'KeepOut', 'Link', 'MeshReport', 'MotionCheck', 'MotionPlan', 'NamedEffect', 'Nearest', 'NearestSegments', 'Outlier', 'Plane', 'PlaneFit', 'PointCloud', 'Polyline', 'ReachMap', 'RigidBody', 'Scene', 'Shape', 'SheetPatch', 'SheetReport', 'Standpoint', 'Structure', 'Support', 'TargetChecks', 'Targets', 'TextTable', 'ToolPath', 'TouchForecast', 'TouchPlan', 'Touches', 'Tracked', 'Trade', 'Trajectory', 'TriangleMesh', 'Verification', 'Voxels', 'Workspace', 'arm_from_chain', 'arm_from_parts', 'arm_parts', 'best_standpoint', 'chain_from_arm', 'check_bytes', 'clean_cloud', 'cover_polygon', 'diagnose', 'find_effect_with', 'find_sheets', 'find_targets', 'fit_plane', 'forecast_touches', 'generate_survey', 'identify_arm', 'intersect_moller_trumbore', 'library_effects', 'mesh_report', 'plan_toolpath', 'plan_touches', 'read_mesh_with', 'read_pcd', 'read_text_table', 'set_simd_level', 'simd_level', 'survey_height', 'triangulate', 'triangulate_delaunay', 'verify_positions', 'warn_of_support_with', 'with_link_radii', 'write_xyz']
+__all__: list[str] = ['Arm', 'ArmFit', 'BEYOND_NOISE', 'Capsule', 'Cause', 'CleanReport', 'CleanResult', 'Clearances', 'CorrectedArm', 'DhTable', 'Diagnosis', 'Effect', 'EffectRange', 'EffectRows', 'Error', 'Estimate', 'FitParameter', 'FollowedPath', 'FoundEffect', 'HeldOut', 'HeldOutPart', 'Hits', 'Hull', 'HullReport', 'InverseResult', 'KeepOut', 'Link', 'MeshReport', 'MotionCheck', 'MotionPlan', 'NamedEffect', 'Nearest', 'NearestSegments', 'Outlier', 'Plane', 'PlaneFit', 'PointCloud', 'Polyline', 'ReachMap', 'RigidBody', 'SamplingPhase', 'SamplingPlan', 'Scene', 'Shape', 'SheetPatch', 'SheetReport', 'Standpoint', 'StaticTrim', 'Structure', 'Support', 'TargetChecks', 'Targets', 'TextTable', 'TipMove', 'ToolPath', 'TouchForecast', 'TouchPlan', 'Touches', 'Tracked', 'Trade', 'Trajectory', 'TriangleMesh', 'Verification', 'Voxels', 'Workspace', 'arm_from_chain', 'arm_from_parts', 'arm_parts', 'best_standpoint', 'chain_from_arm', 'check_bytes', 'clean_cloud', 'cover_polygon', 'diagnose', 'find_effect_with', 'find_sheets', 'find_targets', 'fit_plane', 'forecast_touches', 'generate_survey', 'identify_arm', 'intersect_moller_trumbore', 'library_effects', 'mesh_report', 'plan_sampling', 'plan_toolpath', 'plan_touches', 'read_mesh_with', 'read_pcd', 'read_text_table', 'set_simd_level', 'simd_level', 'survey_height', 'triangulate', 'triangulate_delaunay', 'verify_positions', 'warn_of_support_with', 'with_link_radii', 'write_xyz']
 class Error(RuntimeError):
     """
     A broken file, a solver that failed or a part that is not installed.
@@ -2471,11 +2471,12 @@ class KeepOut:
         ----------
         pose : (4, 4) array, Trajectory or callable
             frame_from_given: what was given in the frame is moved by it. A function of the time [s] is
-            called every 0.05 s from 0 to 600 s.
+            called every 0.05 s from 0 to 600 s. It takes the place of an earlier one.
         
         Returns
         -------
         KeepOut
+            Its own `contains` and `distance` are of the volume as it was given.
         """
     @property
     def border(self) -> Plane | None:
@@ -2702,6 +2703,40 @@ class MotionPlan:
         """
         (2, n) from a start that touches or is outside the limits on a short straight line to a posture that is free; None where none is needed, or found.
         """
+class StaticTrim:
+    """
+    How a vehicle hangs in the water.
+    
+    ``world_from_vehicle = Rz(heading) Ry(pitch) Rx(roll)``, at any heading; the vehicle's x is forward,
+    y port, z up. Arrays (N,) of N postures, numbers of a single one.
+    """
+    def __repr__(self) -> str:
+        ...
+    @property
+    def buoyancy(self) -> float | numpy.ndarray:
+        """
+        Buoyancy less weight of all [N]; below 0 it sinks.
+        """
+    @property
+    def pitch(self) -> float | numpy.ndarray:
+        """
+        About y [rad], −π/2 to π/2; positive is nose down. nan where neutral.
+        """
+    @property
+    def righting(self) -> float | numpy.ndarray:
+        """
+        Moment that turns the vehicle back from a right angle off this attitude [N m]; from a small angle this times the angle.
+        """
+    @property
+    def roll(self) -> float | numpy.ndarray:
+        """
+        About x [rad], −π to π; positive is starboard down. nan where neutral.
+        """
+    @property
+    def status(self) -> str | numpy.ndarray:
+        """
+        "upright"; "turned_over", where what is at rest has the vehicle's z axis downwards; "neutral", where every attitude is at rest.
+        """
 class ReachMap:
     """
     Where the tip of an arm can be, in the vehicle's frame.
@@ -2841,6 +2876,107 @@ class Standpoint:
         """
         Of the best one: "all" targets are reached, or "some"; else why there is none: "no_reach" (the arm always touches its hull, keep-outs or itself), "no_room" (wherever a target would be reached the hull is too near to bottom or keep-outs), "blocked" (no target is free from the places checked).
         """
+class TipMove:
+    """
+    The tip moved towards a target, as far as it came.
+    """
+    def __repr__(self) -> str:
+        ...
+    @property
+    def against(self) -> str:
+        """
+        Of what: "hull", "scene", a keep-out's name or another link's.
+        """
+    @property
+    def angle_error(self) -> float:
+        """
+        That remains at the end [rad].
+        """
+    @property
+    def joint(self) -> str:
+        """
+        Name of the joint that is at its limit; empty where there is none.
+        """
+    @property
+    def link(self) -> str:
+        """
+        Name of the link that is in the way; empty where there is none.
+        """
+    @property
+    def path(self) -> numpy.ndarray:
+        """
+        (K, n) from the start on [rad] or [m]; all of it free of contact, but for a start that is not.
+        """
+    @property
+    def position_error(self) -> float:
+        """
+        That remains at the end [m].
+        """
+    @property
+    def reason(self) -> str:
+        """
+        A short sentence; empty when it was reached.
+        """
+    @property
+    def status(self) -> str:
+        """
+        "reached"; "stuck": no step brings the tip nearer, by what is near or by a singular posture; "blocked": the next step or the start touches something; "at_limit": held by a joint's limit or sent beyond it; "unreachable": in no posture.
+        """
+    @property
+    def time(self) -> numpy.ndarray:
+        """
+        (K,) rising [s].
+        """
+class FollowedPath:
+    """
+    A tool path as joint motion.
+    
+    Rows are joined by straight lines in joint space and free of contact between them, too.
+    """
+    def __len__(self) -> int:
+        ...
+    def __repr__(self) -> str:
+        ...
+    @property
+    def angle_error(self) -> float:
+        """
+        Greatest of the rows that are not in transit [rad]; 0 of the task "position".
+        """
+    @property
+    def cut(self) -> list[tuple[int, int, str]]:
+        """
+        List of (first, last, reason): the tool path from sample `first` to sample `last` is not followed (these two may be, as an end and a beginning), because it is "unreachable", only within reach beyond a "limit", only in "collision", because the arm would have to jump ("singular"), or no way there was found ("no_transit").
+        """
+    @property
+    def cut_by(self) -> list[str]:
+        """
+        List of the constraint at the beginning of each cut: a link and what it meets, or a joint; empty where neither is known.
+        """
+    @property
+    def fraction(self) -> numpy.ndarray:
+        """
+        (K,) of the way from that sample to the next one; 0 in transit.
+        """
+    @property
+    def position_error(self) -> float:
+        """
+        Greatest of the rows that are not in transit [m].
+        """
+    @property
+    def q(self) -> numpy.ndarray:
+        """
+        (K, n) [rad] or [m].
+        """
+    @property
+    def sample(self) -> numpy.ndarray:
+        """
+        (K,) sample of the tool path at or before the row, −1 in transit. Samples that coincide share a row, which has the last of them.
+        """
+    @property
+    def time(self) -> numpy.ndarray:
+        """
+        (K,) rising [s].
+        """
 class Workspace:
     """
     An arm on a vehicle among what it must not touch.
@@ -2868,7 +3004,8 @@ class Workspace:
     vehicle_pose_std : (6,) array, optional
         Standard deviations of the vehicle's pose: of the origin along the vehicle's axes [m], then of
         the rotation about them [rad]. Distances to what is fixed to the world are less by three
-        standard deviations of where that takes a point (first order).
+        standard deviations of where that takes a point, whatever the direction (first order). Of
+        `check_target`, whose points are in the world, those to what is fixed to the vehicle.
     vehicle_body : RigidBody, optional
         Of the vehicle without the arm, in the vehicle's frame: for `static_trim`.
     radii : float or (L,) array, optional
@@ -2941,8 +3078,9 @@ class Workspace:
         time : (M,) array, optional
             Of each row, rising [s]; needed where the vehicle or a keep-out moves, and for `stopping`.
         stopping : bool
-            Whether the arm must be able to stop, too: at every moment each coordinate may run on by its
-            stopping distance, speed² / (2 acceleration), either way.
+            Whether the arm must be able to stop, too: at every moment it may run on along the line between
+            two rows by its stopping distance, speed² / (2 acceleration) of the coordinate that stops last.
+            The contact is then the last moment at which an order to stop comes in time.
         acceleration : float or (n,) array, optional
             With which each coordinate brakes [rad/s²] or [m/s²]; unless given its rate limit is reached from
             rest in half a second (1 rad/s², 0.5 m/s² of a joint without one).
@@ -3020,6 +3158,161 @@ class Workspace:
     def detach(self) -> Workspace:
         """
         Another workspace without what was attached; ValueError where nothing was.
+        """
+    def follow(self, path: ToolPath, *, q_start: numpy.typing.ArrayLike | None = None, task: str = 'position_axis', position_tolerance: typing.SupportsFloat | typing.SupportsIndex = 0.0001, angle_tolerance: typing.SupportsFloat | typing.SupportsIndex = 0.001, step: typing.SupportsFloat | typing.SupportsIndex = 0.01, lift: typing.SupportsFloat | typing.SupportsIndex = 0.1, shortest: typing.SupportsFloat | typing.SupportsIndex = 0.05, transit_speed: typing.SupportsFloat | typing.SupportsIndex = 0.1, transit_rate: typing.SupportsFloat | typing.SupportsIndex = 0.5, clearance: typing.SupportsFloat | typing.SupportsIndex = 0.002, influence: typing.SupportsFloat | typing.SupportsIndex = 0.1, candidates: typing.SupportsInt | typing.SupportsIndex = 8, velocity: numpy.typing.ArrayLike | None = None, acceleration: numpy.typing.ArrayLike | None = None, tip_contact: bool | None = None, time: typing.SupportsFloat | typing.SupportsIndex = 0.0, seed: typing.SupportsInt | typing.SupportsIndex = 0) -> FollowedPath:
+        """
+        Turns a tool path of `plan_toolpath` into joint motion.
+        
+        Sample by sample, with rows between where samples are far apart, by the priorities of `move`. It
+        begins in that of several postures with which the longest stretch is followed. The path's times are
+        kept where the arm can, and stretched near singular postures and wherever rates or accelerations
+        would be passed. At a gap, and where a stretch ends, the tool is lifted along a_j, taken across and
+        brought down again; what no posture follows is cut out and listed. It begins and ends at rest on the
+        path: the way there and away is for `plan`.
+        
+        Parameters
+        ----------
+        path : ToolPath
+            In the world.
+        q_start : (n,) array, optional
+            Posture near which to begin [rad] or [m].
+        task : {"position_axis", "pose", "position"}
+            The turn about the tool's z is free; its x runs along the path, too; or the position alone.
+        position_tolerance : float
+            At every row [m].
+        angle_tolerance : float
+            At every row [rad].
+        step : float
+            Of the tool path between rows at most [m].
+        lift : float
+            Height at which gaps are crossed, along a_j [m].
+        shortest : float
+            A stretch between two cuts that is shorter is cut, too [m].
+        transit_speed : float
+            Of the tip on the way across at most [m/s].
+        transit_rate : float
+            Of the tool on the way across at most [rad/s].
+        clearance : float
+            That is kept to what must not be touched [m].
+        influence : float
+            What is nearer is kept away by redundancy, where there is any [m].
+        candidates : int
+            Postures tried at the beginning of a stretch.
+        velocity : float or (n,) array, optional
+            Rate limits [rad/s] or [m/s]; unless given the arm's, 1 rad/s or 0.25 m/s of a joint that has
+            none.
+        acceleration : float or (n,) array, optional
+            [rad/s²] or [m/s²]; unless given each rate limit is reached from rest in half a second.
+        tip_contact : bool, optional
+            Whether the end of the tool may touch the scene; unless given, where the path has no standoff.
+        time : float
+            At which it begins [s].
+        seed : int
+            Of the postures.
+        
+        Returns
+        -------
+        FollowedPath
+        
+        Raises
+        ------
+        ValueError
+            For a workspace in which something moves, a path without samples, options out of range.
+        """
+    def momentum(self, q: numpy.typing.ArrayLike, velocity: numpy.typing.ArrayLike, *, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> numpy.ndarray:
+        """
+        Momentum of the arm's links and of what is attached, seen from the vehicle.
+        
+        Parameters
+        ----------
+        q, velocity : (N, n) or (n,) array
+            Coordinates [rad] or [m], and their rates.
+        num_threads : int
+            0 means all.
+        
+        Returns
+        -------
+        (N, 6) or (6,) array
+            Linear [kg m/s], then angular about the vehicle's origin [kg m²/s], in the vehicle's frame.
+        
+        Raises
+        ------
+        ValueError
+            For arrays of another shape or not finite.
+        """
+    def move(self, q_start: numpy.typing.ArrayLike, *, point: numpy.typing.ArrayLike | None = None, pose: numpy.typing.ArrayLike | None = None, method: str = 'damped', task: str | None = None, axis: numpy.typing.ArrayLike = (0.0, 0.0, 1.0), position_tolerance: typing.SupportsFloat | typing.SupportsIndex | None = None, angle_tolerance: typing.SupportsFloat | typing.SupportsIndex | None = None, steps: typing.SupportsInt | typing.SupportsIndex = 100, speed: typing.SupportsFloat | typing.SupportsIndex = 0.25, angular_rate: typing.SupportsFloat | typing.SupportsIndex = 0.5, period: typing.SupportsFloat | typing.SupportsIndex = 0.02, clearance: typing.SupportsFloat | typing.SupportsIndex = 0.005, influence: typing.SupportsFloat | typing.SupportsIndex = 0.1, approach: typing.SupportsFloat | typing.SupportsIndex = 0.5, max_steps: typing.SupportsInt | typing.SupportsIndex = 5000, velocity: numpy.typing.ArrayLike | None = None, acceleration: numpy.typing.ArrayLike | None = None, tip_contact: bool = False, time: typing.SupportsFloat | typing.SupportsIndex = 0.0) -> TipMove:
+        """
+        Moves the tip straight towards a target in the world.
+        
+        By default damped least squares within joint limits and rates, by strict priorities: joint limits
+        and rates; clearance (velocity dampers: Faverjon, Tournassoud 1987); position of the tip; its axis
+        or orientation; away from limits and from what is near in what the others leave free. It slides
+        along what is in its way and halts where no step brings the tip nearer; a way round is for `plan`.
+        "pseudo_inverse" is the stepping of Maevskiy, Zanin (2020): Δq = J⁺ ΔX, ΔX the way to the target
+        over `steps`; a forbidden intermediate posture, or one beyond a limit, ends it.
+        
+        Parameters
+        ----------
+        q_start : (n,) array
+            Where it begins [rad] or [m].
+        point : (3,) array, optional
+            Where the tip is to be, in the world [m]; this or `pose`.
+        pose : (4, 4) array, optional
+            world_from_tool; this or `point`.
+        method : {"damped", "pseudo_inverse"}
+        task : {"pose", "position_axis", "position"}, optional
+            What of the pose must be met; "position_axis" leaves the turn about `axis` free. Unless given
+            "pose"; of a point "position".
+        axis : (3,) array
+            In the tool's frame; of "position_axis".
+        position_tolerance : float, optional
+            [m]; unless given 1e-4, and 1e-2 of "pseudo_inverse" as in the paper.
+        angle_tolerance : float, optional
+            [rad]; unless given 1e-3, and 1e-2 of "pseudo_inverse".
+        steps : int
+            k of "pseudo_inverse".
+        speed : float
+            Of the tip at most [m/s].
+        angular_rate : float
+            Of the tool at most [rad/s].
+        period : float
+            Between the steps of "damped" [s]; slowed where limits ask for it.
+        clearance : float
+            Kept by "damped" [m].
+        influence : float
+            Below this distance approaching is slowed [m].
+        approach : float
+            Greatest speed of approach at `influence`, falling to 0 at `clearance` [m/s].
+        max_steps : int
+            Of "damped".
+        velocity : float or (n,) array, optional
+            Rate limits [rad/s] or [m/s]; unless given the arm's, 1 rad/s or 0.25 m/s of a joint that has
+            none.
+        acceleration : float or (n,) array, optional
+            [rad/s²] or [m/s²]; unless given each rate limit is reached from rest in half a second.
+        tip_contact : bool
+            As of `clearance`: whether the end of the tool may touch the scene.
+        time : float
+            At which it begins [s]; the target is taken as it lies then.
+        
+        Returns
+        -------
+        TipMove
+        
+        Raises
+        ------
+        ValueError
+            For a target that is not finite or not rigid, both or none of `point` and `pose`, values of
+            another count, options out of range.
+        
+        Examples
+        --------
+        >>> import bathyal
+        >>> arm = bathyal.Arm.from_dh(a=[0.5, 0.4], alpha=[0, 0], d=[0, 0], theta=[0, 0])
+        >>> ws = bathyal.Workspace(arm, radii=0.05)
+        >>> move = ws.move([0.5, 0.5], point=[0.3, 0.6, 0.0])
+        >>> move.status, bool(move.position_error <= 1e-4)
+        ('reached', True)
         """
     def place_capsules(self, q: numpy.typing.ArrayLike) -> numpy.ndarray:
         """
@@ -3142,9 +3435,120 @@ class Workspace:
         >>> reach.reached.shape, int(reach.reached.sum())
         ((21, 21, 3), 246)
         """
+    def show(self, q: ArrayLike, time: ArrayLike | None = None, *, target: ArrayLike | None = None) -> MotionPage:
+        """
+        A page that plays a motion: hull, arm, bottom, keep-outs, clearance.
+        
+        Parameters
+        ----------
+        q : (K, n) array
+            Joint values [rad] or [m]; one posture (n,) is drawn at rest.
+        time : (K,) array, optional
+            Of each row [s], rising; 0.1 s from row to row unless given.
+        target : (3,) array, optional
+            In the world [m].
+        
+        Returns
+        -------
+        bathyal.view.motion_page.MotionPage
+            Shown by Jupyter; ``.write("motion.html")`` writes it to a file that needs no network.
+        
+        Raises
+        ------
+        ValueError
+            For rows that are not as many as times, or none.
+        """
+    def static_trim(self, q: numpy.typing.ArrayLike, *, gravity: typing.SupportsFloat | typing.SupportsIndex = 9.80665, water_density: typing.SupportsFloat | typing.SupportsIndex = 1025.0, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> StaticTrim:
+        """
+        The attitude in which the vehicle hangs at rest.
+        
+        Of `vehicle_body`, the arm in a posture and what is attached to it: no moment about the vehicle's
+        origin remains, (Σ m r_cg − ρ Σ V r_cb) × g = 0, exact for any angle, and of the two such attitudes
+        the stable one. Where weight and buoyancy differ, the remaining vertical force is held at the
+        vehicle's origin without a moment (see `StaticTrim.buoyancy`). A mass or volume of 0 of a link,
+        unknown, adds nothing.
+        
+        Parameters
+        ----------
+        q : (N, n) or (n,) array
+            [rad] or [m]; may lie beyond the limits.
+        gravity : float
+            [m/s²]; scales `StaticTrim.righting` and `.buoyancy`, no angle.
+        water_density : float
+            [kg/m³]
+        num_threads : int
+            0 means all.
+        
+        Returns
+        -------
+        StaticTrim
+            Of a single posture numbers in place of arrays.
+        
+        Raises
+        ------
+        ValueError
+            For a workspace without `vehicle_body`, or with one without mass or volume; for arguments of
+            another shape, not finite or out of range.
+        
+        Examples
+        --------
+        >>> import bathyal
+        >>> arm = bathyal.Arm.from_dh(a=[0.9], alpha=[0], d=[0], theta=[0])
+        >>> body = bathyal.RigidBody(20, center_of_mass=(0, 0, -0.02), volume=20 / 1025)
+        >>> ws = bathyal.Workspace(arm, vehicle_body=body).attach([], bathyal.RigidBody(0.1))
+        >>> trim = ws.static_trim([0.0])  # 0.1 kg at 0.9 m forward: nose down
+        >>> round(trim.pitch, 4), trim.status
+        (0.2213, 'upright')
+        """
     def with_vehicle_pose(self, vehicle_pose: Trajectory | numpy.typing.ArrayLike | collections.abc.Callable[[float], numpy.typing.ArrayLike] | None) -> Workspace:
         """
         Another workspace, the vehicle elsewhere: `vehicle_pose` as of the class.
+        """
+    def wrench(self, q: numpy.typing.ArrayLike, *, contact: numpy.typing.ArrayLike | None = None, time: numpy.typing.ArrayLike = 0.0, velocity: numpy.typing.ArrayLike | None = None, acceleration: numpy.typing.ArrayLike | None = None, gravity: numpy.typing.ArrayLike = (0.0, 0.0, -9.80665), water_density: typing.SupportsFloat | typing.SupportsIndex = 1025.0, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> numpy.ndarray:
+        """
+        Force and moment on the vehicle by arm, attached body and bottom.
+        
+        The weight of each link and of what is attached, at its centre of mass, less its buoyancy, at its
+        centre of buoyancy, with gravity turned into the vehicle's frame by `vehicle_pose`; the force of the
+        bottom on the tool; and, where rates are given, the inertia of what moves: minus the derivative of
+        its momentum, the vehicle taken to be at rest. The arm's foot counts with the arm. A mass or volume
+        of 0, unknown, adds nothing; water adds neither mass nor drag.
+        
+        Parameters
+        ----------
+        q : (N, n) or (n,) array
+            [rad] or [m]; may lie beyond the limits.
+        contact : (6,) or (N, 6) array, optional
+            Force and moment that the bottom exerts on the tool, at the tool centre point along the vehicle's
+            axes [N, N m]. (Of the other sign than `Arm.statics`' ``wrench``, which the tool exerts.)
+        time : float or (N,) array
+            When [s], for a vehicle that moves.
+        velocity, acceleration : array of q's shape, optional
+            Of the coordinates [rad/s, rad/s²] or [m/s, m/s²]; at rest unless given.
+        gravity : (3,) array
+            In the world [m/s²].
+        water_density : float
+            [kg/m³]; 0 in air.
+        num_threads : int
+            0 means all.
+        
+        Returns
+        -------
+        (N, 6) or (6,) array
+            Force, then moment about the vehicle's origin, in the vehicle's frame [N, N m].
+        
+        Raises
+        ------
+        ValueError
+            For arguments of another shape, not finite or out of range.
+        
+        Examples
+        --------
+        >>> import bathyal, numpy as np
+        >>> arm = bathyal.Arm.from_dh(a=[0.9], alpha=[0], d=[0], theta=[0])  # reaches forward
+        >>> ws = bathyal.Workspace(arm).attach([], bathyal.RigidBody(2.0))
+        >>> np.round(ws.wrench([0.0]), 2) + 0  # its weight, and a moment that pitches the nose down
+        array([  0.  ,   0.  , -19.61,   0.  ,  17.65,   0.  ])
         """
     @property
     def arm(self) -> Arm:
@@ -3164,7 +3568,7 @@ class Workspace:
     @property
     def excluded(self) -> list[tuple[str, str, str]]:
         """
-        Pairs that are not compared, as tuples of a link, the other link or obstacle, and the reason: "neighbours", "allowed", "fixed to it", or "touch in every posture" of 64 drawn.
+        Pairs that are not compared, as tuples of a link, the other link or obstacle, and the reason: "foot", "neighbours", "allowed", "fixed to it", or "touch in every posture" of 64 drawn.
         """
     @property
     def hull(self) -> Hull | None:
@@ -3210,6 +3614,148 @@ class Workspace:
     def warnings(self) -> list[str]:
         """
         List of what looks like a mistake: a hull whose size or place does not go with the arm's, a keep-out that holds its base.
+        """
+class SamplingPhase:
+    """
+    One part of taking a sample, from rest to rest.
+    
+    Its first row is the last of the phase before. Rows are joined by straight lines in joint space.
+    """
+    def __repr__(self) -> str:
+        ...
+    @property
+    def first(self) -> int:
+        """
+        Which row of the whole plan's `time` and `wrench` is this phase's first.
+        """
+    @property
+    def name(self) -> str:
+        """
+        "approach", "press", "grab", "lift" or "transport".
+        """
+    @property
+    def q(self) -> numpy.ndarray:
+        """
+        (K, n) [rad] or [m].
+        """
+    @property
+    def retreat(self) -> numpy.ndarray:
+        """
+        (R, n) from the last row to where the arm is safe: of "approach" its start, of "press", "grab" and "transport" the place before contact, of "lift" the transport posture. Free of contact, as the phase is.
+        """
+    @property
+    def retreat_time(self) -> numpy.ndarray:
+        """
+        (R,) of the rows of `retreat`, from 0 [s].
+        """
+    @property
+    def time(self) -> numpy.ndarray:
+        """
+        (K,) of the rows, rising over all phases [s].
+        """
+    @property
+    def tip(self) -> numpy.ndarray:
+        """
+        (K, 4, 4) vehicle_from_tool of each row.
+        """
+class SamplingPlan:
+    """
+    How to take a sample, or why there is no way.
+    
+    True where there is a plan.
+    """
+    def __bool__(self) -> bool:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def show(self, ws: Workspace) -> MotionPage:
+        """
+        A page that plays the plan: hull, arm, bottom, keep-outs, clearance, wrench.
+        
+        Parameters
+        ----------
+        ws : Workspace
+            That it was planned in.
+        
+        Returns
+        -------
+        bathyal.view.motion_page.MotionPage
+            Shown by Jupyter; ``.write("motion.html")`` writes it to a file that needs no network.
+        
+        Raises
+        ------
+        ValueError
+            For a plan without phases.
+        """
+    def write(self, path: str | os.PathLike[str], ws: Workspace) -> None:
+        """
+        Write the plan; the file appears whole or not at all.
+        
+        Parameters
+        ----------
+        path : path
+            ``.html``: the page of `show`. ``.png``: a sheet with six moments and the curves.
+            ``.csv``: joints, tip, wrench and clearance over time. ``.yaml`` or ``.json``: ROS'
+            trajectory_msgs/JointTrajectory.
+        ws : Workspace
+            That it was planned in.
+        
+        Raises
+        ------
+        ValueError
+            For another suffix, or a plan without phases.
+        OSError
+            Where the file cannot be written.
+        """
+    @property
+    def contact(self) -> numpy.ndarray:
+        """
+        (3,) where the tip meets the bottom, in the world [m].
+        """
+    @property
+    def contact_force(self) -> numpy.ndarray:
+        """
+        (T,) of the bottom on the tip, against `direction` [N].
+        """
+    @property
+    def depth(self) -> float:
+        """
+        That the tip is pressed into the bottom [m].
+        """
+    @property
+    def direction(self) -> numpy.ndarray:
+        """
+        (3,) unit vector into the bottom, in the world.
+        """
+    @property
+    def phases(self) -> list[SamplingPhase]:
+        """
+        List of five SamplingPhases; empty without a plan.
+        """
+    @property
+    def q(self) -> numpy.ndarray:
+        """
+        (T, n) rows of all phases, those that two of them share once.
+        """
+    @property
+    def reason(self) -> str:
+        """
+        Why there is no plan, a sentence; empty if there is.
+        """
+    @property
+    def status(self) -> str:
+        """
+        "planned", or why there is none: "start" (it, or the transport posture, touches or is outside the limits), "forbidden" (the target is inside hull or keep-out, or deeper under the bottom than `depth`), "no_bottom" (within a standoff of the target), "unreachable", "collision" (only by touching what must not be), "no_approach", "no_transport" (no motion found), "no_retreat" (something moves in its way).
+        """
+    @property
+    def time(self) -> numpy.ndarray:
+        """
+        (T,) of the rows of `q` [s].
+        """
+    @property
+    def wrench(self) -> numpy.ndarray:
+        """
+        (T, 6) force and moment on the vehicle by arm, what it holds and bottom, in the vehicle's frame about its origin [N, N m]; in the last row of the grab without the sample.
         """
 class Touches:
     """
@@ -5495,6 +6041,106 @@ def mesh_report(mesh: TriangleMesh, *, num_threads: typing.SupportsInt | typing.
     >>> report = bathyal.mesh_report(ramp)
     >>> round(report.rugosity, 6), report.inverted_triangles, len(report.boundary_loops)
     (1.414214, 0, 1)
+    """
+def plan_sampling(ws: Workspace, target: numpy.typing.ArrayLike, *, q_start: numpy.typing.ArrayLike | None = None, q_transport: numpy.typing.ArrayLike | None = None, tool: RigidBody | None = None, tool_capsules: collections.abc.Sequence[Capsule] = [], tool_pose: numpy.typing.ArrayLike | None = None, sample: RigidBody | None = None, sample_capsules: collections.abc.Sequence[Capsule] = [], direction: numpy.typing.ArrayLike | None = None, align: bool | None = None, tool_axis: numpy.typing.ArrayLike = (0.0, 0.0, 1.0), standoff: typing.SupportsFloat | typing.SupportsIndex = 0.1, depth: typing.SupportsFloat | typing.SupportsIndex = 0.02, stiffness: typing.SupportsFloat | typing.SupportsIndex = 5000.0, force_limit: typing.SupportsFloat | typing.SupportsIndex = 100.0, grab_time: typing.SupportsFloat | typing.SupportsIndex = 3.0, press_speed: typing.SupportsFloat | typing.SupportsIndex = 0.02, line_tolerance: typing.SupportsFloat | typing.SupportsIndex = 0.001, velocity: numpy.typing.ArrayLike | None = None, acceleration: numpy.typing.ArrayLike | None = None, jerk: numpy.typing.ArrayLike | None = None, step: typing.SupportsFloat | typing.SupportsIndex = 0.02, time: typing.SupportsFloat | typing.SupportsIndex = 0.0, max_checks: typing.SupportsInt | typing.SupportsIndex = 20000, seed: typing.SupportsInt | typing.SupportsIndex = 0, inertia: bool = False, gravity: numpy.typing.ArrayLike = (0.0, 0.0, -9.80665), water_density: typing.SupportsFloat | typing.SupportsIndex = 1025.0, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> SamplingPlan:
+    """
+    How to take a soil sample at a point: approach, press, grab, lift, transport.
+    
+    The sequence of Maevskiy, Zanin (2020), Modular control systems for manipulators and intervention-
+    class AUVs. The contact is where the line through the target along `direction` first meets the scene
+    within a standoff before and behind the target; without a scene the target itself. The tip
+    approaches to the standoff before it as `Workspace.plan` does, presses straight on by
+    ``min(depth, force_limit / stiffness)``, grabs, lifts straight back with the sample, and is carried
+    to `q_transport` as `Workspace.plan` does. Press, grab and lift may touch the scene with the end of
+    the tool (what of the last link lies within the depth and two radii of its tip), all else nowhere;
+    straight ways are checked between the rows, too. The bottom pushes the
+    tip back by stiffness times penetration while it presses, grabs and lifts. Every phase has a way
+    back, checked with what is held then. The same seed gives the same bytes.
+    
+    Parameters
+    ----------
+    ws : Workspace
+        Its vehicle at rest.
+    target : (3,) array
+        On the bottom, in the world [m].
+    q_start : (n,) array, optional
+        Where the arm starts. Unless given all coordinates at zero, or as near to it as limits allow;
+        where that touches, the middle of the limits; else of 64 drawn postures that with the largest
+        clearance.
+    q_transport : (n,) array, optional
+        In which the sample is carried; `q_start` unless given.
+    tool : RigidBody, optional
+        What the tool weighs, in the tool's frame; attached all the time.
+    tool_capsules : list of Capsule
+        Its shape, in the tool's frame.
+    tool_pose : (4, 4) array, optional
+        flange_from_tool in place of the arm's ``.tool``.
+    sample : RigidBody, optional
+        In the tool's frame; attached from the end of the grab on.
+    sample_capsules : list of Capsule
+        Its shape, in the tool's frame.
+    direction : (3,) array, optional
+        Into the bottom, in the world, of any length. Unless given against the bottom's normal (the mean
+        of those within 5 cm of the target, turned upwards), and without a scene straight down.
+    align : bool, optional
+        Whether `tool_axis` points along the direction; unless given for arms of five coordinates or
+        more.
+    tool_axis : (3,) array
+        In the tool's frame.
+    standoff : float
+        Of the tip before contact [m].
+    depth : float
+        That the tip is pressed into the bottom [m].
+    stiffness, force_limit : float
+        Of the bottom [N/m]; with which the tip is pressed at most [N].
+    grab_time : float
+        [s]
+    press_speed : float
+        Of the tip while it presses and lifts, at most [m/s].
+    line_tolerance : float
+        How far the tip may leave its straight line [m].
+    velocity, acceleration, jerk : float or (n,) array, optional
+        Limits of each coordinate, as of `Workspace.plan`.
+    step : float
+        Between rows, at most; longer where `press_speed` holds the tip back [s].
+    time : float
+        When the arm starts [s]; matters where something moves.
+    max_checks : int
+        Postures and straight motions looked at by all planned motions together, each of which may use a
+        quarter.
+    seed : int
+        Of the searches.
+    inertia : bool
+        Whether `SamplingPlan.wrench` has the inertia of what moves, by differences of the rows, or is
+        quasi-static.
+    gravity : (3,) array
+        In the world [m/s²].
+    water_density : float
+        [kg/m³]
+    num_threads : int
+        0 means all.
+    
+    Returns
+    -------
+    SamplingPlan
+    
+    Raises
+    ------
+    ValueError
+        For a target that is not finite, a vehicle that moves, postures of another length, options out
+        of range.
+    
+    Examples
+    --------
+    >>> import bathyal
+    >>> arm = bathyal.arms.maevskiy_zanin()
+    >>> bottom = bathyal.TriangleMesh([[-2, -2, -0.8], [2, -2, -0.8], [0, 3, -0.8]], [[0, 1, 2]])
+    >>> ws = bathyal.Workspace(arm, scene=bathyal.Scene(bottom))
+    >>> plan = bathyal.plan_sampling(ws, [0.75, 0.2, -0.8], q_start=[0.0, -0.785, 0.873])
+    >>> plan.status, [phase.name for phase in plan.phases]
+    ('planned', ['approach', 'press', 'grab', 'lift', 'transport'])
+    >>> round(float(plan.contact_force.max()))  # [N]
+    100
     """
 def plan_toolpath(surface: Scene | Plane, aims: numpy.typing.ArrayLike, *, world_from_vehicle: numpy.typing.ArrayLike | None = None, frame: str = 'vehicle', vertical: str = 'gravity', grazing_angle: typing.SupportsFloat | typing.SupportsIndex = 1.3962634015954636, max_range: typing.SupportsFloat | typing.SupportsIndex = ..., missed: str = 'leave_out', orientation: str = 'blended', blend_length: typing.SupportsFloat | typing.SupportsIndex = 0.1, angular_rate: typing.SupportsFloat | typing.SupportsIndex = 0.5, speed: typing.SupportsFloat | typing.SupportsIndex = 0.1, acceleration: typing.SupportsFloat | typing.SupportsIndex = 0.1, standoff: typing.SupportsFloat | typing.SupportsIndex = 0.0, offset: str = 'rolling', step: typing.SupportsFloat | typing.SupportsIndex = 0.0, normal_radius: typing.SupportsFloat | typing.SupportsIndex = 0.0, tool_radius: typing.SupportsFloat | typing.SupportsIndex = 0.0, tool_length: typing.SupportsFloat | typing.SupportsIndex = 0.0, contact_tolerance: typing.SupportsFloat | typing.SupportsIndex = 0.01, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> ToolPath:
     """
