@@ -27,3 +27,6 @@ html_math_renderer = "mathml"
 html_theme = "furo"
 html_title = "bathyal"
 exclude_patterns = ["_build"]
+# `path`, an argument of many functions, is a property of several classes, too: which of them a name
+# in backticks is linked to does not matter.
+suppress_warnings = ["ref.python"]
