@@ -2471,11 +2471,12 @@ class KeepOut:
         ----------
         pose : (4, 4) array, Trajectory or callable
             frame_from_given: what was given in the frame is moved by it. A function of the time [s] is
-            called every 0.05 s from 0 to 600 s.
+            called every 0.05 s from 0 to 600 s. It takes the place of an earlier one.
         
         Returns
         -------
         KeepOut
+            Its own `contains` and `distance` are of the volume as it was given.
         """
     @property
     def border(self) -> Plane | None:
@@ -2868,7 +2869,8 @@ class Workspace:
     vehicle_pose_std : (6,) array, optional
         Standard deviations of the vehicle's pose: of the origin along the vehicle's axes [m], then of
         the rotation about them [rad]. Distances to what is fixed to the world are less by three
-        standard deviations of where that takes a point (first order).
+        standard deviations of where that takes a point, whatever the direction (first order). Of
+        `check_target`, whose points are in the world, those to what is fixed to the vehicle.
     vehicle_body : RigidBody, optional
         Of the vehicle without the arm, in the vehicle's frame: for `static_trim`.
     radii : float or (L,) array, optional
@@ -2941,8 +2943,9 @@ class Workspace:
         time : (M,) array, optional
             Of each row, rising [s]; needed where the vehicle or a keep-out moves, and for `stopping`.
         stopping : bool
-            Whether the arm must be able to stop, too: at every moment each coordinate may run on by its
-            stopping distance, speed² / (2 acceleration), either way.
+            Whether the arm must be able to stop, too: at every moment it may run on along the line between
+            two rows by its stopping distance, speed² / (2 acceleration) of the coordinate that stops last.
+            The contact is then the last moment at which an order to stop comes in time.
         acceleration : float or (n,) array, optional
             With which each coordinate brakes [rad/s²] or [m/s²]; unless given its rate limit is reached from
             rest in half a second (1 rad/s², 0.5 m/s² of a joint without one).
@@ -3138,9 +3141,9 @@ class Workspace:
         --------
         >>> import bathyal
         >>> arm = bathyal.Arm.from_dh(a=[0.5, 0.4], alpha=[0, 0], d=[0, 0], theta=[0, 0])
-        >>> reach = bathyal.Workspace(arm, radii=0.05).reach_map(voxel=0.1, directions=6)
+        >>> reach = bathyal.Workspace(arm, radii=0.05).reach_map(voxel=0.08, directions=6)
         >>> reach.reached.shape, int(reach.reached.sum())
-        ((21, 21, 3), 246)
+        ((27, 27, 3), 396)
         """
     def with_vehicle_pose(self, vehicle_pose: Trajectory | numpy.typing.ArrayLike | collections.abc.Callable[[float], numpy.typing.ArrayLike] | None) -> Workspace:
         """
@@ -3164,7 +3167,7 @@ class Workspace:
     @property
     def excluded(self) -> list[tuple[str, str, str]]:
         """
-        Pairs that are not compared, as tuples of a link, the other link or obstacle, and the reason: "neighbours", "allowed", "fixed to it", or "touch in every posture" of 64 drawn.
+        Pairs that are not compared, as tuples of a link, the other link or obstacle, and the reason: "foot", "neighbours", "allowed", "fixed to it", or "touch in every posture" of 64 drawn.
         """
     @property
     def hull(self) -> Hull | None:
