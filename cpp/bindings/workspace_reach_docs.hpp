@@ -66,9 +66,9 @@ Examples
 --------
 >>> import bathyal
 >>> arm = bathyal.Arm.from_dh(a=[0.5, 0.4], alpha=[0, 0], d=[0, 0], theta=[0, 0])
->>> reach = bathyal.Workspace(arm, radii=0.05).reach_map(voxel=0.1, directions=6)
+>>> reach = bathyal.Workspace(arm, radii=0.05).reach_map(voxel=0.08, directions=6)
 >>> reach.reached.shape, int(reach.reached.sum())
-((21, 21, 3), 246)
+((27, 27, 3), 396)
 )";
 
 inline constexpr const char* kStandpoint = R"(Where a vehicle should be, and what its arm reaches from there.

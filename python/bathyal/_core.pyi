@@ -3431,9 +3431,9 @@ class Workspace:
         --------
         >>> import bathyal
         >>> arm = bathyal.Arm.from_dh(a=[0.5, 0.4], alpha=[0, 0], d=[0, 0], theta=[0, 0])
-        >>> reach = bathyal.Workspace(arm, radii=0.05).reach_map(voxel=0.1, directions=6)
+        >>> reach = bathyal.Workspace(arm, radii=0.05).reach_map(voxel=0.08, directions=6)
         >>> reach.reached.shape, int(reach.reached.sum())
-        ((21, 21, 3), 246)
+        ((27, 27, 3), 396)
         """
     def show(self, q: ArrayLike, time: ArrayLike | None = None, *, target: ArrayLike | None = None) -> MotionPage:
         """
