@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "bathyal/base/text.hpp"
-#include "bathyal/workspace/follow.hpp"
-#include "bathyal/workspace/stepping.hpp"
+#include "bathyal/workspace/motion/follow.hpp"
+#include "bathyal/workspace/motion/stepping.hpp"
 #include "enum_names.hpp"
 #include "workspace_class.hpp"
 #include "workspace_follow_docs.hpp"

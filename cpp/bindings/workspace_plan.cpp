@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "bathyal/base/error.hpp"
-#include "bathyal/workspace/plan.hpp"
+#include "bathyal/workspace/motion/plan.hpp"
 #include "workspace_class.hpp"
 #include "workspace_plan_docs.hpp"
 

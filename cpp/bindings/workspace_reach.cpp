@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "bathyal/base/check.hpp"
-#include "bathyal/workspace/reach_map.hpp"
-#include "bathyal/workspace/standpoint.hpp"
+#include "bathyal/workspace/reach/reach_map.hpp"
+#include "bathyal/workspace/reach/standpoint.hpp"
 #include "workspace_class.hpp"
 #include "workspace_reach_docs.hpp"
 
@@ -27,8 +27,8 @@ py::array map_flags(const SharedMap& map, const std::vector<std::uint8_t>& flags
   return read_only_array(reinterpret_cast<const bool*>(flags.data()), std::move(shape), map);
 }
 
-/// (nx, ny, nz[, K]) of any real type as numbers of `Value`, whose shape is that of `like` if it has
-/// one.
+/// (nx, ny, nz[, K]) of any real type as numbers of `Value`, whose shape is that of `like` if it
+/// has one.
 template <class Value>
 std::vector<Value> map_values(const char* name, const py::object& object,
                               const std::vector<py::ssize_t>& shape) {
@@ -126,7 +126,8 @@ void bind_map(py::module_& module) {
           "middle, in any orientation, whatever the arm touches.")
       .def_property_readonly(
           "free", [](const SharedMap& map) { return map_flags(map, map->free, map_shape(*map)); },
-          "(nx, ny, nz) bool: whether one of the postures found keeps clear of obstacles and of the "
+          "(nx, ny, nz) bool: whether one of the postures found keeps clear of obstacles and of "
+          "the "
           "arm itself, the end of the tool allowed to touch the scene.")
       .def_property_readonly(
           "reached_along",
@@ -261,12 +262,12 @@ void add_reach(py::class_<Workspace>& cls) {
       [](const Workspace& ws, double voxel, int directions, Index samples, std::uint64_t seed,
          bool check_clearance, int num_threads) {
         const py::gil_scoped_release release;
-        return std::make_shared<ReachMap>(reach_map(
-            ws, {voxel, directions, samples, seed, check_clearance, num_threads}));
+        return std::make_shared<ReachMap>(
+            reach_map(ws, {voxel, directions, samples, seed, check_clearance, num_threads}));
       },
-      py::kw_only(), py::arg("voxel") = defaults.voxel,
-      py::arg("directions") = defaults.directions, py::arg("samples") = defaults.samples,
-      py::arg("seed") = defaults.seed, py::arg("check_clearance") = defaults.check_clearance,
+      py::kw_only(), py::arg("voxel") = defaults.voxel, py::arg("directions") = defaults.directions,
+      py::arg("samples") = defaults.samples, py::arg("seed") = defaults.seed,
+      py::arg("check_clearance") = defaults.check_clearance,
       py::arg("num_threads") = defaults.num_threads, workspace_docs::kWorkspaceReachMap);
 }
 
@@ -280,9 +281,9 @@ void bind_best_standpoint(py::module_& module) {
          const CapsuleNames& capsules, const LinkNames& allowed, double voxel, int headings,
          double step, double hull_clearance, int refined, int alternatives, std::uint64_t seed,
          int num_threads) {
-        return find_standpoint(arm, mount, hull, scene, targets, keepouts, radii, capsules, allowed,
-                               {voxel, headings, step, hull_clearance, refined, alternatives, seed,
-                                num_threads});
+        return find_standpoint(
+            arm, mount, hull, scene, targets, keepouts, radii, capsules, allowed,
+            {voxel, headings, step, hull_clearance, refined, alternatives, seed, num_threads});
       },
       py::arg("arm"), py::arg("mount"), py::arg("hull"), py::arg("scene"), py::arg("targets"),
       py::kw_only(), py::arg("keepouts") = py::list(), py::arg("radii") = py::none(),

@@ -71,12 +71,14 @@ Examples
 ((27, 27, 3), 396)
 )";
 
-inline constexpr const char* kStandpoint = R"(Where a vehicle should be, and what its arm reaches from there.
+inline constexpr const char* kStandpoint =
+    R"(Where a vehicle should be, and what its arm reaches from there.
 
 What `bathyal.best_standpoint` returns.
 )";
 
-inline constexpr const char* kBestStandpoint = R"(Find where a vehicle should be, level, for its arm to reach most of `targets`.
+inline constexpr const char* kBestStandpoint =
+    R"(Find where a vehicle should be, level, for its arm to reach most of `targets`.
 
 Places on a lattice and headings are scored by the reach map of arm, hull and what is fixed to them;
 the best that leave the hull room are moved uphill, and those are scored by

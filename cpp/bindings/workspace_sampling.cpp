@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "bathyal/workspace/sampling.hpp"
+#include "bathyal/workspace/sampling/sampling.hpp"
 
 #include <pybind11/stl.h>
 

@@ -4,8 +4,8 @@
 #include "arrays.hpp"
 #include "bathyal/base/error.hpp"
 #include "bathyal/base/text.hpp"
-#include "bathyal/workspace/static_trim.hpp"
-#include "bathyal/workspace/vehicle_wrench.hpp"
+#include "bathyal/workspace/sampling/static_trim.hpp"
+#include "bathyal/workspace/sampling/vehicle_wrench.hpp"
 #include "workspace_class.hpp"
 #include "workspace_sampling_docs.hpp"
 

@@ -65,12 +65,11 @@ inline Arm panda() {
 /// Maevskiy, Zanin (2020).
 inline Arm three_joints() {
   DhTable table;
-  table.rows = {{0.193, kPi / 2, -0.117, 0.0, 0.0},
-                {0.552, 0.0, 0.0, 0.0, 0.0},
-                {0.596, 0.0, 0.0, 0.0, 0.0}};
+  table.rows = {
+      {0.193, kPi / 2, -0.117, 0.0, 0.0}, {0.552, 0.0, 0.0, 0.0, 0.0}, {0.596, 0.0, 0.0, 0.0, 0.0}};
   table.types.assign(3, JointType::kRevolute);
-  return arm_from_dh(table, {.lower = {-kPi / 2, -kPi / 2, -0.75 * kPi},
-                             .upper = {kPi / 2, kPi, 0.75 * kPi}});
+  return arm_from_dh(
+      table, {.lower = {-kPi / 2, -kPi / 2, -0.75 * kPi}, .upper = {kPi / 2, kPi, 0.75 * kPi}});
 }
 
 /// Turning, sliding, fixed and mimic joints, every row with beta; links with frames of their own,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "bathyal/workspace/internal/bounded_least_squares.hpp"
+#include "bathyal/workspace/motion/internal/bounded_least_squares.hpp"
 
 #include <gtest/gtest.h>
 

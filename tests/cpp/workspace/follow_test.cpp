@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "bathyal/workspace/follow.hpp"
+#include "bathyal/workspace/motion/follow.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <cstring>
 
 #include "bathyal/arm/row_frames.hpp"
-#include "bathyal/workspace/motion_timing.hpp"
+#include "bathyal/workspace/motion/motion_timing.hpp"
 #include "scene/meshes.hpp"
 #include "support/arms.hpp"
 

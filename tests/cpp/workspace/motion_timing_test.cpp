@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "bathyal/workspace/motion_timing.hpp"
+#include "bathyal/workspace/motion/motion_timing.hpp"
 
 #include <gtest/gtest.h>
 

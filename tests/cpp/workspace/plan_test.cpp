@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "bathyal/workspace/plan.hpp"
+#include "bathyal/workspace/motion/plan.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "bathyal/workspace/reach_map.hpp"
+#include "bathyal/workspace/reach/reach_map.hpp"
 
 #include <gtest/gtest.h>
 
@@ -102,8 +102,9 @@ TEST(ReachMap, ThatOfAPlanarArmIsARing) {
     if (!in_ring) continue;
     // The tool's z axis is that of the plane, whatever the posture.
     ASSERT_EQ(map.directions[v], 1);
-    const std::size_t up = 26 * v + static_cast<std::size_t>(std::ranges::find(map.approach, Vec3(
-                                        Vec3::UnitZ())) - map.approach.begin());
+    const std::size_t up =
+        26 * v + static_cast<std::size_t>(std::ranges::find(map.approach, Vec3(Vec3::UnitZ())) -
+                                          map.approach.begin());
     ASSERT_EQ(map.reached_along[up], 1);
     // Columns of the Jacobian: speeds of the tip, and the turn about z that both make.
     const double elbow = (radius * radius - 0.41) / 0.4;  // its cosine
@@ -258,9 +259,8 @@ TEST(ReachMap, MoreDirectionsAreFinerOnes) {
   for (std::size_t v = 0; v < six.total(); ++v) {
     differ += six.reached[v] != many.reached[v];
     for (std::size_t i = 0; i < 6; ++i) {
-      const auto same = std::ranges::find_if(many.approach, [&](const Vec3& d) {
-        return (d - six.approach[i]).norm() < 1e-12;
-      });
+      const auto same = std::ranges::find_if(
+          many.approach, [&](const Vec3& d) { return (d - six.approach[i]).norm() < 1e-12; });
       ASSERT_NE(same, many.approach.end());
       const auto k = static_cast<std::size_t>(same - many.approach.begin());
       differ += six.reached_along[6 * v + i] != many.reached_along[98 * v + k];

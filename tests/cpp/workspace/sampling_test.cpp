@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "bathyal/workspace/sampling.hpp"
+#include "bathyal/workspace/sampling/sampling.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "bathyal/workspace/static_trim.hpp"
-#include "bathyal/workspace/vehicle_wrench.hpp"
+#include "bathyal/workspace/sampling/static_trim.hpp"
+#include "bathyal/workspace/sampling/vehicle_wrench.hpp"
 #include "scene/meshes.hpp"
 #include "support/arms.hpp"
 

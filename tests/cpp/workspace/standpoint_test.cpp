@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "bathyal/workspace/standpoint.hpp"
+#include "bathyal/workspace/reach/standpoint.hpp"
 
 #include <gtest/gtest.h>
 
@@ -87,8 +87,8 @@ void expect_as_checked(const Standpoint& found, const Surroundings& around,
   for (std::size_t k = 1; k < found.places.size(); ++k) {
     EXPECT_LE(found.places[k].score, found.places[k - 1].score);
     for (std::size_t l = 0; l < k; ++l) {
-      const Pose between = found.places[k].world_from_vehicle.inverse() *
-                           found.places[l].world_from_vehicle;
+      const Pose between =
+          found.places[k].world_from_vehicle.inverse() * found.places[l].world_from_vehicle;
       EXPECT_TRUE(between.translation().norm() >= 0.2 ||
                   Eigen::AngleAxisd(between.linear()).angle() >= 20.0 * kPi / 180.0 - 1e-9);
     }
@@ -183,8 +183,7 @@ TEST(Standpoint, KeepsOutOfVolumesFixedToTheWorld) {
       const std::vector<Vec3> points = hull_points(one.world_from_vehicle);
       std::vector<double> rows;
       for (const Vec3& point : points) rows.insert(rows.end(), point.begin(), point.end());
-      const auto distances =
-          keepout.distance({rows.data(), static_cast<Index>(points.size()), 3});
+      const auto distances = keepout.distance({rows.data(), static_cast<Index>(points.size()), 3});
       EXPECT_GE(*std::ranges::min_element(distances), 0.05 - 1e-9) << keepout.name();
       const Vec3 middle = one.world_from_vehicle.inverse() * place;
       EXPECT_FALSE((middle.cwiseAbs().array() < kHalf.array()).all());  // not swallowed by it
@@ -226,7 +225,8 @@ TEST(Standpoint, SameBytesOnAnyNumberOfThreads) {
   ASSERT_EQ(one.places.size(), four.places.size());
   ASSERT_FALSE(one.places.empty());
   for (std::size_t k = 0; k < one.places.size(); ++k) {
-    EXPECT_EQ(one.places[k].world_from_vehicle.matrix(), four.places[k].world_from_vehicle.matrix());
+    EXPECT_EQ(one.places[k].world_from_vehicle.matrix(),
+              four.places[k].world_from_vehicle.matrix());
     EXPECT_EQ(one.places[k].score, four.places[k].score);
     EXPECT_EQ(one.places[k].reached, four.places[k].reached);
   }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "bathyal/workspace/static_trim.hpp"
+#include "bathyal/workspace/sampling/static_trim.hpp"
 
 #include <gtest/gtest.h>
 
-#include "bathyal/workspace/vehicle_wrench.hpp"
+#include "bathyal/workspace/sampling/vehicle_wrench.hpp"
 #include "support/arms.hpp"
 
 namespace bathyal {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "bathyal/workspace/stepping.hpp"
+#include "bathyal/workspace/motion/stepping.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,8 +9,8 @@
 
 #include "bathyal/arm/row_frames.hpp"
 #include "bathyal/workspace/internal/bodies.hpp"
-#include "bathyal/workspace/internal/proximity.hpp"
-#include "bathyal/workspace/motion_timing.hpp"
+#include "bathyal/workspace/motion/internal/proximity.hpp"
+#include "bathyal/workspace/motion/motion_timing.hpp"
 #include "support/arms.hpp"
 
 namespace bathyal {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "bathyal/workspace/vehicle_wrench.hpp"
+#include "bathyal/workspace/sampling/vehicle_wrench.hpp"
 
 #include <gtest/gtest.h>
 
