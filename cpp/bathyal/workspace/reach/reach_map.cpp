@@ -16,9 +16,9 @@ namespace bathyal {
 namespace {
 
 using workspace::has;
-using workspace::Postures;
 using workspace::ReachArm;
 using workspace::ReachGrid;
+using workspace::ReachPostures;
 using workspace::ReachState;
 
 constexpr std::size_t kBoxSamples = 4096;
@@ -74,7 +74,7 @@ ReachMap map_of(const ReachGrid& grid, const std::vector<Vec3>& approach, const 
 }
 
 /// Of voxels that no posture was drawn into: of the first that was found for them.
-void add_manipulability(const ReachArm& arm, const ReachState& state, const Postures& postures,
+void add_manipulability(const ReachArm& arm, const ReachState& state, const ReachPostures& postures,
                         int num_threads, ReachMap& map) {
   const std::size_t sets = map.approach.size() + 1;
   std::vector<std::size_t> voxels;
@@ -101,7 +101,7 @@ void ReachMapOptions::check() const {
   if (directions != 6 && directions != 26 && directions != 98) {
     throw_argument("directions", "6, 26 or 98", std::to_string(directions));
   }
-  if (samples < 0 || samples > static_cast<Index>(Postures::kMostSamples)) {
+  if (samples < 0 || samples > static_cast<Index>(ReachPostures::kMostSamples)) {
     throw_argument("samples", "a number from 0 to 2097152", std::to_string(samples));
   }
   resolve_threads(num_threads);
@@ -126,15 +126,16 @@ ReachMap reach_map(const Workspace& ws, const ReachMapOptions& options) {
   const std::vector<Vec3> approach = workspace::approach_directions(options.directions);
   const std::size_t total = grid.total();
   std::size_t samples = static_cast<std::size_t>(options.samples);
-  if (samples == 0) samples = std::clamp(total / 4, std::size_t{1} << 16U, Postures::kMostSamples);
+  if (samples == 0)
+    samples = std::clamp(total / 4, std::size_t{1} << 16U, ReachPostures::kMostSamples);
 
   ReachState state{std::vector<workspace::ReachSet>(total),
-                   std::vector<std::uint32_t>(total * (approach.size() + 1), Postures::kNone),
+                   std::vector<std::uint32_t>(total * (approach.size() + 1), ReachPostures::kNone),
                    std::vector<float>(total, -1.0F),
-                   std::vector<std::uint32_t>(total, Postures::kNone),
+                   std::vector<std::uint32_t>(total, ReachPostures::kNone),
                    {}};
   sweep_postures(arm, grid, approach, sequence, samples, options.num_threads, state);
-  Postures postures{&arm, sequence, {}};
+  ReachPostures postures{&arm, sequence, {}};
   if (!arm.exact_directions) {
     confirm(arm, grid, approach, true, options.num_threads, state, postures);
   }

@@ -13,7 +13,7 @@ struct ReachMapOptions {
   /// Directions of approach: 6 (the faces of a cube), 26 (with its edges and corners), or 98 (each
   /// face's border and middle parted into four).
   int directions = 26;
-  /// Postures drawn, 1 to 2²¹; each is swept through all values of the first joint. 0: one for
+  /// ReachPostures drawn, 1 to 2²¹; each is swept through all values of the first joint. 0: one for
   /// four voxels, 2¹⁶ at least.
   Index samples = 0;
   std::uint64_t seed = 0;       ///< of the postures
@@ -66,11 +66,11 @@ struct ReachMap {
 /// The reach of a workspace's arm, at time 0 where something moves, by forward sampling
 /// (Zacharias, Borst, Hirzinger 2007, Capturing robot workspace structure).
 ///
-/// Postures of low discrepancy are swept through the range of the first joint, so that each serves
-/// a whole circle (or line) of voxels. A posture whose tip lies in a voxel proves that the voxel's
-/// middle is reached where the first-order step to it stays within the limits and is short. From
-/// there the reached part of each direction grows voxel by voxel: inverse kinematics starts at the
-/// posture of a neighbour, until all that border on the reached part have failed.
+/// ReachPostures of low discrepancy are swept through the range of the first joint, so that each
+/// serves a whole circle (or line) of voxels. A posture whose tip lies in a voxel proves that the
+/// voxel's middle is reached where the first-order step to it stays within the limits and is short.
+/// From there the reached part of each direction grows voxel by voxel: inverse kinematics starts at
+/// the posture of a neighbour, until all that border on the reached part have failed.
 ///
 /// The same bytes for any number of threads.
 /// \throw std::invalid_argument for options out of range, or more than 2²⁸ pairs of voxel and

@@ -15,7 +15,7 @@ constexpr std::size_t kMostPostures = 8;  ///< of a voxel's own that are looked 
 constexpr int kNeighbours = 3;            ///< whose posture is tried
 constexpr std::size_t kVoxels = 1024;     ///< of one task
 
-/// Postures to look at, one a voxel, and what was found.
+/// ReachPostures to look at, one a voxel, and what was found.
 struct Looked {
   std::vector<std::size_t> voxel;
   JointMatrix q;
@@ -52,7 +52,7 @@ std::vector<std::uint32_t> codes_of(const ReachState& state, std::size_t voxel,
     const std::uint32_t code = state.posture[voxel * (directions + 1) + k];
     if (std::ranges::find(codes, code) == codes.end()) codes.push_back(code);
   }
-  std::erase(codes, Postures::kNone);
+  std::erase(codes, ReachPostures::kNone);
   if (codes.size() <= kMostPostures) return codes;
   std::vector<std::uint32_t> some;
   for (std::size_t k = 0; k < kMostPostures; ++k) {
@@ -64,7 +64,7 @@ std::vector<std::uint32_t> codes_of(const ReachState& state, std::size_t voxel,
 class FreeSearch {
  public:
   FreeSearch(const Workspace& ws, const ReachArm& arm, const ReachGrid& grid,
-             const ReachState& state, const Postures& postures, ReachMap& map)
+             const ReachState& state, const ReachPostures& postures, ReachMap& map)
       : ws_(ws),
         arm_(arm),
         grid_(grid),
@@ -162,7 +162,7 @@ class FreeSearch {
   const ReachArm& arm_;
   const ReachGrid& grid_;
   const ReachState& state_;
-  const Postures& postures_;
+  const ReachPostures& postures_;
   ReachMap& map_;
   std::vector<float> free_q_;  ///< the posture of each free voxel
 };
@@ -170,7 +170,8 @@ class FreeSearch {
 }  // namespace
 
 void find_free(const Workspace& ws, const ReachArm& arm, const ReachGrid& grid,
-               const ReachState& state, const Postures& postures, int num_threads, ReachMap& map) {
+               const ReachState& state, const ReachPostures& postures, int num_threads,
+               ReachMap& map) {
   FreeSearch search(ws, arm, grid, state, postures, map);
   parallel_for(grid.total(), kVoxels, num_threads,
                [&](std::size_t begin, std::size_t end) { search.look_at_own(begin, end); });

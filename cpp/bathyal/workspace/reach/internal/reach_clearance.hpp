@@ -10,6 +10,7 @@ namespace bathyal::workspace {
 /// one is free, then, where none is, at what inverse kinematics makes of a free neighbour's
 /// posture, until all that border on the free part have failed.
 void find_free(const Workspace& workspace, const ReachArm& arm, const ReachGrid& grid,
-               const ReachState& state, const Postures& postures, int num_threads, ReachMap& map);
+               const ReachState& state, const ReachPostures& postures, int num_threads,
+               ReachMap& map);
 
 }  // namespace bathyal::workspace

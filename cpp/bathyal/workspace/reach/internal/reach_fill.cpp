@@ -37,8 +37,8 @@ struct Setting {
   NearestDirection nearest;
 };
 
-void attempt(const Setting& setting, const Postures& postures, std::span<const Attempt> attempts,
-             Findings& findings) {
+void attempt(const Setting& setting, const ReachPostures& postures,
+             std::span<const Attempt> attempts, Findings& findings) {
   const std::size_t n = setting.arm.size();
   const std::size_t any = setting.approach.size();
   for (std::size_t first = 0; first < attempts.size(); first += kBlock) {
@@ -69,10 +69,10 @@ void attempt(const Setting& setting, const Postures& postures, std::span<const A
 
 /// Enters a chunk's findings; the first posture of a pair of voxel and direction stays.
 void enter(const Findings& findings, std::size_t n, std::size_t any, ReachState& state,
-           Postures& postures, std::vector<std::size_t>& changed) {
+           ReachPostures& postures, std::vector<std::size_t>& changed) {
   for (std::size_t k = 0; k < findings.found.size(); ++k) {
     const Found& one = findings.found[k];
-    const auto code = static_cast<std::uint32_t>(postures.found.size() / n) | Postures::kFound;
+    const auto code = static_cast<std::uint32_t>(postures.found.size() / n) | ReachPostures::kFound;
     bool used = false;
     for (const std::size_t i : {one.direction, any}) {
       if (has(state.set[one.voxel], i)) continue;
@@ -90,8 +90,9 @@ void enter(const Findings& findings, std::size_t n, std::size_t any, ReachState&
 /// Calls `collect(voxel, attempts)` for every voxel and solves what it adds; returns how many were
 /// tried. `changed`: voxels in which something was found.
 template <class Collect>
-std::size_t round_of(const Setting& setting, int num_threads, ReachState& state, Postures& postures,
-                     const Collect& collect, std::vector<std::size_t>& changed) {
+std::size_t round_of(const Setting& setting, int num_threads, ReachState& state,
+                     ReachPostures& postures, const Collect& collect,
+                     std::vector<std::size_t>& changed) {
   const std::size_t total = setting.grid.total();
   std::vector<Findings> findings((total + kVoxelGrain - 1) / kVoxelGrain);
   std::vector<std::size_t> tried(findings.size(), 0);
@@ -125,7 +126,7 @@ ReachSet border_of(const ReachGrid& grid, const std::vector<ReachSet>& set, std:
 }  // namespace
 
 void confirm(const ReachArm& arm, const ReachGrid& grid, const std::vector<Vec3>& approach,
-             bool all, int num_threads, ReachState& state, Postures& postures) {
+             bool all, int num_threads, ReachState& state, ReachPostures& postures) {
   const Setting setting{arm, grid, approach, NearestDirection(approach)};
   const std::size_t sets = approach.size() + 1;
   std::vector<ReachSet> again(grid.total());
@@ -139,7 +140,7 @@ void confirm(const ReachArm& arm, const ReachGrid& grid, const std::vector<Vec3>
         for (std::size_t i = 0; i < sets; ++i) {
           if (!has(again[voxel], i)) continue;
           const std::uint32_t code = state.posture[voxel * sets + i];
-          if ((code & Postures::kFound) != 0) erase(again[voxel], i);
+          if ((code & ReachPostures::kFound) != 0) erase(again[voxel], i);
         }
         for (std::size_t w = 0; w < kSetWords; ++w) state.set[voxel][w] &= ~again[voxel][w];
       }
@@ -157,7 +158,7 @@ void confirm(const ReachArm& arm, const ReachGrid& grid, const std::vector<Vec3>
 }
 
 void grow(const ReachArm& arm, const ReachGrid& grid, const std::vector<Vec3>& approach, int tries,
-          int num_threads, ReachState& state, Postures& postures) {
+          int num_threads, ReachState& state, ReachPostures& postures) {
   const Setting setting{arm, grid, approach, NearestDirection(approach)};
   const std::size_t sets = approach.size() + 1;
   state.tried.resize(grid.total() * sets, 0);

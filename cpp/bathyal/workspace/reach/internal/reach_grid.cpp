@@ -136,7 +136,7 @@ void PostureSequence::posture(std::size_t index, double* q) const {
   }
 }
 
-void Postures::get(std::uint32_t code, double* q) const {
+void ReachPostures::get(std::uint32_t code, double* q) const {
   const std::size_t n = arm->size();
   if ((code & kFound) != 0) {
     const float* row = found.data() + static_cast<std::size_t>(code - kFound) * n;

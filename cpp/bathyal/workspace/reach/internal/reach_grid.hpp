@@ -122,7 +122,7 @@ class PostureSequence {
 
 /// A posture in 32 bits: drawn as number `sample`, with the first coordinate elsewhere in its
 /// range; or number so-and-so of `found`.
-struct Postures {
+struct ReachPostures {
   static constexpr std::uint32_t kNone = 0xffffffffU;
   static constexpr std::uint32_t kFound = 0x80000000U;
   static constexpr std::size_t kMostSamples = std::size_t{1} << 21U;

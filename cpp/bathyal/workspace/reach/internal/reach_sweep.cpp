@@ -219,11 +219,11 @@ class Scatter {
   }
 
   std::uint32_t code(const Swept& one, std::size_t number, float t) const {
-    if (!arm_.sweeps) return Postures::drawn(number, 0);
+    if (!arm_.sweeps) return ReachPostures::drawn(number, 0);
     const float share = (t - one.start) / (one.end - one.start);
-    const float part = (arm_.rate > 0.0 ? share : 1.0F - share) * Postures::kParts;
-    return Postures::drawn(
-        number, static_cast<std::uint32_t>(std::clamp(part, 0.0F, Postures::kParts - 1.0F)));
+    const float part = (arm_.rate > 0.0 ? share : 1.0F - share) * ReachPostures::kParts;
+    return ReachPostures::drawn(
+        number, static_cast<std::uint32_t>(std::clamp(part, 0.0F, ReachPostures::kParts - 1.0F)));
   }
 
   void visit(const Swept& one, const float* numbers, std::size_t number, const Eigen::Array3i& at,
