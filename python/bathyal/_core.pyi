@@ -2,6 +2,7 @@
 The engine. Its public names are those of the package bathyal.
 """
 from __future__ import annotations
+import bathyal.view.motion_page
 import collections.abc
 import matplotlib.figure
 import numpy
@@ -3435,7 +3436,7 @@ class Workspace:
         >>> reach.reached.shape, int(reach.reached.sum())
         ((27, 27, 3), 396)
         """
-    def show(self, q: ArrayLike, time: ArrayLike | None = None, *, target: ArrayLike | None = None) -> MotionPage:
+    def show(self, q: numpy.typing.ArrayLike, time: numpy.typing.ArrayLike | None = None, *, target: numpy.typing.ArrayLike | None = None) -> bathyal.view.motion_page.MotionPage:
         """
         A page that plays a motion: hull, arm, bottom, keep-outs, clearance.
         
@@ -3668,7 +3669,7 @@ class SamplingPlan:
         ...
     def __repr__(self) -> str:
         ...
-    def show(self, ws: Workspace) -> MotionPage:
+    def show(self, ws: Workspace) -> bathyal.view.motion_page.MotionPage:
         """
         A page that plays the plan: hull, arm, bottom, keep-outs, clearance, wrench.
         

@@ -173,7 +173,7 @@ class _Group:
         if self.scene is None or not len(points):
             return np.zeros(len(points), bool)
         hits = self.scene.cast(points, np.broadcast_to(_LIGHT, points.shape))
-        return np.isfinite(np.asarray(hits.range))
+        return np.asarray(np.isfinite(hits.range), bool)
 
     def colours(self, hits: object, rows: NDArray[np.intp]) -> Floats:
         mesh = np.asarray(hits.mesh)[rows]  # type: ignore[attr-defined]

@@ -126,8 +126,9 @@ def motion_of(
 
 def evenly_timed(q: ArrayLike, time: ArrayLike | None) -> tuple[Floats, Floats]:
     """Rows (K, n), and their times, `_STEP` apart where none are given."""
-    rows = np.atleast_2d(np.asarray(q, float))
-    return rows, _STEP * np.arange(len(rows)) if time is None else np.asarray(time, float)
+    rows: Floats = np.atleast_2d(np.asarray(q, float))
+    moments: Floats = np.asarray(_STEP * np.arange(len(rows)) if time is None else time, float)
+    return rows, moments
 
 
 def _vehicle_poses(workspace: Workspace, time: Floats) -> Floats:

@@ -6,20 +6,24 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from numpy.typing import ArrayLike
+import numpy.typing
 
 from bathyal._core import Workspace
 from bathyal.attach import methods_of
 
 if TYPE_CHECKING:
-    from bathyal.view.motion_page import MotionPage
+    import bathyal.view.motion_page
 
 
 @methods_of(Workspace)
 class _Workspace(Workspace):
     def show(
-        self, q: ArrayLike, time: ArrayLike | None = None, *, target: ArrayLike | None = None
-    ) -> MotionPage:
+        self,
+        q: numpy.typing.ArrayLike,
+        time: numpy.typing.ArrayLike | None = None,
+        *,
+        target: numpy.typing.ArrayLike | None = None,
+    ) -> bathyal.view.motion_page.MotionPage:
         """A page that plays a motion: hull, arm, bottom, keep-outs, clearance.
 
         Parameters

@@ -11,12 +11,12 @@ from bathyal._core import SamplingPlan, Workspace
 from bathyal.attach import methods_of
 
 if TYPE_CHECKING:
-    from bathyal.view.motion_page import MotionPage
+    import bathyal.view.motion_page
 
 
 @methods_of(SamplingPlan)
 class _SamplingPlan(SamplingPlan):
-    def show(self, ws: Workspace) -> MotionPage:
+    def show(self, ws: Workspace) -> bathyal.view.motion_page.MotionPage:
         """A page that plays the plan: hull, arm, bottom, keep-outs, clearance, wrench.
 
         Parameters
