@@ -3496,7 +3496,8 @@ class Workspace:
         >>> import bathyal
         >>> arm = bathyal.Arm.from_dh(a=[0.9], alpha=[0], d=[0], theta=[0])
         >>> body = bathyal.RigidBody(20, center_of_mass=(0, 0, -0.02), volume=20 / 1025)
-        >>> ws = bathyal.Workspace(arm, vehicle_body=body).attach([], bathyal.RigidBody(0.1))
+        >>> ws = bathyal.Workspace(arm, radii=0.05, vehicle_body=body)
+        >>> ws = ws.attach([], bathyal.RigidBody(0.1))
         >>> trim = ws.static_trim([0.0])  # 0.1 kg at 0.9 m forward: nose down
         >>> round(trim.pitch, 4), trim.status
         (0.2213, 'upright')
@@ -3547,7 +3548,7 @@ class Workspace:
         --------
         >>> import bathyal, numpy as np
         >>> arm = bathyal.Arm.from_dh(a=[0.9], alpha=[0], d=[0], theta=[0])  # reaches forward
-        >>> ws = bathyal.Workspace(arm).attach([], bathyal.RigidBody(2.0))
+        >>> ws = bathyal.Workspace(arm, radii=0.05).attach([], bathyal.RigidBody(2.0))
         >>> np.round(ws.wrench([0.0]), 2) + 0  # its weight, and a moment that pitches the nose down
         array([  0.  ,   0.  , -19.61,   0.  ,  17.65,   0.  ])
         """
