@@ -35,6 +35,7 @@ def main() -> None:
     runs = [uvms_runs.run(name) for name in uvms_runs.names()]
     moving = [run for run in runs if not run.name.startswith("baseline")]
     by_authors = uvms_runs.workspace(uvms_runs.AUTHORS_HULL)
+    print("## Trim of a vehicle by its arm, predicted and measured\n\n```")
     head = "swing: measured, others', authors' [deg]; r; rms [deg]"
     print(f"{'run':10}  pitch {head}\n{'':10}  roll likewise")
     hulls, errors = [], []
@@ -52,6 +53,7 @@ def main() -> None:
     print(f"  {np.round(low, 3)} to {np.round(high, 3)}; the authors' {uvms_runs.AUTHORS_HULL}")
     print(f"rms over the {len(moving)} moving runs, pitch and roll [deg]:", end=" ")
     print(np.round(np.sqrt(np.mean(errors, axis=0)), 2))
+    print("```")
 
 
 if __name__ == "__main__":
