@@ -56,7 +56,6 @@ def row(name, arm, rounds):
     edge = edge_for(ws, VOXELS)
     reach, wall, spent = timed(lambda: ws.reach_map(voxel=edge, check_clearance=False), rounds)
     found = differences(reach, arm, CHECKED, seed=7)
-    inside = found.inside
     exact = len(arm.lower) >= 5  # fewer coordinates have no choice of direction
     if 1 - found.reached.mean() < GOAL or (exact and 1 - found.along.mean() < GOAL):
         raise SystemExit(f"{name}: less than {GOAL:.0%} agree")
@@ -84,9 +83,9 @@ def main():
         row(name, getattr(bathyal.arms, name)(), arguments.rounds)
     print(
         f"\nAll threads, the least of {arguments.rounds} rounds (with clearance: one); {CHECKED:,} "
-        "voxels of the whole box are drawn and asked of `Arm.inverse` with 64 starts. Arms of fewer "
-        f"than five coordinates have no choice of direction. {platform.machine()}, Python "
-        f"{platform.python_version()}, numpy {np.__version__}."
+        "voxels of the whole box are drawn and asked of `Arm.inverse` with 64 starts. Arms of "
+        "fewer than five coordinates have no choice of direction. "
+        f"{platform.machine()}, Python {platform.python_version()}, numpy {np.__version__}."
     )
 
 

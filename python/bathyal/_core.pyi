@@ -2113,6 +2113,15 @@ class Voxels:
     """
     def __repr__(self) -> str:
         ...
+    def plot(self, path: str | os.PathLike[str]) -> None:
+        """
+        Draw slices of the voxels, one across each axis, where most is inside.
+        
+        Parameters
+        ----------
+        path : path
+            Of a PNG: see bathyal.view.voxels.voxels_figure.
+        """
     @property
     def inside(self) -> numpy.ndarray:
         """

@@ -10,8 +10,10 @@ import pytest
 from hypothesis import given, settings
 
 import bathyal
+from bathyal.view.voxels import voxels_figure
 from tests.support.inside import explained_by_winding, occupancy, query_points
 from tests.support.scene_meshes import HULLS, UTM, box, moved, quaternions, rotation_from, sphere
+from tests.support.vehicles import box_mesh
 
 NAMES = sorted(path.name for path in HULLS.glob("*.dae"))
 CLOSED = 14  # of the 19
@@ -168,3 +170,15 @@ def test_refusals(make, text):
 def test_a_hull_is_made_of_a_mesh():
     with pytest.raises(TypeError, match="`mesh`: expected"):
         bathyal.Hull(np.zeros((3, 3)))
+
+
+def test_voxels_are_drawn(tmp_path) -> None:
+    hull = bathyal.Hull(box_mesh([-0.8, -0.35, -0.25], [0.5, 0.35, 0.25]))
+    voxels = hull.voxels(0.05)
+    voxels.plot(tmp_path / "voxels.png")
+    assert (tmp_path / "voxels.png").read_bytes()[:8] == b"\x89PNG\r\n\x1a\n"
+    titles = [axes.get_title() for axes in voxels_figure(voxels).axes]
+    assert [title[0] for title in titles] == ["z", "y", "x"]
+    shown = voxels_figure(voxels).axes[0].images[0].get_array()
+    assert shown.shape == voxels.inside.shape[:2][::-1]
+    assert shown.all()
