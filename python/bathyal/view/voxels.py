@@ -49,8 +49,8 @@ def voxels_figure(voxels: Voxels) -> Figure:
         axes.set_xlabel(f"{_AXES[along[0]]} [m]")
         axes.set_ylabel(f"{_AXES[along[1]]} [m]")
     figure.suptitle(
-        f"Inside {inside.sum() * voxels.size**3:.4g} m³: {inside.sum():,} of {inside.size:,} voxels "
-        f"of {1e3 * voxels.size:.3g} mm",
+        f"Inside {inside.sum() * voxels.size**3:.4g} m³: {inside.sum():,} of {inside.size:,} "
+        f"voxels of {1e3 * voxels.size:.3g} mm",
         x=0.02, ha="left", fontsize=12, color=INK,
     )  # fmt: skip
     figure.tight_layout()
