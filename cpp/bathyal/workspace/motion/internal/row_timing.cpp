@@ -35,8 +35,8 @@ class Legs {
     if (joins(row, before, after)) return false;
     double least = std::numeric_limits<double>::infinity();
     double best_before = before, best_after = after;
-    for (const auto& [first, second] : {std::pair(1.0, 0.0), {0.0, 1.0}, {1.0, 1.0}}) {
-      const double one = first, other = second;  // clang 14 captures no bindings
+    for (const auto& [of_before, of_after] : {std::pair(1.0, 0.0), {0.0, 1.0}, {1.0, 1.0}}) {
+      const double one = of_before, other = of_after;  // clang 14 captures no bindings
       const auto stretched = [&](double by) {
         return std::pair(before * (1.0 + one * by), after * (1.0 + other * by));
       };
