@@ -56,11 +56,14 @@ def scenario_of(
     build = _Builder(document, inside)
     arm = build.arm(sections.arm)
     hull = build.hull(sections.hull)
-    keepouts = [build.keepout(one, ("keepouts", k)) for k, one in enumerate(sections.keepouts)]
+    frames = ["hull", "world", *build.link_names(arm)]
+    keepouts = [
+        build.keepout(one, ("keepouts", k), frames) for k, one in enumerate(sections.keepouts)
+    ]
     scene = build.scene(sections.scene)
     q_start = build.posture(arm, sections.arm, "q_start", ("arm",))
     targets = [build.target(one, scene, k) for k, one in enumerate(sections.targets)]
-    names = [one.name or str(k + 1) for k, one in enumerate(sections.targets)]
+    names = build.target_names(sections.targets)
     sampled, sampling = build.sampling(sections.sampling, arm, names)
     workspace = build.workspace(sections, arm, hull, keepouts, scene)
     if hull is not None and scene is not None:
@@ -100,7 +103,8 @@ class _Builder:
 
     def file(self, name: str, place: Place) -> Path:
         """A file by its name, which may not lead out of the folder."""
-        path = Path(os.path.realpath(self.document.folder / name))
+        with self.placed(place):
+            path = Path(os.path.realpath(self.document.folder / name))
         if not path.is_relative_to(self.within):
             raise at(
                 self.document,
@@ -132,9 +136,24 @@ class _Builder:
             arm.tool = section.tool.matrix()
         return arm
 
+    def link_names(self, arm: Arm) -> list[str]:
+        """As a workspace has them."""
+        return [name or f"link_{k}" for k, name in enumerate(arm.link_names)]
+
+    def target_names(self, sections: Sequence[own.TargetSection]) -> list[str]:
+        """Each its own; of one without a name its number, counted from 1."""
+        names: list[str] = []
+        for row, section in enumerate(sections):
+            name = section.name or str(row + 1)
+            with self.placed(("targets", row)):
+                if name in names:
+                    raise ValueError(f"expected a name of its own, got {name!r} twice")
+            names.append(name)
+        return names
+
     def weighed(self, arm: Arm, sections: Sequence[own.LinkSection]) -> Arm:
         """The arm with masses and volumes of its links."""
-        names = [name or f"link_{k}" for k, name in enumerate(arm.link_names)]
+        names = self.link_names(arm)
         parts = arm_parts(arm)
         for row, section in enumerate(sections):
             with self.placed(("arm", "links", row, "name")):
@@ -169,8 +188,11 @@ class _Builder:
         self.warnings += [f"{where}: {line}" for line in [*lines, *report.warnings]]
         return hull
 
-    def keepout(self, section: Any, place: Place) -> KeepOut:
+    def keepout(self, section: Any, place: Place, frames: Sequence[str]) -> KeepOut:
         label = {"frame": section.frame, "name": section.name}
+        with self.placed((*place, "frame")):
+            if section.frame not in frames:
+                raise ValueError(f"expected one of {', '.join(frames)}, got {section.frame!r}")
         with self.placed(place):
             match section:
                 case own.SphereSection():
@@ -255,7 +277,7 @@ class _Builder:
                 sampled = section.target
             elif section.target is not None:
                 if section.target not in names:
-                    known = ", ".join(names) or "none: the scenario has no targets"
+                    known = f"one of {', '.join(names)}" if names else "a scenario with targets"
                     raise ValueError(f"expected {known}, got {section.target!r}")
                 sampled = names.index(section.target)
         keywords = section.keywords()
@@ -311,7 +333,13 @@ class _Builder:
                 allowed=sections.arm.allowed,
                 **options,
             )
-        self.warnings += [f"{self.document.where(('arm',))}: {line}" for line in lines]
+        for line in lines:
+            about: Place = ("arm",)
+            if line.startswith("the hull"):
+                about = ("hull",)
+            elif line.startswith("keep-out"):
+                about = ("keepouts",)
+            self.warnings.append(f"{self.document.where(about)}: {line}")
         return workspace
 
     def apart(self, hull: Hull, scene: Scene, vehicle: own.VehicleSection) -> list[str]:

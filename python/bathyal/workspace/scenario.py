@@ -76,7 +76,8 @@ class Scenario:
             return self.target_names.index(target)
         if isinstance(target, (int, np.integer)) and 0 <= target < len(self.targets):
             return int(target)
-        known = ", ".join(self.target_names) or "none: the scenario has no targets"
+        names = ", ".join(self.target_names)
+        known = f"one of {names}" if names else "a scenario with targets"
         raise argument_error("target", known, repr(target))
 
 

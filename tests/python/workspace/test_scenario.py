@@ -66,7 +66,7 @@ def test_the_values_of_a_file_arrive(scenario_file):
     np.testing.assert_allclose(read.workspace.mount[:3, 0], [0, 0, -1], atol=1e-15)
     assert read.row_of(None) == 0
     assert read.row_of("port") == 1
-    with pytest.raises(ValueError, match=r"`target`: expected 1, port, got 'starboard'"):
+    with pytest.raises(ValueError, match=r"`target`: expected one of 1, port, got 'starboard'"):
         read.row_of("starboard")
 
 
@@ -312,3 +312,23 @@ def test_every_key_is_on_the_page_of_the_format():
     generated = set(sections.SeabedSection.model_fields) - {"size", "spacing", "center", "seed"}
     absent = {key for key in keys - generated if f"`{key.removesuffix('_deg')}`" not in text}
     assert absent == set()
+
+
+@pytest.mark.parametrize(
+    ("text", "where", "words"),
+    [
+        (
+            "arm: {name: panda}\ntargets:\n  - {name: a, point: [1, 0, 0]}\n"
+            "  - {name: a, point: [2, 0, 0]}\n",
+            "4:", "a name of its own",
+        ),
+        ("arm: {name: panda}\nkeepouts: [{shape: sphere, radius: 1, frame: lnk}]\n", "2:", "lnk"),
+        ('arm: {name: panda}\nhull: {mesh: "a\\0b.stl"}\n', "2:", "null"),
+    ],
+)  # fmt: skip
+def test_what_the_engine_would_not_place_is_placed(tmp_path, text, where, words) -> None:
+    path = tmp_path / "scenario.yaml"
+    path.write_text(text)
+    with pytest.raises((bathyal.Error, OSError), match=words) as caught:
+        bathyal.read_scenario(path)
+    assert f"scenario.yaml:{where}" in str(caught.value)
