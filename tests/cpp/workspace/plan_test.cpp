@@ -146,7 +146,7 @@ Surroundings random_world(const Arm& arm, std::uint64_t seed) {
 TEST(PlanMotion, PathsInRandomWorldsAreFreeWhereverTheyAreSampled) {
   const Arm arm = panda();
   int around_something = 0;
-  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+  for (std::uint64_t seed = 0; seed < 8; ++seed) {
     const Workspace ws(arm, random_world(arm, seed));
     const JointMatrix drawn = random_poses(arm, 200, seed);
     std::vector<Joints> ends;
@@ -162,7 +162,7 @@ TEST(PlanMotion, PathsInRandomWorldsAreFreeWhereverTheyAreSampled) {
     around_something += ws.check_motion(view_of(line)).free ? 0 : 1;
     expect_sound(ws, plan_motion(ws, ends[0], ends[1]), ends[0], std::to_string(seed).c_str());
   }
-  EXPECT_GE(around_something, 8);
+  EXPECT_GE(around_something, 3);
 }
 
 TEST(PlanMotion, PosesAndPointsAreReachedInTheWorld) {

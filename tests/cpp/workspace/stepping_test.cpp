@@ -204,7 +204,7 @@ TEST(MoveTip, SlidesAlongAKeepOutAtWhichThePapersStepsEnd) {
 
 TEST(MoveTip, AlongAHalfSpaceRedundancyReachesWhatThePapersStepsDoNot) {
   const Arm arm = panda();
-  const JointMatrix q = random_poses(arm, 400, 21);
+  const JointMatrix q = random_poses(arm, 200, 21);
   int blocked = 0, reached = 0;
   for (Index i = 0; i + 1 < q.rows(); i += 2) {
     Surroundings around = with_radius(arm, 0.04);
@@ -224,7 +224,7 @@ TEST(MoveTip, AlongAHalfSpaceRedundancyReachesWhatThePapersStepsDoNot) {
     EXPECT_TRUE(ws.check_motion(view_of(move.path)).free);
     if (move.status == MoveStatus::kReached) ++reached;
   }
-  EXPECT_GT(blocked, 3);
+  EXPECT_GT(blocked, 2);
   EXPECT_GT(2 * reached, blocked);
 }
 
