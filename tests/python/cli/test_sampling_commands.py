@@ -190,4 +190,4 @@ def test_a_target_that_is_refused_is_no_plan(scene, capsys, tmp_path):
     assert json.loads((tmp_path / "sample" / "summary.json").read_text())["status"] == "forbidden"
     code, _, err = run(capsys, "sample", scene, "--target", "under", "-o", "sample")
     assert code == 1
-    assert "`target`: expected inside, ahead, port, got 'under'" in err
+    assert "`target`: expected one of inside, ahead, port, got 'under'" in err
