@@ -429,8 +429,9 @@ std::optional<Value> copy_of(const std::optional<Value>& value) {
 }
 
 void add_values(py::class_<Workspace>& cls) {
-  cls.def_property_readonly("arm", &Workspace::arm,
-                            "Its base is the mount, in the vehicle's frame.")
+  cls.def_property_readonly(
+         "arm", [](const Workspace& ws) { return Arm(ws.arm()); },
+         "A copy. Its base is the mount, in the vehicle's frame.")
       .def_property_readonly(
           "mount",
           [](const Workspace& ws) { return to_numpy(ws.surroundings().vehicle_from_base); },

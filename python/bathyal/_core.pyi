@@ -3564,7 +3564,7 @@ class Workspace:
     @property
     def arm(self) -> Arm:
         """
-        Its base is the mount, in the vehicle's frame.
+        A copy. Its base is the mount, in the vehicle's frame.
         """
     @property
     def attached(self) -> RigidBody:
