@@ -128,8 +128,18 @@ inline py::array to_numpy(const Vec3& vector) {
 
 /// (4, 4)
 inline py::array to_numpy(const Pose& pose) {
-  const Eigen::Matrix<double, 4, 4, Eigen::RowMajor> matrix = pose.matrix();
-  return to_numpy(std::vector<double>(matrix.data(), matrix.data() + 16), {4});
+  const std::array<double, 16> numbers = row_major(pose);
+  return to_numpy(std::vector<double>(numbers.begin(), numbers.end()), {4});
+}
+
+/// (N, 4, 4)
+inline py::array to_numpy(const std::vector<Pose>& poses) {
+  std::vector<double> values;
+  for (const Pose& pose : poses) {
+    const std::array<double, 16> numbers = row_major(pose);
+    values.insert(values.end(), numbers.begin(), numbers.end());
+  }
+  return to_numpy(std::move(values), {4, 4});
 }
 
 /// Rows of shape `tail`: (N, …), or as (…) the only one of a single argument.

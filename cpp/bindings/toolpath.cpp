@@ -119,13 +119,9 @@ void add_array(py::class_<Result, Pointer<Result>>& cls, const char* name, Field
 }
 
 py::array frames(const ToolPath& path) {
-  std::vector<double> values;
-  values.reserve(16 * path.size());
-  for (std::size_t j = 0; j < path.size(); ++j) {
-    const Eigen::Matrix<double, 4, 4, Eigen::RowMajor> frame = path.frame(j).matrix();
-    values.insert(values.end(), frame.data(), frame.data() + 16);
-  }
-  return to_numpy(std::move(values), {4, 4});
+  std::vector<Pose> poses;
+  for (std::size_t j = 0; j < path.size(); ++j) poses.push_back(path.frame(j));
+  return to_numpy(poses);
 }
 
 void bind_targets(py::module_& module) {

@@ -74,15 +74,6 @@ std::vector<double> numbers(const Values& values) {
   return {values.data(), values.data() + values.rows()};
 }
 
-py::array stacked(const std::vector<Pose>& poses) {
-  std::vector<double> values;
-  for (const Pose& pose : poses) {
-    const Eigen::Matrix<double, 4, 4, Eigen::RowMajor> matrix = pose.matrix();
-    values.insert(values.end(), matrix.data(), matrix.data() + 16);
-  }
-  return to_numpy(std::move(values), {4, 4});
-}
-
 Trajectory sampled(std::string_view name, const py::object& function, double start, double end,
                    double step) {
   if (!(step > 0.0) || !(end > start) || !((end - start) / step < 1e6)) {
@@ -131,7 +122,7 @@ void bind_trajectory(py::module_& module) {
           "time", [](const Trajectory& t) { return to_numpy(std::vector<double>(t.time())); },
           "(K,) rising [s].")
       .def_property_readonly(
-          "pose", [](const Trajectory& t) { return stacked(t.pose()); },
+          "pose", [](const Trajectory& t) { return to_numpy(t.pose()); },
           "(K, 4, 4) target_from_source.")
       .def(
           "at",
@@ -145,7 +136,7 @@ void bind_trajectory(py::module_& module) {
               check_finite("time", at);
               poses.push_back(t.at(at));
             }
-            const py::array rows = stacked(poses);
+            const py::array rows = to_numpy(poses);
             return single ? py::array(rows[py::int_(0)]) : rows;
           },
           py::arg("time"),
@@ -159,7 +150,7 @@ void bind_trajectory(py::module_& module) {
            })
       .def(py::pickle(
           [](const Trajectory& t) {
-            return py::make_tuple(to_numpy(std::vector<double>(t.time())), stacked(t.pose()));
+            return py::make_tuple(to_numpy(std::vector<double>(t.time())), to_numpy(t.pose()));
           },
           [](const py::tuple& state) {
             return Trajectory(numbers(values_argument("time", state[0])),

@@ -17,6 +17,7 @@
 #include "enum_names.hpp"
 #include "hooks.hpp"
 #include "trajectory.hpp"
+#include "workspace_answers.hpp"
 #include "workspace_class_docs.hpp"
 
 namespace bathyal::python {
@@ -37,6 +38,15 @@ py::array text_array(const std::vector<std::string>& values) {
 OneOrArray<py::str> texts(const std::vector<std::string>& values, bool single) {
   if (single) return py::str(values.front());
   return text_array(values);
+}
+
+std::vector<double> posture_argument(std::string_view name, const py::object& object, Index size) {
+  if (object.is_none()) return {};
+  const Values values = values_argument(name, object);
+  if (values.rows() != size) {
+    throw_argument(name, std::to_string(size) + " values", std::to_string(values.rows()));
+  }
+  return {values.data(), values.data() + values.rows()};
 }
 
 std::vector<double> coordinates_argument(std::string_view name, const py::object& object,
@@ -99,206 +109,6 @@ Vec6 pose_std_argument(const OptionalArray& given) {
                    std::to_string(values.rows()));
   }
   return values.view();
-}
-
-std::string name_of_link(const Workspace& ws, int link) {
-  return link < 0 ? "" : link_name(ws.arm(), link);
-}
-
-std::string obstacle_name(const Workspace& ws, int obstacle) {
-  return obstacle < 0 ? "" : ws.obstacles()[static_cast<std::size_t>(obstacle)];
-}
-
-/// What clearance() returns; of a single posture without the first dimension.
-struct ClearanceRows {
-  Workspace workspace;
-  std::vector<Clearance> rows;
-  bool single = false;
-
-  template <class Get>
-  OneOrArray<py::float_> numbers(const Get& get) const {
-    std::vector<double> values;
-    for (const Clearance& row : rows) values.push_back(get(row));
-    return numbers_of_rows(std::move(values), single);
-  }
-  template <class Get>
-  OneOrArray<py::str> names(const Get& get) const {
-    std::vector<std::string> values;
-    for (const Clearance& row : rows) values.push_back(get(row));
-    return texts(values, single);
-  }
-  template <class Get>
-  py::array points(const Get& get) const {
-    std::vector<double> values;
-    for (const Clearance& row : rows) {
-      const Vec3 point = get(row);
-      values.insert(values.end(), point.begin(), point.end());
-    }
-    return to_numpy(std::move(values), single, {3});
-  }
-};
-
-/// What check_motion() returns, with names.
-struct NamedMotionCheck {
-  MotionCheck check;
-  std::string link, against;
-};
-
-struct TargetRows {
-  std::vector<TargetCheck> rows;
-  Index size = 0;
-};
-
-const EnumNames<TargetIndicator>& target_names() {
-  static const EnumNames<TargetIndicator> names{{"hull", TargetIndicator::kHull},
-                                                {"keepout", TargetIndicator::kKeepOut},
-                                                {"ground", TargetIndicator::kGround},
-                                                {"unreachable", TargetIndicator::kUnreachable},
-                                                {"collision", TargetIndicator::kCollision},
-                                                {"limit", TargetIndicator::kLimit},
-                                                {"free", TargetIndicator::kFree}};
-  return names;
-}
-
-void bind_capsule(py::module_& module) {
-  py::class_<Capsule>(module, "Capsule", workspace_docs::kCapsule)
-      .def(py::init([](const ArrayLike& start, const ArrayLike& end, double radius) {
-             const Capsule made{vector_argument("start", start), vector_argument("end", end),
-                                radius};
-             made.check();
-             return made;
-           }),
-           py::arg("start"), py::arg("end"), py::arg("radius"))
-      .def_property_readonly(
-          "start", [](const Capsule& c) { return to_numpy(c.start); }, "(3,) [m].")
-      .def_property_readonly(
-          "end", [](const Capsule& c) { return to_numpy(c.end); }, "(3,) [m].")
-      .def_readonly("radius", &Capsule::radius, "[m].")
-      .def("__repr__", [](const Capsule& c) {
-        return "Capsule(length=" + to_text((c.end - c.start).norm()) +
-               ", radius=" + to_text(c.radius) + ")";
-      });
-}
-
-void bind_clearances(py::module_& module) {
-  using Rows = ClearanceRows;
-  py::class_<Rows>(module, "Clearances", workspace_docs::kClearances)
-      .def_property_readonly(
-          "distance",
-          [](const Rows& r) { return r.numbers([](const auto& c) { return c.distance; }); },
-          "(N,) smallest distance of any link to hull, keep-outs and scene [m]: below 0 where they "
-          "overlap, inf where there is nothing.")
-      .def_property_readonly(
-          "self_distance",
-          [](const Rows& r) { return r.numbers([](const auto& c) { return c.self_distance; }); },
-          "(N,) smallest distance between the arm's own links [m].")
-      .def_property_readonly(
-          "link",
-          [](const Rows& r) {
-            return r.names([&](const auto& c) { return name_of_link(r.workspace, c.link); });
-          },
-          "(N,) name of the link that is nearest; empty where there is nothing.")
-      .def_property_readonly(
-          "against",
-          [](const Rows& r) {
-            return r.names([&](const auto& c) { return obstacle_name(r.workspace, c.obstacle); });
-          },
-          "(N,) to what: \"hull\", \"scene\" or a keep-out's name.")
-      .def_property_readonly(
-          "point",
-          [](const Rows& r) { return r.points([](const auto& c) { return c.obstacle_point; }); },
-          "(N, 3) the nearest point of that, in the vehicle's frame [m]; nan where there is "
-          "nothing.")
-      .def_property_readonly(
-          "link_point",
-          [](const Rows& r) { return r.points([](const auto& c) { return c.axis_point; }); },
-          "(N, 3) the nearest point on the axis of the link's capsule, in the vehicle's frame [m].")
-      .def("__len__", [](const Rows& r) { return r.rows.size(); })
-      .def("__repr__", [](const Rows& r) {
-        double least = std::numeric_limits<double>::infinity();
-        for (const Clearance& row : r.rows) least = std::min(least, row.distance);
-        return "Clearances(" + counted(static_cast<long>(r.rows.size()), "posture") + ", least " +
-               to_text(least) + " m)";
-      });
-}
-
-void bind_motion_check(py::module_& module) {
-  using Check = NamedMotionCheck;
-  py::class_<Check>(module, "MotionCheck", workspace_docs::kMotionCheck)
-      .def_property_readonly(
-          "free", [](const Check& c) { return c.check.free; }, "Whether there is no contact.")
-      .def_property_readonly(
-          "contact", [](const Check& c) { return c.check.contact; },
-          "Row of the first contact, with the fraction of the way to the next; nan of a free "
-          "motion.")
-      .def_property_readonly(
-          "time", [](const Check& c) { return c.check.time; },
-          "Of the first contact [s]; nan of a free motion, and where no times were given.")
-      .def_readonly("link", &Check::link, "Name of the link that touches; empty of a free motion.")
-      .def_readonly("against", &Check::against,
-                    "What it touches: \"hull\", \"scene\", a keep-out's name or another link's.")
-      .def("__bool__", [](const Check& c) { return c.check.free; })
-      .def("__repr__", [](const Check& c) {
-        if (c.check.free) return std::string("MotionCheck(free)");
-        return "MotionCheck(" + c.link + " against " + c.against + " at row " +
-               to_text(c.check.contact) + ")";
-      });
-}
-
-void bind_target_checks(py::module_& module) {
-  using Rows = TargetRows;
-  py::class_<Rows>(module, "TargetChecks", workspace_docs::kTargetChecks)
-      .def_property_readonly(
-          "status",
-          [](const Rows& r) {
-            std::vector<std::string> names;
-            for (const TargetCheck& row : r.rows) {
-              names.push_back(enum_name(row.status, target_names()));
-            }
-            return text_array(names);
-          },
-          "(N,) the first that holds: \"hull\" (inside it), \"keepout\", \"ground\" (under the "
-          "bottom), \"unreachable\" (within the limits, in any orientation), \"collision\" (only "
-          "by "
-          "postures that touch something), \"limit\" (only with a joint within 0.01 rad, 1 mm of a "
-          "limit), \"free\".")
-      .def_property_readonly(
-          "keepout",
-          [](const Rows& r) {
-            std::vector<std::int32_t> values;
-            for (const TargetCheck& row : r.rows) values.push_back(row.keepout);
-            return to_numpy(std::move(values));
-          },
-          "(N,) index of the keep-out that the point lies in, −1 where none.")
-      .def_property_readonly(
-          "distance",
-          [](const Rows& r) {
-            std::vector<double> values;
-            for (const TargetCheck& row : r.rows) values.push_back(row.distance);
-            return to_numpy(std::move(values));
-          },
-          "(N,) from the point to the nearest of hull, keep-outs and ground [m], below 0 inside; "
-          "inf where there is nothing.")
-      .def_property_readonly(
-          "q",
-          [](const Rows& r) {
-            std::vector<double> values;
-            for (const TargetCheck& row : r.rows) {
-              for (Index k = 0; k < r.size; ++k) {
-                values.push_back(row.q.empty() ? std::numeric_limits<double>::quiet_NaN()
-                                               : row.q[static_cast<std::size_t>(k)]);
-              }
-            }
-            return to_numpy(std::move(values), {r.size});
-          },
-          "(N, n) a posture that reaches the point, the best that was found; nan where there is "
-          "none.")
-      .def("__len__", [](const Rows& r) { return r.rows.size(); })
-      .def("__repr__", [](const Rows& r) {
-        const auto free = std::ranges::count(r.rows, TargetIndicator::kFree, &TargetCheck::status);
-        return "TargetChecks(" + std::to_string(free) + " of " + std::to_string(r.rows.size()) +
-               " free)";
-      });
 }
 
 Workspace make_workspace(const Arm& arm, const OptionalArray& mount, std::optional<Hull> hull,
@@ -414,6 +224,8 @@ void add_variants(py::class_<Workspace>& cls) {
       py::arg("capsules"), py::arg("body") = py::none(), workspace_docs::kAttach);
   cls.def("detach", &Workspace::detach, py::call_guard<py::gil_scoped_release>(),
           "Another workspace without what was attached; ValueError where nothing was.");
+  cls.def("with_tip_depth", &Workspace::with_tip_depth, py::arg("tip_depth"),
+          py::call_guard<py::gil_scoped_release>(), workspace_docs::kWithTipDepth);
   cls.def(
       "with_vehicle_pose",
       [](const Workspace& ws, const PoseLike& vehicle_pose) {
@@ -455,6 +267,9 @@ void add_values(py::class_<Workspace>& cls) {
       .def_property_readonly(
           "attached", [](const Workspace& ws) { return ws.attached(); },
           "RigidBody of what is attached, in the tool's frame; without mass where nothing is.")
+      .def_property_readonly(
+          "tip_depth", [](const Workspace& ws) { return ws.surroundings().tip_depth; },
+          "How deep the end of the tool may be in the scene with ``tip_contact=True`` [m].")
       .def_property_readonly(
           "moves", &Workspace::moves,
           "Whether distances depend on the time: the vehicle or a keep-out moves.")
@@ -501,10 +316,7 @@ void add_values(py::class_<Workspace>& cls) {
 }  // namespace
 
 void bind_workspace_class(py::module_& module) {
-  bind_capsule(module);
-  bind_clearances(module);
-  bind_motion_check(module);
-  bind_target_checks(module);
+  bind_workspace_answers(module);
   bind_motion_plan(module);
   bind_static_trim(module);
   bind_reach(module);

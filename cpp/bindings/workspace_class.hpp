@@ -36,6 +36,7 @@ void add_statics(py::class_<Workspace>& cls);
 
 /// SamplingPhase, SamplingPlan, plan_sampling; after Workspace.
 void bind_sampling(py::module_& module);
+
 /// TipMove and FollowedPath; before the methods that return them.
 void bind_tip_motions(py::module_& module);
 
@@ -49,6 +50,9 @@ inline JointView joint_view(const Rows& rows) {
 /// One number for all coordinates, or (n,); nothing of None.
 std::vector<double> coordinates_argument(std::string_view name, const py::object& object,
                                          Index size);
+
+/// (n,) values of a posture; nothing of None.
+std::vector<double> posture_argument(std::string_view name, const py::object& object, Index size);
 
 /// Read-only array of text.
 py::array text_array(const std::vector<std::string>& values);

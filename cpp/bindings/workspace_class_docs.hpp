@@ -92,8 +92,8 @@ q : (N, n) or (n,) array
 time : float or (N,) array
     [s]; matters where the vehicle or a keep-out moves.
 tip_contact : bool
-    Whether the end of the tool may touch the scene: its last two radii (at least 1 mm) are then not
-    compared with it.
+    Whether the end of the tool may touch the scene: what lies within two radii (at least 1 mm) and
+    `tip_depth` of the tip is then not compared with it.
 num_threads : int
     0 means all.
 
@@ -202,6 +202,26 @@ Returns
 -------
 Workspace
     Another one; this one stays as it is.
+)";
+
+inline constexpr const char* kWithTipDepth =
+    R"(The same workspace, the tool allowed deeper into the scene.
+
+Parameters
+----------
+tip_depth : float
+    How deep the end of the tool may be in the scene with ``tip_contact=True`` [m], 0 or more: of a
+    plan of `plan_sampling` its `depth`.
+
+Returns
+-------
+Workspace
+    Another one; this one stays as it is.
+
+Raises
+------
+ValueError
+    For a depth that is negative or not finite.
 )";
 
 inline constexpr const char* kPlaceCapsules = R"(The arm's capsules in postures.

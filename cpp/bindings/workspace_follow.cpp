@@ -74,14 +74,6 @@ std::pair<Pose, InverseTask> move_target(const OptionalArray& point, const Optio
   return {Pose(Eigen::Translation3d(vector_argument("point", point))), InverseTask::kPosition};
 }
 
-std::vector<double> posture_argument(std::string_view name, const py::object& object, Index size) {
-  const Values values = values_argument(name, object);
-  if (values.rows() != size) {
-    throw_argument(name, std::to_string(size) + " values", std::to_string(values.rows()));
-  }
-  return {values.data(), values.data() + values.rows()};
-}
-
 void add_move(py::class_<Workspace>& cls) {
   const MoveOptions defaults;
   cls.def(
@@ -151,7 +143,7 @@ void add_follow_path(py::class_<Workspace>& cls) {
          std::uint64_t seed) {
         const Index size = ws.arm().size();
         FollowOptions options;
-        if (!q_start.is_none()) options.q_start = posture_argument("q_start", q_start, size);
+        options.q_start = posture_argument("q_start", q_start, size);
         options.task = enum_argument("task", task, tip_task_names());
         options.position_tolerance = position_tolerance;
         options.angle_tolerance = angle_tolerance;

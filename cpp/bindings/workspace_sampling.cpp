@@ -17,25 +17,6 @@
 namespace bathyal::python {
 namespace {
 
-std::vector<double> posture_argument(std::string_view name, const py::object& object, Index size) {
-  if (object.is_none()) return {};
-  const Values values = values_argument(name, object);
-  if (values.rows() != size) {
-    throw_argument(name, std::to_string(size) + " values", std::to_string(values.rows()));
-  }
-  return {values.data(), values.data() + values.rows()};
-}
-
-/// (N, 4, 4)
-py::array tip_poses(const std::vector<Pose>& poses) {
-  std::vector<double> values;
-  for (const Pose& pose : poses) {
-    const Eigen::Matrix<double, 4, 4, Eigen::RowMajor> matrix = pose.matrix();
-    values.insert(values.end(), matrix.data(), matrix.data() + 16);
-  }
-  return to_numpy(std::move(values), {4, 4});
-}
-
 py::array copied(const std::vector<double>& values, std::vector<py::ssize_t> tail = {}) {
   return to_numpy(std::vector<double>(values), std::move(tail));
 }
@@ -61,7 +42,7 @@ void bind_sampling_phase(py::module_& module) {
           "time", [](const Phase& p) { return copied(p.time); },
           "(K,) of the rows, rising over all phases [s].")
       .def_property_readonly(
-          "tip", [](const Phase& p) { return tip_poses(p.tip); },
+          "tip", [](const Phase& p) { return to_numpy(p.tip); },
           "(K, 4, 4) vehicle_from_tool of each row.")
       .def_property_readonly(
           "retreat", [](const Phase& p) { return to_numpy(p.retreat); },

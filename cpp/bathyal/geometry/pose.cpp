@@ -17,4 +17,16 @@ void check_rigid(std::string_view name, const Pose& pose) {
   }
 }
 
+std::array<double, 16> row_major(const Pose& pose) {
+  std::array<double, 16> numbers;
+  Eigen::Map<Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(numbers.data()) = pose.matrix();
+  return numbers;
+}
+
+Pose pose_of_rows(const double* numbers) {
+  Pose pose;
+  pose.matrix() = Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(numbers);
+  return pose;
+}
+
 }  // namespace bathyal

@@ -213,6 +213,15 @@ Workspace Workspace::with_vehicle_pose(Trajectory world_from_vehicle) const {
   return workspace;
 }
 
+Workspace Workspace::with_tip_depth(double tip_depth) const {
+  State deeper = *state_;
+  deeper.surroundings.tip_depth = tip_depth;
+  deeper.bodies = workspace::make_bodies(deeper.bodies.arm, deeper.surroundings);
+  Workspace workspace = *this;
+  workspace.state_ = std::make_shared<const State>(std::move(deeper));
+  return workspace;
+}
+
 Workspace Workspace::attach(std::span<const Capsule> capsules, const RigidBody& body) const {
   body.check("body");
   for (const Capsule& capsule : capsules) capsule.check("capsules");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <memory>
@@ -38,6 +39,7 @@ struct Surroundings {
   std::vector<LinkCapsule> capsules;
   /// Pairs of links, by index, that may touch.
   std::vector<std::pair<int, int>> allowed;
+  double tip_depth = 0.0;  ///< to which the tool may be in the scene with TipContact::kAllowed [m]
 };
 
 /// Two bodies that are not compared, and why.
@@ -59,10 +61,13 @@ struct Clearance {
   Vec3 obstacle_point = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
   double self_distance = std::numeric_limits<double>::infinity();  ///< between the arm's own links
   std::pair<int, int> self_links{-1, -1};
+
+  double least() const { return std::min(distance, self_distance); }
 };
 
-/// Whether the end of the tool may touch the scene: it must, to take a sample. Its last two radii
-/// (at least 1 mm) are then not compared with the scene; all the rest of the arm is.
+/// Whether the end of the tool may touch the scene: it must, to take a sample. What lies within two
+/// radii (at least 1 mm) and Surroundings::tip_depth of the tip is then not compared with the
+/// scene; all the rest of the arm is.
 enum class TipContact { kForbidden, kAllowed };
 
 struct MotionOptions {
@@ -171,6 +176,10 @@ class Workspace {
 
   /// The same, the vehicle elsewhere. Shares what it can.
   Workspace with_vehicle_pose(Trajectory world_from_vehicle) const;
+
+  /// The same, with another Surroundings::tip_depth.
+  /// \throw std::invalid_argument for one that is negative or not finite.
+  Workspace with_tip_depth(double tip_depth) const;
 
   /// The same with a tool or a sample in the arm's hand: capsules fixed to the last link, in the
   /// tool's frame, and what it weighs, in the tool's frame. They are not compared with the last

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstdlib>
 #include <functional>
-#include <numbers>
 #include <optional>
 #include <string>
 #include <utility>
@@ -14,13 +13,12 @@
 #include "bathyal/arm/kinematics.hpp"
 #include "bathyal/base/check.hpp"
 #include "bathyal/base/error.hpp"
-#include "bathyal/base/random.hpp"
+#include "bathyal/workspace/internal/postures.hpp"
 
 namespace bathyal::workspace {
 namespace {
 
 constexpr int kSampledPostures = 64;
-constexpr double kLeastSlide = 1.0;  // of a sliding joint without limits, either way [m]
 
 void check_link(std::string_view name, int link, const Arm& arm) {
   if (link >= 0 && link < std::ssize(arm.links())) return;
@@ -33,6 +31,7 @@ void check(const Surroundings& surroundings, const Arm& arm) {
   for (const double value : surroundings.vehicle_pose_std) {
     check_not_negative("vehicle_pose_std", value);
   }
+  check_not_negative("tip_depth", surroundings.tip_depth);
   if (surroundings.vehicle_body) surroundings.vehicle_body->check("vehicle_body");
   for (const LinkCapsule& capsule : surroundings.capsules) {
     check_link("capsules", capsule.link, arm);
@@ -136,7 +135,8 @@ void exclude_what_always_touches(Bodies& bodies) {
   const Trajectory at_rest;  // hull and links move with the vehicle
   Posture posture(bodies, at_rest);
   for (int i = 0; i < kSampledPostures && !always.empty(); ++i) {
-    posture.set(drawn_posture(bodies.arm, random), 0.0);
+    const JointRow q = drawn_posture(bodies.arm, random);
+    posture.set({q.data(), static_cast<std::size_t>(q.size())}, 0.0);
     std::erase_if(always, [&](const ExcludedPair& pair) {
       const auto meets = [&](const Pair& p) {
         if (bodies.link_of(p.capsule) != pair.link) return false;
@@ -181,7 +181,7 @@ std::optional<LinkCapsule> without_ball(const LinkCapsule& capsule, const Vec3& 
 }
 
 /// The pairs of an arm whose tool may touch the scene.
-void spare_the_tip(Bodies& bodies) {
+void spare_the_tip(Bodies& bodies, double depth) {
   constexpr double kLeastReach = 1e-3;  // [m]
   const int last = static_cast<int>(bodies.arm.links().size()) - 1;
   const Vec3 tip = link_from_tool(bodies.arm).translation();
@@ -192,7 +192,8 @@ void spare_the_tip(Bodies& bodies) {
       bodies.with_obstacles_but_tip.push_back(pair);
       continue;
     }
-    const auto rest = without_ball(capsule, tip, std::max(2.0 * capsule.radius, kLeastReach));
+    const auto rest =
+        without_ball(capsule, tip, depth + std::max(2.0 * capsule.radius, kLeastReach));
     if (!rest) continue;
     bodies.with_obstacles_but_tip.push_back({bodies.capsules.size(), pair.other});
     bodies.capsules.push_back(*rest);
@@ -205,28 +206,6 @@ double farthest(const Capsule& capsule, const Vec3& point) {
 }
 
 }  // namespace
-
-std::vector<double> drawn_posture(const Arm& arm, RandomStream& random) {
-  std::vector<double> q(static_cast<std::size_t>(arm.size()));
-  for (const Joint& joint : arm.joints()) {
-    if (joint.coordinate < 0 || !joint.follows.empty()) continue;
-    const Index k = joint.coordinate;
-    double low = arm.lower()[k], high = arm.upper()[k];
-    const double span = joint.type == JointType::kPrismatic
-                            ? 2.0 * std::max(kLeastSlide, chain_length(arm))
-                            : 2.0 * std::numbers::pi;
-    if (!std::isfinite(low) && !std::isfinite(high)) {
-      low = -0.5 * span;
-      high = 0.5 * span;
-    } else if (!std::isfinite(low)) {
-      low = high - span;
-    } else if (!std::isfinite(high)) {
-      high = low + span;
-    }
-    q[static_cast<std::size_t>(k)] = random.uniform(low, high);
-  }
-  return q;
-}
 
 Pose link_from_tool(const Arm& arm) {
   return arm.links().back().row_from_link.inverse() * arm.flange() * arm.tool();
@@ -243,7 +222,7 @@ Bodies make_bodies(Arm arm, const Surroundings& surroundings) {
   bodies.obstacles = obstacles_of(surroundings, bodies.arm);
   pair_up(bodies, surroundings);
   exclude_what_always_touches(bodies);
-  spare_the_tip(bodies);
+  spare_the_tip(bodies, surroundings.tip_depth);
   return bodies;
 }
 

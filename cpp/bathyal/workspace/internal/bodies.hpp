@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "bathyal/arm/row_frames.hpp"
-#include "bathyal/base/random.hpp"
 #include "bathyal/workspace/arm_shape.hpp"
 #include "bathyal/workspace/internal/obstacle.hpp"
 #include "bathyal/workspace/workspace.hpp"
@@ -41,9 +40,6 @@ struct Bodies {
     return obstacles[obstacle].frame() == kWorldFrame;
   }
 };
-
-/// Within the limits; within half a turn, or the arm's length, where there are none.
-std::vector<double> drawn_posture(const Arm& arm, RandomStream& random);
 
 /// Of the last link.
 Pose link_from_tool(const Arm& arm);

@@ -6,9 +6,8 @@
 #include <tuple>
 #include <utility>
 
-#include "bathyal/arm/inverse.hpp"
 #include "bathyal/base/parallel.hpp"
-#include "bathyal/base/random.hpp"
+#include "bathyal/workspace/internal/postures.hpp"
 
 namespace bathyal::workspace {
 namespace {
@@ -52,10 +51,6 @@ TargetCheck check_point(const Workspace& workspace, const Bodies& bodies, const 
   return found;
 }
 
-std::vector<double> as_target(const Vec3& position) {
-  return {1, 0, 0, position.x(), 0, 1, 0, position.y(), 0, 0, 1, position.z(), 0, 0, 0, 1};
-}
-
 bool at_limit(const Arm& arm, const double* q) {
   for (const Joint& joint : arm.joints()) {
     if (joint.coordinate < 0) continue;
@@ -69,32 +64,20 @@ bool at_limit(const Arm& arm, const double* q) {
 /// Postures whose tip is in the point, each from a start of its own; the first by all of the
 /// search.
 JointMatrix postures(const Arm& arm, const Vec3& point, const TargetQuery& query) {
+  Pose target = Pose::Identity();
+  target.translation() = point;
   InverseOptions options{.task = InverseTask::kPosition, .num_threads = 1};
   options.seed = query.seed;
-  const InverseResult found = inverse(arm, as_target(point), JointView(nullptr, 0, 0), options);
+  const InverseResult found = inverse(arm, row_major(target), JointView(nullptr, 0, 0), options);
   if (found.status[0] != InverseStatus::kReached) return JointMatrix(0, arm.size());
   JointMatrix starts(kPostures, arm.size());
   RandomStream random(query.seed);
-  for (Index i = 0; i < kPostures; ++i) {
-    const std::vector<double> q = drawn_posture(arm, random);
-    starts.row(i) = Eigen::Map<const Eigen::RowVectorXd>(q.data(), arm.size());
-  }
-  std::vector<double> targets;
-  for (Index i = 0; i < kPostures; ++i) {
-    const std::vector<double> target = as_target(point);
-    targets.insert(targets.end(), target.begin(), target.end());
-  }
+  for (Index i = 0; i < kPostures; ++i) starts.row(i) = drawn_posture(arm, random);
   options.max_starts = 1;
-  const InverseResult others = inverse(arm, targets, view_of(starts), options);
-  JointMatrix q(kPostures + 1, arm.size());
-  q.row(0) = found.q.row(0);
-  Index count = 1;
-  for (Index i = 0; i < kPostures; ++i) {
-    if (others.status[static_cast<std::size_t>(i)] == InverseStatus::kReached) {
-      q.row(count++) = others.q.row(i);
-    }
-  }
-  return q.topRows(count);
+  const JointMatrix others = reached_postures(arm, target, starts, options).q;
+  JointMatrix q(others.rows() + 1, arm.size());
+  q << found.q, others;
+  return q;
 }
 
 /// Which of the postures is best: free and away from the limits, free at one, in collision; among
@@ -104,7 +87,7 @@ void check_postures(const Workspace& workspace, const JointMatrix& q, double tim
   const std::vector<Clearance> clear =
       workspace.clearance(view_of(q), {&time, 1}, TipContact::kAllowed, 1);
   const auto rank = [&](std::size_t i) {
-    const double room = std::min(clear[i].distance, clear[i].self_distance);
+    const double room = clear[i].least();
     const bool free = room > 0.0;
     const bool limited = at_limit(workspace.arm(), q.data() + static_cast<Index>(i) * q.cols());
     return std::tuple(free, free && !limited, room);

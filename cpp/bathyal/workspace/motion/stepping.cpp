@@ -54,13 +54,12 @@ std::string reason_of(const Workspace& ws, const Move& move) {
 /// be.
 InverseStatus inverse_status(const Workspace& ws, const workspace::TipTarget& target,
                              std::span<const double> q_start) {
-  const Eigen::Matrix<double, 4, 4, Eigen::RowMajor> matrix = target.pose.matrix();
   InverseOptions options;
   options.task = target.task;
   options.axis = target.axis;
   options.num_threads = 1;
   const JointView start(q_start.data(), 1, ws.arm().size());
-  return inverse(ws.arm(), {matrix.data(), 16}, start, options).status[0];
+  return inverse(ws.arm(), row_major(target.pose), start, options).status[0];
 }
 
 void explain(const Workspace& ws, const TipMotion& motion, const workspace::TipTarget& target,

@@ -5,8 +5,7 @@
 #include <cmath>
 
 #include "bathyal/base/check.hpp"
-#include "bathyal/base/random.hpp"
-#include "bathyal/workspace/internal/bodies.hpp"
+#include "bathyal/workspace/internal/postures.hpp"
 #include "bathyal/workspace/sampling/internal/sampling_loads.hpp"
 #include "bathyal/workspace/sampling/internal/sampling_search.hpp"
 
@@ -104,15 +103,9 @@ std::vector<double> stowed_posture(const Workspace& workspace, double time, std:
     q(1, k) = std::isfinite(high - low) ? 0.5 * (low + high) : q(0, k);
   }
   RandomStream random(seed);
-  for (Index i = 2; i < q.rows(); ++i) {
-    const std::vector<double> drawn = workspace::drawn_posture(arm, random);
-    q.row(i) = Eigen::Map<const Eigen::RowVectorXd>(drawn.data(), q.cols());
-  }
+  for (Index i = 2; i < q.rows(); ++i) q.row(i) = workspace::drawn_posture(arm, random);
   const std::vector<Clearance> clear = workspace.clearance(view_of(q), {&time, 1});
-  const auto room = [&](Index i) {
-    const Clearance& at = clear[static_cast<std::size_t>(i)];
-    return std::min(at.distance, at.self_distance);
-  };
+  const auto room = [&](Index i) { return clear[static_cast<std::size_t>(i)].least(); };
   Index best = room(0) > 0.0 ? 0 : 1;
   for (Index i = 2; i < q.rows() && !(room(best) > 0.0 && best < 2); ++i) {
     if (room(i) > room(best)) best = i;

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
 
 namespace bathyal::workspace {
 namespace {
@@ -69,16 +68,6 @@ Clearance PlanCheck::clearance(const JointRow& q) const {
   const JointMatrix row = q;
   const double time[] = {options_->time};
   return workspace_->clearance(view_of(row), time, options_->tip_contact, 1)[0];
-}
-
-std::string contact_text(const Workspace& workspace, const Clearance& clearance) {
-  const bool own = clearance.self_distance < clearance.distance;
-  const int link = own ? clearance.self_links.first : clearance.link;
-  if (link < 0) return "something touches";
-  const std::string other =
-      own ? link_name(workspace.arm(), clearance.self_links.second)
-          : workspace.obstacles()[static_cast<std::size_t>(clearance.obstacle)];
-  return link_name(workspace.arm(), link) + " touches " + other;
 }
 
 }  // namespace bathyal::workspace

@@ -4,12 +4,11 @@
 #include <chrono>
 #include <vector>
 
+#include "bathyal/workspace/internal/contact_text.hpp"
+#include "bathyal/workspace/internal/postures.hpp"
 #include "bathyal/workspace/motion/plan.hpp"
 
 namespace bathyal::workspace {
-
-/// Coordinates of one posture.
-using JointRow = Eigen::RowVectorXd;
 
 /// What a planner asks a workspace, counted.
 class PlanCheck {
@@ -50,13 +49,5 @@ class PlanCheck {
   bool late_ = false;
   int used_ = 0;
 };
-
-/// The smaller of the two distances of a posture.
-inline double least(const Clearance& clearance) {
-  return std::min(clearance.distance, clearance.self_distance);
-}
-
-/// "panda_link5 touches hull"
-std::string contact_text(const Workspace& workspace, const Clearance& clearance);
 
 }  // namespace bathyal::workspace

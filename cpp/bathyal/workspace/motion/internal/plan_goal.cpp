@@ -6,8 +6,8 @@
 #include <numbers>
 #include <span>
 
-#include "bathyal/arm/inverse.hpp"
 #include "bathyal/base/error.hpp"
+#include "bathyal/workspace/internal/postures.hpp"
 
 namespace bathyal::workspace {
 namespace {
@@ -39,7 +39,7 @@ GoalPostures of_joints(PlanCheck& check, const JointRow& q) {
 }
 
 struct Aim {
-  std::vector<double> target;  ///< vehicle_from_tool, 16 numbers
+  Pose target;  ///< vehicle_from_tool
   InverseOptions options;
 };
 
@@ -48,29 +48,23 @@ Aim aim_of(const PlanCheck& check, const PlanGoal& goal) {
   const Pose vehicle_from_world =
       check.workspace().surroundings().world_from_vehicle.at(plan.time).inverse();
   Aim aim;
-  Pose tool = Pose::Identity();
+  aim.target = Pose::Identity();
   if (const Pose* pose = std::get_if<Pose>(&goal)) {
-    tool = vehicle_from_world * *pose;
+    aim.target = vehicle_from_world * *pose;
   } else {
-    tool.translation() = vehicle_from_world * std::get<Vec3>(goal);
+    aim.target.translation() = vehicle_from_world * std::get<Vec3>(goal);
     aim.options.task = InverseTask::kPosition;
   }
-  const Eigen::Matrix<double, 4, 4, Eigen::RowMajor> matrix = tool.matrix();
-  aim.target.assign(matrix.data(), matrix.data() + 16);
   aim.options.seed = plan.seed;
   aim.options.num_threads = 1;
   return aim;
 }
 
-/// The postures that are reached from the rows of `starts`.
-InverseResult postures(const Arm& arm, const Aim& aim, const JointMatrix& starts, int max_starts) {
-  std::vector<double> targets;
-  for (Index i = 0; i < starts.rows(); ++i) {
-    targets.insert(targets.end(), aim.target.begin(), aim.target.end());
-  }
+ReachedPostures postures(const Arm& arm, const Aim& aim, const JointMatrix& starts,
+                         int max_starts) {
   InverseOptions options = aim.options;
   options.max_starts = max_starts;
-  return inverse(arm, targets, view_of(starts), options);
+  return reached_postures(arm, aim.target, starts, options);
 }
 
 GoalPostures not_reached(InverseStatus status) {
@@ -111,18 +105,16 @@ GoalPostures of_aim(PlanCheck& check, const JointRow& start, const Aim& aim) {
     }
   };
   const JointMatrix from_start = start;
-  const InverseResult first = postures(arm, aim, from_start, kFirstStarts);
-  if (first.status[0] != InverseStatus::kReached) return not_reached(first.status[0]);
+  const ReachedPostures first = postures(arm, aim, from_start, kFirstStarts);
+  if (first.q.rows() == 0) return not_reached(first.status);
   take(first.q.row(0));
   RandomStream random(check.options().seed, kGoalStream);
   for (int round = 0; round < kMostRounds && std::ssize(found.q) < wanted; ++round) {
     if (round > 0 && (!found.q.empty() || check.spent())) break;
     JointMatrix starts(wanted, start.size());
     for (Index i = 0; i < wanted; ++i) starts.row(i) = drawn_posture(arm, start, random);
-    const InverseResult more = postures(arm, aim, starts, kStarts);
-    for (Index i = 0; i < wanted && std::ssize(found.q) < wanted; ++i) {
-      if (more.status[static_cast<std::size_t>(i)] == InverseStatus::kReached) take(more.q.row(i));
-    }
+    const JointMatrix more = postures(arm, aim, starts, kStarts).q;
+    for (Index i = 0; i < more.rows() && std::ssize(found.q) < wanted; ++i) take(more.row(i));
   }
   if (found.q.empty()) {
     return {{},
@@ -152,20 +144,6 @@ GoalPostures goal_postures(PlanCheck& check, const JointRow& start, const PlanGo
     return of_joints(check, row_of(*joints));
   }
   return of_aim(check, start, aim_of(check, goal));
-}
-
-JointRow drawn_posture(const Arm& arm, const JointRow& middle, RandomStream& random) {
-  JointRow q = middle;
-  const double length = chain_length(arm);
-  for (const Joint& joint : arm.joints()) {
-    const Index k = joint.coordinate;
-    if (k < 0 || !joint.follows.empty()) continue;
-    const double reach = joint.type == JointType::kPrismatic ? length : std::numbers::pi;
-    const double low = arm.lower()[k], high = arm.upper()[k];
-    q[k] = random.uniform(std::isfinite(low) ? low : std::min(middle[k], high) - reach,
-                          std::isfinite(high) ? high : std::max(middle[k], low) + reach);
-  }
-  return q;
 }
 
 }  // namespace bathyal::workspace

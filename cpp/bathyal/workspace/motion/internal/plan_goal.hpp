@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "bathyal/base/random.hpp"
 #include "bathyal/workspace/motion/internal/plan_check.hpp"
 
 namespace bathyal::workspace {
@@ -21,9 +20,5 @@ struct GoalPostures {
 void check_goal(const Arm& arm, const PlanGoal& goal);
 
 GoalPostures goal_postures(PlanCheck& check, const JointRow& start, const PlanGoal& goal);
-
-/// A posture drawn within the limits; of joints without, within half a turn of `middle` (of sliding
-/// ones: within the arm's length).
-JointRow drawn_posture(const Arm& arm, const JointRow& middle, RandomStream& random);
 
 }  // namespace bathyal::workspace

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bathyal/workspace/internal/postures.hpp"
+
 namespace bathyal::workspace {
 namespace {
 
@@ -13,11 +15,6 @@ constexpr double kSame = 0.1;        // postures that differ by less [rad], [m]
 constexpr int kStartsEach = 4;       // of the inverse kinematics, from each drawn posture
 constexpr int kStartsLooking = 16;   // of the inverse kinematics of next_reachable
 constexpr std::int32_t kBlock = 64;  // samples that next_reachable looks at in one go
-
-void append(const Pose& pose, std::vector<double>& targets) {
-  const Eigen::Matrix<double, 4, 4, Eigen::RowMajor> matrix = pose.matrix();
-  targets.insert(targets.end(), matrix.data(), matrix.data() + 16);
-}
 
 VectorXd middle_of_limits(const Arm& arm) {
   VectorXd middle = 0.5 * (arm.lower() + arm.upper());
@@ -52,30 +49,21 @@ std::vector<VectorXd> start_postures(const Workspace& ws, const PathFollower& fo
                                  : VectorXd(Eigen::Map<const VectorXd>(near.data(), arm.size()));
   const Index drawn = 2 * options.candidates;
   JointMatrix starts(drawn, arm.size());
-  std::vector<double> targets;
   RandomStream random(options.seed);
-  for (Index i = 0; i < drawn; ++i) {
-    const std::vector<double> q = drawn_posture(arm, random);
-    starts.row(i) = Eigen::Map<const Eigen::RowVectorXd>(q.data(), arm.size());
-    append(follower.target(sample).pose, targets);
-  }
+  for (Index i = 0; i < drawn; ++i) starts.row(i) = drawn_posture(arm, random);
   starts.row(0) = reference.cwiseMax(arm.lower()).cwiseMin(arm.upper()).transpose();
-  const InverseResult found =
-      inverse(arm, targets, view_of(starts), inverse_options(options, kStartsEach));
-
+  const ReachedPostures found = reached_postures(arm, follower.target(sample).pose, starts,
+                                                 inverse_options(options, kStartsEach));
+  if (found.q.rows() == 0) {
+    set_halt(found.status, halt);
+    return {};
+  }
   std::vector<VectorXd> postures;
-  InverseStatus status = found.status[0];
-  for (Index i = 0; i < drawn; ++i) {
-    if (found.status[static_cast<std::size_t>(i)] != InverseStatus::kReached) continue;
-    status = InverseStatus::kReached;
+  for (Index i = 0; i < found.q.rows(); ++i) {
     const VectorXd q = found.q.row(i).transpose();
     const bool known = std::ranges::any_of(
         postures, [&](const VectorXd& other) { return (q - other).cwiseAbs().maxCoeff() < kSame; });
     if (!known) postures.push_back(q);
-  }
-  if (status != InverseStatus::kReached) {
-    set_halt(status, halt);
-    return {};
   }
   std::erase_if(postures, [&](const VectorXd& q) {
     const JointView one(q.data(), 1, q.size());
@@ -99,7 +87,10 @@ std::int32_t next_reachable(const Workspace& ws, const PathFollower& follower, s
   for (std::int32_t begin = first; begin < follower.size(); begin += kBlock) {
     const std::int32_t end = std::min(follower.size(), begin + kBlock);
     std::vector<double> targets;
-    for (std::int32_t j = begin; j < end; ++j) append(follower.target(j).pose, targets);
+    for (std::int32_t j = begin; j < end; ++j) {
+      const auto numbers = row_major(follower.target(j).pose);
+      targets.insert(targets.end(), numbers.begin(), numbers.end());
+    }
     const InverseResult found = inverse(ws.arm(), targets, JointView(nullptr, 0, ws.arm().size()),
                                         inverse_options(options, kStartsLooking));
     const auto reached = std::ranges::find(found.status, InverseStatus::kReached);

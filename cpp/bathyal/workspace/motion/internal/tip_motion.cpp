@@ -270,11 +270,10 @@ std::vector<double> tip_durations(const Arm& arm, const JointMatrix& rows, doubl
                                   double angular_rate) {
   std::vector<double> least(static_cast<std::size_t>(std::max<Index>(0, rows.rows() - 1)));
   const std::vector<double> poses = forward(arm, view_of(rows), 1);
-  using Matrix4 = Eigen::Matrix<double, 4, 4, Eigen::RowMajor>;
   for (std::size_t i = 0; i < least.size(); ++i) {
-    const Eigen::Map<const Matrix4> from(poses.data() + 16 * i), to(poses.data() + 16 * (i + 1));
-    const double way = (to.topRightCorner<3, 1>() - from.topRightCorner<3, 1>()).norm();
-    const Eigen::Matrix3d turn = to.topLeftCorner<3, 3>() * from.topLeftCorner<3, 3>().transpose();
+    const Pose from = pose_of_rows(&poses[16 * i]), to = pose_of_rows(&poses[16 * (i + 1)]);
+    const double way = (to.translation() - from.translation()).norm();
+    const Eigen::Matrix3d turn = to.linear() * from.linear().transpose();
     const double angle = Eigen::AngleAxisd(turn).angle();
     least[i] = std::max(way / speed, angle / angular_rate);
   }

@@ -30,7 +30,7 @@ JointRow within(const Arm& arm, const JointRow& q) {
 bool leads_out(const PlanCheck& check, const JointRow& from, const JointRow& to) {
   double least_allowed = -std::numeric_limits<double>::infinity();
   for (int i = 0; i <= kSteps; ++i) {
-    const double now = least(check.clearance(from + double(i) / kSteps * (to - from)));
+    const double now = check.clearance(from + double(i) / kSteps * (to - from)).least();
     if (i == 0) least_allowed = now - 1e-9;
     if (now < least_allowed) return false;
     if (now > 0.0) least_allowed = 0.0;

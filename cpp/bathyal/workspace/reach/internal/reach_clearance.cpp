@@ -38,7 +38,7 @@ void look(const Workspace& ws, const ReachArm& arm, const ReachGrid& grid, bool 
   }
   looked.distance.clear();
   for (const Clearance& clear : ws.clearance(view_of(looked.q), {}, TipContact::kAllowed, 1)) {
-    looked.distance.push_back(std::min(clear.distance, clear.self_distance));
+    looked.distance.push_back(clear.least());
   }
 }
 

@@ -11,11 +11,8 @@ namespace {
 
 std::vector<Pose> poses_of(const Arm& arm, const JointMatrix& q, int num_threads) {
   const std::vector<double> values = forward(arm, view_of(q), num_threads);
-  std::vector<Pose> poses(static_cast<std::size_t>(q.rows()), Pose::Identity());
-  for (std::size_t i = 0; i < poses.size(); ++i) {
-    poses[i].matrix() =
-        Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(&values[16 * i]);
-  }
+  std::vector<Pose> poses(static_cast<std::size_t>(q.rows()));
+  for (std::size_t i = 0; i < poses.size(); ++i) poses[i] = pose_of_rows(&values[16 * i]);
   return poses;
 }
 

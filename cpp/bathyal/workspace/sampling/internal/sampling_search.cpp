@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "bathyal/base/error.hpp"
-#include "bathyal/base/random.hpp"
-#include "bathyal/workspace/internal/bodies.hpp"
+#include "bathyal/workspace/internal/contact_text.hpp"
+#include "bathyal/workspace/internal/postures.hpp"
 
 namespace bathyal::workspace {
 namespace {
@@ -26,10 +26,6 @@ std::span<const double> values_of(const JointMatrix& row) {
   return {row.data(), static_cast<std::size_t>(row.size())};
 }
 
-double room(const Clearance& clearance) {
-  return std::min(clearance.distance, clearance.self_distance);
-}
-
 TimedMotion reversed(const TimedMotion& motion) {
   TimedMotion back;
   back.q = motion.q.colwise().reverse();
@@ -39,12 +35,12 @@ TimedMotion reversed(const TimedMotion& motion) {
   return back;
 }
 
-/// Of a Workspace or InBottom.
-template <class Checker>
-MotionCheck checked(const Checker& checker, const TimedMotion& motion, double start) {
+/// From a moment on.
+MotionCheck checked(const Workspace& ws, const TimedMotion& motion, double start,
+                    TipContact tip_contact) {
   std::vector<double> time = motion.time;
   for (double& moment : time) moment += start;
-  return checker.check_motion(view_of(motion.q), {.time = time});
+  return ws.check_motion(view_of(motion.q), {.time = time, .tip_contact = tip_contact});
 }
 
 }  // namespace
@@ -53,11 +49,9 @@ SamplingSearch::SamplingSearch(const Workspace& workspace, const Vec3& target,
                                const SamplingOptions& options)
     : target_(target),
       options_(options),
-      empty_(with_tool(workspace, options)),
+      site_(sampling_site(with_tool(workspace, options), target, options)),
+      empty_(with_tool(workspace, options).with_tip_depth(site_.depth)),
       loaded_(empty_.attach(options.sample.capsules, options.sample.body)),
-      site_(sampling_site(empty_, target, options)),
-      empty_in_bottom_(empty_, site_.depth),
-      loaded_in_bottom_(loaded_, site_.depth),
       limits_(complete_limits(workspace.arm(), options.limits)),
       start_(options.q_start),
       checks_left_(options.max_checks) {
@@ -104,11 +98,8 @@ bool SamplingSearch::check_end(const Workspace& ws, const std::vector<double>& e
     return refuse(SamplingStatus::kStart, "The " + name + " is outside the joint limits.");
   }
   const Clearance clear = ws.clearance(view_of(q), {&options_.time, 1})[0];
-  if (room(clear) > 0.0) return true;
-  const bool own = clear.self_distance <= clear.distance;
-  const std::string against =
-      own ? "itself" : ws.obstacles()[static_cast<std::size_t>(clear.obstacle)];
-  return refuse(SamplingStatus::kStart, "In the " + name + " the arm touches " + against + ".");
+  if (clear.least() > 0.0) return true;
+  return refuse(SamplingStatus::kStart, "In the " + name + " " + contact_text(ws, clear) + ".");
 }
 
 bool SamplingSearch::check_place() {
@@ -141,7 +132,7 @@ std::vector<JointMatrix> SamplingSearch::postures_before_contact() {
   starts.row(0) = one_row(start_);
   RandomStream random(options_.seed);
   for (Index i = 1; i < kSamplingStarts; ++i) {
-    starts.row(i) = one_row(drawn_posture(arm(), random));
+    starts.row(i) = drawn_posture(arm(), random);
   }
   const JointMatrix q = reaching(arm(), site_.before, site_.aim, starts, options_.num_threads);
   refuse(SamplingStatus::kUnreachable, "No posture reaches the place before contact.");
@@ -159,7 +150,7 @@ std::vector<JointMatrix> SamplingSearch::postures_before_contact() {
     const bool known = std::ranges::any_of(postures, [&](const JointMatrix& other) {
       return (other.row(0) - q.row(i)).cwiseAbs().maxCoeff() < kSamePosture;
     });
-    if (known || !(room(clear[static_cast<std::size_t>(i)]) > 0.0)) continue;
+    if (known || !(clear[static_cast<std::size_t>(i)].least() > 0.0)) continue;
     postures.emplace_back(q.row(i));
     if (postures.size() == kSamplingPostures) break;
   }
@@ -206,21 +197,11 @@ bool SamplingSearch::plan_leg(const Workspace& ws, const std::string& name, cons
   return true;
 }
 
-std::string SamplingSearch::link_name(int link) const {
-  const std::string& name = arm().links()[static_cast<std::size_t>(link)].name;
-  return name.empty() ? "link " + std::to_string(link) : name;
-}
-
 bool SamplingSearch::add_in_bottom(std::size_t leg, const std::string& name, TimedMotion motion) {
-  const MotionCheck check = checked(in_bottom(leg), motion, end_);
+  const MotionCheck check = checked(held(leg), motion, end_, TipContact::kAllowed);
   if (!check.free) {
-    // "hull" and the keep-outs come first in either workspace, the scene last.
-    const std::string against =
-        check.obstacle >= 0 ? held(leg).obstacles()[static_cast<std::size_t>(check.obstacle)]
-                            : link_name(check.other_link);
-    return refuse(
-        SamplingStatus::kCollision,
-        "In the phase \"" + name + "\" " + link_name(check.link) + " touches " + against + ".");
+    return refuse(SamplingStatus::kCollision,
+                  "In the phase \"" + name + "\" " + contact_text(held(leg), check) + ".");
   }
   add_leg(name, std::move(motion));
   return true;
@@ -241,9 +222,8 @@ bool SamplingSearch::check_retreats() {
   for (std::size_t i = 0; i < kLegCount; ++i) {
     end += legs_[i].motion.time.back();
     const bool buried = i == kPress || i == kGrab;
-    const TimedMotion& back = legs_[i].retreat;
-    const MotionCheck check =
-        buried ? checked(in_bottom(i), back, end) : checked(held(i), back, end);
+    const MotionCheck check = checked(held(i), legs_[i].retreat, end,
+                                      buried ? TipContact::kAllowed : TipContact::kForbidden);
     if (!check.free) {
       return refuse(SamplingStatus::kNoRetreat,
                     "The way back from \"" + legs_[i].name + "\" is not free when it is needed.");

@@ -38,10 +38,6 @@ class SamplingSearch {
 
  private:
   const Arm& arm() const { return empty_.arm(); }
-  const InBottom& in_bottom(std::size_t leg) const {
-    return leg < kLift ? empty_in_bottom_ : loaded_in_bottom_;
-  }
-  std::string link_name(int link) const;
   bool refuse(SamplingStatus status, std::string reason);
 
   bool check_ends();
@@ -63,10 +59,9 @@ class SamplingSearch {
 
   Vec3 target_;
   SamplingOptions options_;
+  SamplingSite site_;
   Workspace empty_;   ///< with the tool
   Workspace loaded_;  ///< and with the sample
-  SamplingSite site_;
-  InBottom empty_in_bottom_, loaded_in_bottom_;
   MotionLimits limits_;
   std::vector<double> start_, transport_;
   SamplingStatus status_ = SamplingStatus::kPlanned;

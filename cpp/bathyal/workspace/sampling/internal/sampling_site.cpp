@@ -4,9 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <utility>
-
-#include "bathyal/workspace/internal/bodies.hpp"
 
 namespace bathyal::workspace {
 namespace {
@@ -51,42 +48,6 @@ std::optional<double> bottom_beyond(const Workspace& workspace, const Vec3& targ
   return hit.range - standoff;
 }
 
-Workspace without_scene(const Workspace& workspace) {
-  Surroundings around = workspace.surroundings();
-  around.scene.reset();
-  return {workspace.arm(), std::move(around)};
-}
-
-/// What of a capsule lies farther than `reach` from a point: from there to the far end; none where
-/// both ends are near, all of it where neither is.
-std::optional<LinkCapsule> beyond_reach(LinkCapsule capsule, const Vec3& point, double reach) {
-  const bool start_near = (capsule.start - point).norm() < reach;
-  const bool end_near = (capsule.end - point).norm() < reach;
-  if (start_near && end_near) return std::nullopt;
-  if (!start_near && !end_near) return capsule;
-  Vec3& near = start_near ? capsule.start : capsule.end;
-  const Vec3 way = (start_near ? capsule.end : capsule.start) - near, from = near - point;
-  // |from + t way| = reach, the root ahead
-  const double a = way.squaredNorm(), b = from.dot(way), c = from.squaredNorm() - reach * reach;
-  near += (-b + std::sqrt(b * b - a * c)) / a * way;
-  return capsule;
-}
-
-Workspace with_buried_tip(const Workspace& workspace, double depth) {
-  const Arm& arm = workspace.arm();
-  const int last = static_cast<int>(arm.links().size()) - 1;
-  const Vec3 tip = link_from_tool(arm).translation();
-  Surroundings around = workspace.surroundings();
-  std::vector<LinkCapsule> capsules;
-  for (const LinkCapsule& capsule : around.capsules) {
-    const bool of_tool = capsule.link == last && capsule.start_link == last;
-    const auto rest = of_tool ? beyond_reach(capsule, tip, depth + 2.0 * capsule.radius) : capsule;
-    if (rest) capsules.push_back(*rest);
-  }
-  around.capsules = std::move(capsules);
-  return {arm, std::move(around)};
-}
-
 }  // namespace
 
 SamplingSite sampling_site(const Workspace& workspace, const Vec3& target,
@@ -125,17 +86,6 @@ Workspace with_tool(const Workspace& workspace, const SamplingOptions& options) 
     held = held.attach({}, in_frame(workspace.attached(), new_from_old));
   }
   return held.attach(options.tool.capsules, options.tool.body);
-}
-
-InBottom::InBottom(const Workspace& workspace, double depth)
-    : away(without_scene(workspace)), buried(with_buried_tip(workspace, depth)) {}
-
-MotionCheck InBottom::check_motion(JointView q, const MotionOptions& options) const {
-  MotionOptions touching = options;
-  touching.tip_contact = TipContact::kAllowed;
-  const MotionCheck in_scene = buried.check_motion(q, touching);
-  if (!in_scene.free) return in_scene;
-  return away.check_motion(q, options);
 }
 
 }  // namespace bathyal::workspace

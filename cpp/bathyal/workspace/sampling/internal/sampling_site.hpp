@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <optional>
-
 #include "bathyal/workspace/sampling/internal/tip_line.hpp"
 #include "bathyal/workspace/sampling/sampling.hpp"
 
@@ -26,16 +24,5 @@ SamplingSite sampling_site(const Workspace& workspace, const Vec3& target,
 
 /// The workspace with the tool in the arm's hand, and at its pose.
 Workspace with_tool(const Workspace& workspace, const SamplingOptions& options);
-
-/// A workspace whose tool may be in the bottom: as two, which are both to be free.
-struct InBottom {
-  Workspace away;    ///< without the scene
-  Workspace buried;  ///< the last link without what lies within depth + 2 radii of the tip
-
-  InBottom(const Workspace& workspace, double depth);
-
-  /// The first contact of either.
-  MotionCheck check_motion(JointView q, const MotionOptions& options) const;
-};
 
 }  // namespace bathyal::workspace

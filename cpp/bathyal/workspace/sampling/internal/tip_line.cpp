@@ -5,6 +5,8 @@
 #include <cmath>
 #include <vector>
 
+#include "bathyal/workspace/internal/postures.hpp"
+
 namespace bathyal::workspace {
 namespace {
 
@@ -14,11 +16,6 @@ constexpr double kTurnTolerance = 1e-5;    // [rad]
 constexpr double kLargestChange = 0.3;     // of a coordinate in one step [rad], [m]
 constexpr int kHalvings = 4;               // of the steps, until the tip keeps to the line
 constexpr double kCornerTolerance = 2e-4;  // of a coordinate [rad], [m]
-
-void append(const Pose& pose, std::vector<double>& targets) {
-  const Eigen::Matrix<double, 4, 4, Eigen::RowMajor> matrix = pose.matrix();
-  targets.insert(targets.end(), matrix.data(), matrix.data() + 16);
-}
 
 InverseOptions options_of(const TipAim& aim, int num_threads) {
   InverseOptions options{.task = aim.task, .axis = aim.axis};
@@ -76,17 +73,7 @@ Pose TipAim::at(const Vec3& point) const {
 
 JointMatrix reaching(const Arm& arm, const Vec3& point, const TipAim& aim,
                      const JointMatrix& starts, int num_threads) {
-  std::vector<double> targets;
-  for (Index i = 0; i < starts.rows(); ++i) append(aim.at(point), targets);
-  const InverseResult found = inverse(arm, targets, view_of(starts), options_of(aim, num_threads));
-  JointMatrix q(starts.rows(), arm.size());
-  Index count = 0;
-  for (Index i = 0; i < starts.rows(); ++i) {
-    if (found.status[static_cast<std::size_t>(i)] == InverseStatus::kReached) {
-      q.row(count++) = found.q.row(i);
-    }
-  }
-  return q.topRows(count);
+  return reached_postures(arm, aim.at(point), starts, options_of(aim, num_threads)).q;
 }
 
 std::optional<JointMatrix> follow_line(const Arm& arm, std::span<const double> start,
