@@ -3155,8 +3155,8 @@ class Workspace:
         time : float or (N,) array
             [s]; matters where the vehicle or a keep-out moves.
         tip_contact : bool
-            Whether the end of the tool may touch the scene: its last two radii (at least 1 mm) are then not
-            compared with it.
+            Whether the end of the tool may touch the scene: what lies within two radii (at least 1 mm) and
+            `tip_depth` of the tip is then not compared with it.
         num_threads : int
             0 means all.
         
@@ -3511,6 +3511,26 @@ class Workspace:
         >>> round(trim.pitch, 4), trim.status
         (0.2213, 'upright')
         """
+    def with_tip_depth(self, tip_depth: typing.SupportsFloat | typing.SupportsIndex) -> Workspace:
+        """
+        The same workspace, the tool allowed deeper into the scene.
+        
+        Parameters
+        ----------
+        tip_depth : float
+            How deep the end of the tool may be in the scene with ``tip_contact=True`` [m], 0 or more: of a
+            plan of `plan_sampling` its `depth`.
+        
+        Returns
+        -------
+        Workspace
+            Another one; this one stays as it is.
+        
+        Raises
+        ------
+        ValueError
+            For a depth that is negative or not finite.
+        """
     def with_vehicle_pose(self, vehicle_pose: Trajectory | numpy.typing.ArrayLike | collections.abc.Callable[[float], numpy.typing.ArrayLike] | None) -> Workspace:
         """
         Another workspace, the vehicle elsewhere: `vehicle_pose` as of the class.
@@ -3610,6 +3630,11 @@ class Workspace:
     def scene(self) -> Scene | None:
         """
         Scene or None.
+        """
+    @property
+    def tip_depth(self) -> float:
+        """
+        How deep the end of the tool may be in the scene with ``tip_contact=True`` [m].
         """
     @property
     def vehicle_body(self) -> RigidBody | None:
