@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bathyal/sonar/internal/ray_fan.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "bathyal/sonar/internal/beam_pattern.hpp"
+
+namespace bathyal::sonar {
+namespace {
+
+/// Which of a beam's two patterns count on transmit and on receive. A multibeam's swath is
+/// transmitted by one array and received by another, across it; an imaging sonar transmits over all
+/// of its sector.
+bool beam_counts_twice(SonarKind kind) {
+  return kind == SonarKind::kSideScan || kind == SonarKind::kEchoSounder ||
+         kind == SonarKind::kScanning;
+}
+
+double twice(double power, bool counts_twice) { return counts_twice ? power * power : power; }
+
+/// Two-way power of the beam at φ, ψ.
+double two_way(const SonarOptions& options, const Beam& beam, double phi, double psi) {
+  if (options.kind == SonarKind::kEchoSounder) {  // round: by the angle off its axis
+    const double off = std::acos(std::clamp(beam.direction(phi, psi).dot(beam.axis), -1.0, 1.0));
+    if (options.beam_pattern == BeamPattern::kNone) return off <= 0.5 * options.beam_width;
+    return twice(pattern(options.beam_pattern, off, options.beam_width), true);
+  }
+  const double across =
+      pattern(options.beam_pattern, phi - beam.steered, options.beam_width, beam.steered);
+  const double off_axis = psi - (options.tilt - options.axis_tilt);
+  const double along = pattern(options.beam_pattern, off_axis, options.fan_width);
+  return twice(across, beam_counts_twice(options.kind)) *
+         twice(along, options.kind != SonarKind::kMultibeam);
+}
+
+/// The span of ψ that rays cover: of a round beam, that of φ.
+double psi_span(const SonarOptions& options, double phi_span) {
+  return options.kind == SonarKind::kEchoSounder ? phi_span : options.fan_span;
+}
+
+BeamRays angle_rays(const SonarOptions& options, const Beam& beam) {
+  const double quarter = 0.5 * std::numbers::pi;
+  const double reach = reach_of(options.beam_pattern, options.beam_width);
+  const double low = std::max(beam.steered - reach, -quarter);
+  const double high = std::min(beam.steered + reach, quarter);
+  const double span = psi_span(options, 2.0 * reach);
+  const double phi_step = (high - low) / options.rays_across_beam;
+  const double psi_step = span / options.rays_along_fan;
+  BeamRays rays{beam, 0.5 * psi_step, 0.5 * phi_step, {}, {}, {0}};
+  for (int i = 0; i < options.rays_across_beam; ++i) {
+    const double phi = low + (i + 0.5) * phi_step;
+    const double angle =
+        psi_step * (std::sin(phi + rays.half_phi) - std::sin(phi - rays.half_phi));  // solid
+    for (int j = 0; j < options.rays_along_fan; ++j) {
+      const double psi = (j + 0.5) * psi_step - 0.5 * span;
+      const double weight = angle * two_way(options, beam, phi, psi);
+      if (weight <= 0.0) continue;
+      const Vec3 direction = beam.direction(phi, psi).normalized();
+      rays.direction.insert(rays.direction.end(), direction.data(), direction.data() + 3);
+      rays.weight.push_back(weight);
+    }
+    rays.columns.push_back(rays.weight.size());
+  }
+  return rays;
+}
+
+/// Pixels at equal distances in the image plane.
+BeamRays camera_rays(const SonarOptions& options, const Beam& beam) {
+  Beam steered = beam;
+  steered.axis = beam.direction(beam.steered, 0.0);
+  const Vec3 up = beam.up();
+  const Vec3 right = beam.sense * steered.axis.cross(up);
+  const double half_width = std::tan(0.5 * options.beam_width);
+  const double half_height = std::tan(0.5 * psi_span(options, options.beam_width));
+  const auto at = [](int i, int count, double half) {
+    return half * ((2.0 * i + 1.0) / count - 1.0);
+  };
+  const double pixel = 4.0 * half_width * half_height /
+                       (static_cast<double>(options.rays_across_beam) * options.rays_along_fan);
+  BeamRays rays{beam, 0.0, 0.0, {}, {}, {0}};
+  for (int i = 0; i < options.rays_across_beam; ++i) {
+    const double x = at(i, options.rays_across_beam, half_width);
+    for (int j = 0; j < options.rays_along_fan; ++j) {
+      const double y = at(j, options.rays_along_fan, half_height);
+      const Vec3 direction = (steered.axis + x * right + y * up).normalized();
+      const double cosine = direction.dot(steered.axis);
+      const double phi = std::asin(std::clamp(direction.dot(beam.array), -1.0, 1.0));
+      const double psi = std::atan2(direction.dot(up), direction.dot(beam.axis));
+      const double counts = options.pixel_solid_angle ? pixel * cosine * cosine * cosine : 1.0;
+      const double weight = counts * two_way(options, beam, phi, psi);
+      if (weight <= 0.0) continue;
+      rays.direction.insert(rays.direction.end(), direction.data(), direction.data() + 3);
+      rays.weight.push_back(weight);
+    }
+    rays.columns.push_back(rays.weight.size());
+  }
+  return rays;
+}
+
+}  // namespace
+
+std::vector<BeamRays> ray_fans(const SonarOptions& options) {
+  std::vector<BeamRays> fans;
+  for (const Beam& beam : beams_of(options)) {
+    fans.push_back(options.rays == RayModel::kCamera ? camera_rays(options, beam)
+                                                     : angle_rays(options, beam));
+  }
+  return fans;
+}
+
+}  // namespace bathyal::sonar
