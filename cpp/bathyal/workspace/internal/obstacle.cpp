@@ -78,7 +78,7 @@ bool Obstacle::holds(const Vec3& point) const {
   if (const Scene* scene = std::get_if<Scene>(&body_)) {
     if (point.z() > box_.max().z()) return false;
     const RayHit hit = scene->cast(point, Vec3::UnitZ());
-    return hit.mesh >= 0 && hit_normal(scene->meshes(), hit).z() > 0.0;
+    return hit.mesh >= 0 && hit_normal(*scene, hit).z() > 0.0;
   }
   if (!box_.contains(point)) return false;
   bool inside = false;
