@@ -8,73 +8,24 @@
 #include <vector>
 
 #include "bathyal/scene/scene.hpp"
+#include "instances.hpp"
 #include "meshes.hpp"
 #include "rays.hpp"
 
 namespace bathyal {
 namespace {
 
+using test::Cast;
 using test::EveryLevel;
 using test::expect_same_bytes;
+using test::random_pose;
 using test::random_rays;
-using test::random_vector;
 using test::Rays;
+using test::stones;
 using test::view;
 
 constexpr double kInf = std::numeric_limits<double>::infinity();
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-
-/// Meshes at poses, and the same as meshes in the world.
-struct Cast {
-  std::vector<TriangleMesh> meshes;
-  std::vector<Pose> poses;
-  std::vector<double> scales;
-
-  void add(const TriangleMesh& mesh, const Pose& pose = Pose::Identity(), double scale = 1.0) {
-    meshes.push_back(mesh);
-    poses.push_back(pose);
-    scales.push_back(scale);
-  }
-  Scene scene(int num_threads = 2) const { return Scene(meshes, poses, scales, num_threads); }
-  Scene merged() const {
-    std::vector<TriangleMesh> moved;
-    for (std::size_t i = 0; i < meshes.size(); ++i) {
-      PointMatrix vertices(meshes[i].vertex_count(), 3);
-      for (Index v = 0; v < vertices.rows(); ++v) {
-        vertices.row(v) =
-            poses[i] * Vec3(scales[i] * Vec3(meshes[i].vertices().row(v).transpose()));
-      }
-      moved.emplace_back(Points(std::move(vertices)), meshes[i].shared_triangles());
-    }
-    return Scene(std::move(moved), 2);
-  }
-};
-
-Pose random_pose(RandomStream& random, const Vec3& centre, const Vec3& half) {
-  Pose pose = Pose::Identity();
-  pose.linear() =
-      Eigen::Quaterniond(random.normal(), random.normal(), random.normal(), random.normal())
-          .normalized()
-          .toRotationMatrix();
-  for (int axis = 0; axis < 3; ++axis) {
-    pose.translation()[axis] = centre[axis] + half[axis] * random.uniform(-1.0, 1.0);
-  }
-  return pose;
-}
-
-/// A bottom of 60 m × 50 m and stones of two kinds over it, turned and of all sizes.
-Cast stones(int count, const Vec3& offset, std::uint64_t seed) {
-  Cast cast;
-  cast.add(test::seabed(60, 50, offset));
-  const TriangleMesh round = test::sphere(2, 1.0, Vec3(0.2, 0.1, -0.3));
-  const TriangleMesh cornered = test::box(Vec3(0.5, 1.0, 0.8), Vec3(3, 0, 0));
-  for (int i = 0; i < count; ++i) {
-    RandomStream random(seed, static_cast<std::uint64_t>(i));
-    const Pose pose = random_pose(random, offset + Vec3(30, 25, 0.5), Vec3(30, 25, 2));
-    cast.add(i % 3 == 0 ? cornered : round, pose, random.uniform(0.2, 1.5));
-  }
-  return cast;
-}
 
 Rays fans(const Vec3& first, const Vec3& step) {
   Rays rays{PointMatrix(20 * 200, 3), PointMatrix(20 * 200, 3)};
