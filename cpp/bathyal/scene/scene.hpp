@@ -88,9 +88,12 @@ class Scene {
 
   /// Another scene with the same meshes and scales at other poses. It shares meshes and their
   /// hierarchies, and only the tree over the instances is made anew. From a scene that was made
-  /// without poses the first call builds a hierarchy for each of several meshes.
+  /// without poses each call builds a hierarchy for each of several meshes.
   /// \throw std::invalid_argument as the constructor.
   Scene with_poses(const std::vector<Pose>& poses, int num_threads = 0) const;
+
+  /// Rows of the list of meshes.
+  std::int32_t row_count() const { return static_cast<std::int32_t>(meshes().size()); }
 
   /// As given, each in its own frame.
   const std::vector<TriangleMesh>& meshes() const;

@@ -11,7 +11,8 @@ namespace {
 
 Eigen::AlignedBox3d box_of(const Scene& scene) {
   Eigen::AlignedBox3d box;
-  for (const TriangleMesh& mesh : scene.meshes()) {
+  for (std::int32_t m = 0; m < scene.row_count(); ++m) {
+    const TriangleMesh mesh = scene.mesh_in_world(m);
     const PointView vertices = mesh.vertices();
     for (Index i = 0; i < vertices.rows(); ++i) box.extend(Vec3(vertices.row(i).transpose()));
   }
