@@ -189,6 +189,18 @@ Pose pose_argument(std::string_view name, const py::object& object) {
   return pose;
 }
 
+std::vector<Pose> poses_argument(std::string_view name, const py::object& object) {
+  constexpr const char* kExpected = "real numbers of shape (K, 4, 4)";
+  const py::array array = array_argument(name, object, kExpected);
+  if (array.ndim() != 3 || array.shape(1) != 4 || array.shape(2) != 4) {
+    throw_argument(name, kExpected, "shape " + shape_text(array));
+  }
+  const auto typed = typed_array<double>(name, array, "fiu", kExpected);
+  std::vector<Pose> poses(static_cast<std::size_t>(array.shape(0)));
+  for (std::size_t i = 0; i < poses.size(); ++i) poses[i] = pose_of_rows(typed.data() + 16 * i);
+  return poses;
+}
+
 Eigen::MatrixXd square_argument(std::string_view name, const py::object& object, Index size) {
   const std::string width = std::to_string(size);
   const std::string expected = "real numbers of shape (" + width + ", " + width + ")";

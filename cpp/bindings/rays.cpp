@@ -5,6 +5,7 @@
 #include <limits>
 #include <memory>
 #include <string>
+#include <variant>
 
 #include "arrays.hpp"
 #include "bathyal/base/error.hpp"
@@ -22,8 +23,10 @@ using HitArray = PageArray<RayHit>;
 /// look at; what is computed from the meshes is computed at the first access, and kept.
 class Hits {
  public:
-  Hits(std::shared_ptr<const HitArray> hits, std::vector<TriangleMesh> meshes)
-      : hits_(std::move(hits)), meshes_(std::move(meshes)) {}
+  using Surface = std::variant<Scene, TriangleMesh>;
+
+  Hits(std::shared_ptr<const HitArray> hits, Surface surface)
+      : hits_(std::move(hits)), surface_(std::move(surface)) {}
 
   std::size_t size() const { return hits_->size(); }
   const RayHit* begin() const { return hits_->begin(); }
@@ -45,12 +48,12 @@ class Hits {
 
   py::array point() const {
     return kept(point_,
-                [](const auto& meshes, const RayHit& hit) { return hit_point(meshes, hit); });
+                [](const auto& surface, const RayHit& hit) { return hit_point(surface, hit); });
   }
 
   py::array normal() const {
     return kept(normal_,
-                [](const auto& meshes, const RayHit& hit) { return hit_normal(meshes, hit); });
+                [](const auto& surface, const RayHit& hit) { return hit_normal(surface, hit); });
   }
 
   py::array barycentric() const {
@@ -67,18 +70,22 @@ class Hits {
     std::vector<double> rows(3 * size());
     {
       const py::gil_scoped_release release;
-      parallel_for(size(), 16384, 0, [&](std::size_t first, std::size_t last) {
-        for (std::size_t i = first; i < last; ++i) {
-          Eigen::Map<Vec3>(rows.data() + 3 * i) = compute(meshes_, (*hits_)[i]);
-        }
-      });
+      std::visit(
+          [&](const auto& surface) {
+            parallel_for(size(), 16384, 0, [&](std::size_t first, std::size_t last) {
+              for (std::size_t i = first; i < last; ++i) {
+                Eigen::Map<Vec3>(rows.data() + 3 * i) = compute(surface, (*hits_)[i]);
+              }
+            });
+          },
+          surface_);
     }
     array = to_numpy(std::move(rows), {3});
     return array;
   }
 
   std::shared_ptr<const HitArray> hits_;
-  std::vector<TriangleMesh> meshes_;
+  Surface surface_;
   mutable py::object point_, normal_, barycentric_;
 };
 
@@ -98,7 +105,7 @@ Hits cast_rays(const Scene& scene, const ArrayLike& origins, const ArrayLike& di
     const py::gil_scoped_release release;
     scene.cast(from.view(), along.view(), {hits->data(), hits->size()}, num_threads);
   }
-  return {std::move(hits), scene.meshes()};
+  return {std::move(hits), scene};
 }
 
 Hits cast_brute_force(const TriangleMesh& given, const ArrayLike& origins,
@@ -113,7 +120,7 @@ Hits cast_brute_force(const TriangleMesh& given, const ArrayLike& origins,
         intersect_moller_trumbore(mesh, from.view(), along.view(), num_threads);
     std::copy(found.begin(), found.end(), hits->data());
   }
-  return {std::move(hits), {mesh}};
+  return {std::move(hits), mesh};
 }
 
 py::array find_occluded(const Scene& scene, const ArrayLike& from, const ArrayLike& to,

@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "arrays.hpp"
 #include "bathyal/base/error.hpp"
@@ -221,6 +223,51 @@ void bind_queries(py::class_<Scene>& scene) {
            py::arg("up") = py::none(), kSectionDoc);
 }
 
+/// What nobody writes to; meshes over the same arrays stay so.
+std::vector<TriangleMesh> snapshots(std::vector<TriangleMesh> meshes) {
+  std::map<std::pair<const double*, const std::int32_t*>, TriangleMesh> taken;
+  for (TriangleMesh& mesh : meshes) {
+    const std::pair arrays(mesh.vertices().data(), mesh.triangles().data());
+    const auto at = taken.find(arrays);
+    if (at != taken.end() && at->second.vertex_count() == mesh.vertex_count() &&
+        at->second.triangle_count() == mesh.triangle_count()) {
+      mesh = at->second;
+    } else {
+      mesh = taken[arrays] = mesh.snapshot();
+    }
+  }
+  return meshes;
+}
+
+Scene make_scene(std::vector<TriangleMesh> meshes, const OptionalArray& poses,
+                 const OptionalArray& scales, int num_threads) {
+  const bool is_posed = !poses.is_none() || !scales.is_none();
+  std::vector<Pose> at(is_posed ? meshes.size() : 0, Pose::Identity());
+  if (!poses.is_none()) at = poses_argument("poses", poses);
+  std::vector<double> sizes;
+  if (!scales.is_none()) {
+    const Values values = values_argument("scales", scales);
+    sizes.assign(values.data(), values.data() + values.rows());
+  }
+  const py::gil_scoped_release release;
+  meshes = snapshots(std::move(meshes));
+  if (!is_posed) return Scene(std::move(meshes), num_threads);
+  // An empty (0,) is a wrong number of them, not none.
+  if (!scales.is_none() && sizes.empty()) {
+    throw_argument("scales", "one a mesh (" + std::to_string(meshes.size()) + ")", "0");
+  }
+  return Scene(std::move(meshes), at, sizes, num_threads);
+}
+
+TriangleMesh mesh_in_world(const Scene& scene, std::int64_t mesh) {
+  if (mesh < 0 || mesh >= scene.row_count()) {
+    throw_argument("mesh", "a row from 0 to " + std::to_string(scene.row_count() - 1),
+                   std::to_string(mesh));
+  }
+  const py::gil_scoped_release release;
+  return scene.mesh_in_world(static_cast<std::int32_t>(mesh));
+}
+
 }  // namespace
 
 void bind_scene(py::module_& module) {
@@ -229,18 +276,30 @@ void bind_scene(py::module_& module) {
   bind_polyline(module);
   py::class_<Scene> scene(module, "Scene", kSceneDoc);
   scene
-      .def(py::init([](const TriangleMesh& mesh, int num_threads) {
-             const py::gil_scoped_release release;
-             return Scene({mesh.snapshot()}, num_threads);
-           }),
-           py::arg("mesh"), py::kw_only(), py::arg("num_threads") = 0)
-      .def(py::init([](std::vector<TriangleMesh> meshes, int num_threads) {
-             const py::gil_scoped_release release;
-             for (TriangleMesh& mesh : meshes) mesh = mesh.snapshot();
-             return Scene(std::move(meshes), num_threads);
-           }),
-           py::arg("mesh"), py::kw_only(), py::arg("num_threads") = 0)
-      .def_property_readonly("meshes", &Scene::meshes, "The meshes, as a list.")
+      .def(py::init([](const TriangleMesh& mesh, const OptionalArray& poses,
+                       const OptionalArray& scales,
+                       int num_threads) { return make_scene({mesh}, poses, scales, num_threads); }),
+           py::arg("mesh"), py::kw_only(), py::arg("poses") = py::none(),
+           py::arg("scales") = py::none(), py::arg("num_threads") = 0)
+      .def(py::init(&make_scene), py::arg("mesh"), py::kw_only(), py::arg("poses") = py::none(),
+           py::arg("scales") = py::none(), py::arg("num_threads") = 0)
+      .def(
+          "with_poses",
+          [](const Scene& self, const ArrayLike& poses, int num_threads) {
+            const std::vector<Pose> moved = poses_argument("poses", poses);
+            const py::gil_scoped_release release;
+            return self.with_poses(moved, num_threads);
+          },
+          py::arg("poses"), py::kw_only(), py::arg("num_threads") = 0, kWithPosesDoc)
+      .def_property_readonly("meshes", &Scene::meshes,
+                             "The meshes as given, as a list: each in its own frame.")
+      .def_property_readonly(
+          "poses", [](const Scene& self) { return to_numpy(self.poses()); },
+          "(K, 4, 4) world_from_mesh of each row, the identity where none were given.")
+      .def_property_readonly(
+          "scales", [](const Scene& self) { return to_numpy(self.scales()); },
+          "(K,) metres of the world for one of the mesh, 1 where none were given.")
+      .def("mesh_in_world", &mesh_in_world, py::arg("mesh"), kMeshInWorldDoc)
       .def_property_readonly("memory", &Scene::memory, "Bytes held besides the meshes' own arrays.")
       .def("__repr__", [](const Scene& s) {
         Index triangles = 0;

@@ -12,19 +12,92 @@ Answers are decided in double, the same bytes on every instruction set and for a
 threads; equal ranges or distances give the lowest (mesh, triangle). The meshes are shared, not
 copied. Any number of threads may query it at once.
 
+A row of the list is an instance: ``.mesh`` in answers is that row, and a mesh that occurs several
+times (the same object, or the same arrays) is held, and made ready, once. With poses each row is
+where its pose puts it; everything that goes in or comes out is in the world, and ``meshes`` stay as
+given. A ray is moved into the mesh's frame and decided there on its own vertices: at the identity
+to the same bytes as without poses. Each instance is watertight in itself; across two that share an
+edge that is not promised.
+
 Parameters
 ----------
 mesh : TriangleMesh, or a sequence of them
     One at least; meshes without triangles are allowed and never hit.
+poses : (K, 4, 4) array, optional
+    world_from_mesh of each, rigid; of a rotation that is off by less than 1e-6 the nearest one is
+    taken. Without: all meshes are in the world as they are.
+scales : (K,) array, optional
+    Metres of the world for one of the mesh, from 1e-9 to 1e9: x in the world is
+    scale · rotation · x + translation. Without: 1.
 num_threads : int
     For the build; 0 means all.
+
+Raises
+------
+ValueError
+    For no mesh, or poses or scales of another number, not rigid or out of range: names the first.
+
+Examples
+--------
+>>> import bathyal, numpy as np
+>>> floor = bathyal.TriangleMesh([[0, 0, 0], [4, 0, 0], [0, 4, 0]], [[0, 1, 2]])
+>>> bathyal.Scene(floor)
+Scene(1 mesh, 1 triangle)
+>>> poses = np.array([np.eye(4), np.eye(4)])
+>>> poses[1, 2, 3] = -10.0
+>>> scene = bathyal.Scene([floor, floor], poses=poses, scales=[1, 3])
+>>> hits = scene.cast((0, 0, 5), [[1, 1, -5], [8, 2, -15]])
+>>> hits.mesh.tolist(), hits.point.tolist()
+([0, 1], [[1.0, 1.0, 0.0], [8.0, 2.0, -10.0]])
+)";
+
+inline constexpr const char* kWithPosesDoc = R"(The same meshes at other poses, as another scene.
+
+It shares the meshes, their scales and what was made ready of them; only the tree over the instances
+is made anew, so that a moving fish does not rebuild the bottom. This scene stays as it is. From a
+scene of several meshes that was made without poses, each call makes them ready one by one first.
+
+Parameters
+----------
+poses : (K, 4, 4) array
+    world_from_mesh of each row, as of the constructor.
+num_threads : int
+    0 means all.
+
+Returns
+-------
+Scene
+
+Examples
+--------
+>>> import bathyal, numpy as np
+>>> floor = bathyal.TriangleMesh([[0, 0, 0], [4, 0, 0], [0, 4, 0]], [[0, 1, 2]])
+>>> scene = bathyal.Scene(floor, poses=[np.eye(4)])
+>>> lower = np.eye(4)
+>>> lower[2, 3] = -2
+>>> [s.cast((1, 1, 3), (0, 0, -1)).range[0].item() for s in (scene, scene.with_poses([lower]))]
+[3.0, 5.0]
+)";
+
+inline constexpr const char* kMeshInWorldDoc = R"(A row's mesh where its pose and scale put it.
+
+Parameters
+----------
+mesh : int
+    Row of the scene.
+
+Returns
+-------
+TriangleMesh
+    The mesh itself where it is at the identity, else a moved copy of its vertices with the same
+    triangles and attributes, without its datum.
 
 Examples
 --------
 >>> import bathyal
 >>> floor = bathyal.TriangleMesh([[0, 0, 0], [4, 0, 0], [0, 4, 0]], [[0, 1, 2]])
->>> bathyal.Scene(floor)
-Scene(1 mesh, 1 triangle)
+>>> bathyal.Scene(floor, scales=[2]).mesh_in_world(0).vertices.max()
+8.0
 )";
 
 inline constexpr const char* kNearestDoc = R"(The closest point of all triangles to each point.

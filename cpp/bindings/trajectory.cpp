@@ -55,21 +55,6 @@ Returns
 Trajectory
 )";
 
-std::vector<Pose> poses_argument(std::string_view name, const py::object& object) {
-  const std::string shapes = "real numbers of shape (K, 4, 4)";
-  const py::array array = array_argument(name, object, shapes);
-  if (array.ndim() != 3 || array.shape(1) != 4 || array.shape(2) != 4) {
-    throw_argument(name, shapes, "shape " + std::string(py::str(array.attr("shape"))));
-  }
-  const Rows rows = rows_argument(name, array.attr("reshape")(-1, 16), 16);
-  std::vector<Pose> poses(static_cast<std::size_t>(rows.table.rows()));
-  for (std::size_t i = 0; i < poses.size(); ++i) {
-    poses[i].matrix() =
-        Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(rows.table.data() + 16 * i);
-  }
-  return poses;
-}
-
 std::vector<double> numbers(const Values& values) {
   return {values.data(), values.data() + values.rows()};
 }

@@ -4,6 +4,7 @@
 #include "bathyal/base/parallel.hpp"
 #include "bathyal/base/simd.hpp"
 #include "bathyal/scene/internal/hierarchy.hpp"
+#include "bathyal/scene/internal/instances.hpp"
 #include "bathyal/scene/internal/ray_rows.hpp"
 
 namespace bathyal {
@@ -26,26 +27,32 @@ CastKernels kernels() {
   return baseline_kernels();
 }
 
-CastScene cast_scene(const Scene::Hierarchy& h) {
-  CastScene scene;
-  scene.nodes = h.nodes.data();
-  scene.blocks = h.blocks.data();
-  scene.meshes = h.arrays.data();
-  scene.mesh_count = static_cast<std::int32_t>(h.arrays.size());
-  for (int axis = 0; axis < 3; ++axis) {
-    scene.origin[axis] = h.origin[axis];
-    scene.low[axis] = h.low[axis];
-    scene.high[axis] = h.high[axis];
-  }
-  scene.reach = h.reach();
-  return scene;
-}
-
 RayBatch batch_of(PointView first, PointView second, std::size_t begin, std::size_t end) {
   return {first.data(), first.rows() == 1 && second.rows() != 1 ? 0 : 3, second.data(), begin, end};
 }
 
 }  // namespace
+
+void set_local_frame(CastScene& view, const LocalFrame& frame) {
+  for (int axis = 0; axis < 3; ++axis) {
+    view.origin[axis] = frame.origin[axis];
+    view.low[axis] = frame.low[axis];
+    view.high[axis] = frame.high[axis];
+  }
+  view.reach = frame.reach();
+}
+
+CastScene cast_view(const Scene::Hierarchy& hierarchy) {
+  CastScene view;
+  view.nodes = hierarchy.nodes.data();
+  view.blocks = hierarchy.blocks.data();
+  view.meshes = hierarchy.arrays.data();
+  view.mesh_count = static_cast<std::int32_t>(hierarchy.arrays.size());
+  set_local_frame(view, hierarchy);
+  view.far_pad = kFarPad;
+  return view;
+}
+
 }  // namespace scene
 
 RayHit Scene::cast(const Vec3& origin, const Vec3& direction) const {
@@ -63,31 +70,43 @@ std::vector<RayHit> Scene::cast(PointView origins, PointView directions, int num
 void Scene::cast(PointView origins, PointView directions, std::span<RayHit> hits,
                  int num_threads) const {
   scene::check_rows(origins, directions, "origins", "directions");
-  const scene::CastScene view = scene::cast_scene(*hierarchy_);
-  const scene::CastKernel kernel = scene::kernels().cast;
-  parallel_for(hits.size(), scene::kRayGrain, num_threads, [&](std::size_t begin, std::size_t end) {
-    const std::size_t bad =
-        kernel(view, scene::batch_of(origins, directions, begin, end), hits.data());
-    if (bad != scene::kNoRow) {
-      scene::throw_bad_row(origins, directions, static_cast<Index>(bad), "origins", "directions",
-                           "finite directions of any length but zero");
-    }
-  });
+  const auto cast_all = [&](const auto& view, auto kernel) {
+    parallel_for(hits.size(), scene::kRayGrain, num_threads,
+                 [&](std::size_t begin, std::size_t end) {
+                   const std::size_t bad =
+                       kernel(view, scene::batch_of(origins, directions, begin, end), hits.data());
+                   if (bad != scene::kNoRow) {
+                     scene::throw_bad_row(origins, directions, static_cast<Index>(bad), "origins",
+                                          "directions", "finite directions of any length but zero");
+                   }
+                 });
+  };
+  if (instances_) {
+    cast_all(instances_->view(), scene::kernels().cast_instances);
+  } else {
+    cast_all(scene::cast_view(*hierarchy_), scene::kernels().cast);
+  }
 }
 
 std::vector<bool> Scene::occluded(PointView from, PointView to, int num_threads) const {
   scene::check_rows(from, to, "from", "to");
-  const scene::CastScene view = scene::cast_scene(*hierarchy_);
-  const scene::OccludedKernel kernel = scene::kernels().occluded;
   std::vector<std::uint8_t> blocked(static_cast<std::size_t>(to.rows()));
-  parallel_for(
-      blocked.size(), scene::kRayGrain, num_threads, [&](std::size_t begin, std::size_t end) {
-        const std::size_t bad = kernel(view, scene::batch_of(from, to, begin, end), blocked.data());
-        if (bad != scene::kNoRow) {
-          scene::throw_bad_row(from, to, static_cast<Index>(bad), "from", "to",
-                               "finite coordinates");
-        }
-      });
+  const auto look_at_all = [&](const auto& view, auto kernel) {
+    parallel_for(blocked.size(), scene::kRayGrain, num_threads,
+                 [&](std::size_t begin, std::size_t end) {
+                   const std::size_t bad =
+                       kernel(view, scene::batch_of(from, to, begin, end), blocked.data());
+                   if (bad != scene::kNoRow) {
+                     scene::throw_bad_row(from, to, static_cast<Index>(bad), "from", "to",
+                                          "finite coordinates");
+                   }
+                 });
+  };
+  if (instances_) {
+    look_at_all(instances_->view(), scene::kernels().occluded_instances);
+  } else {
+    look_at_all(scene::cast_view(*hierarchy_), scene::kernels().occluded);
+  }
   return {blocked.begin(), blocked.end()};
 }
 

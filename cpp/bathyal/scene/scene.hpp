@@ -7,17 +7,11 @@
 #include <vector>
 
 #include "bathyal/geometry/plane.hpp"
+#include "bathyal/geometry/pose.hpp"
 #include "bathyal/geometry/triangle_mesh.hpp"
 #include "bathyal/scene/ray_hit.hpp"
 
 namespace bathyal {
-
-/// Where a hit lies, from the corners of its triangle; NaN where nothing was met.
-Vec3 hit_point(const std::vector<TriangleMesh>& meshes, const RayHit& hit);
-
-/// Unit normal of the triangle that was hit, as it is wound; NaN where nothing was met. A triangle
-/// without area gives the direction across its longest edge that points up most.
-Vec3 hit_normal(const std::vector<TriangleMesh>& meshes, const RayHit& hit);
 
 /// The closest point of the scene to a query.
 struct NearestPoint {
@@ -66,7 +60,14 @@ struct Polyline {
   bool closed = false;
 };
 
-/// One or more meshes under a bounding volume hierarchy. Answers are decided in double, the same on
+/// One or more meshes under a bounding volume hierarchy, as they are or each at a pose of its own.
+/// A row of the list is an instance, and `.mesh` in answers is that row. Everything that goes in or
+/// comes out is in the world; `meshes()` are as given, each in its own frame, world = scale · pose
+/// rotation · mesh + pose translation. A mesh that occurs several times (the same arrays) is held,
+/// and gets its hierarchy, once: one tree a mesh in its own frame and one over the instances'
+/// boxes.
+///
+/// Answers are decided in double, the same on
 /// every instruction set and for any number of threads; equal ranges or distances give the lowest
 /// (mesh, triangle). Immutable after construction, so any number of threads may query it at once.
 class Scene {
@@ -75,9 +76,49 @@ class Scene {
   /// never hit.
   explicit Scene(std::vector<TriangleMesh> meshes, int num_threads = 0);
 
+  /// A pose (world_from_mesh) a mesh, and a scale each or none for 1. A ray is moved into a mesh's
+  /// frame in double and decided there on the mesh's own vertices: at the identity to the same
+  /// bytes as without poses, elsewhere to double's rounding, and each instance is watertight in
+  /// itself; across two that share an edge it is not promised. Of a rotation that is off by less
+  /// than check_rigid allows the nearest rotation is taken. 	hrow std::invalid_argument for no
+  /// mesh at all, or when poses or scales are not as many as the meshes, not rigid, not from 1e-9
+  /// to 1e9, or carry triangles further than 10¹² m from the middle.
+  Scene(std::vector<TriangleMesh> meshes, const std::vector<Pose>& poses,
+        const std::vector<double>& scales = {}, int num_threads = 0);
+
+  /// Another scene with the same meshes and scales at other poses. It shares meshes and their
+  /// hierarchies, and only the tree over the instances is made anew. From a scene that was made
+  /// without poses each call builds a hierarchy for each of several meshes.
+  /// \throw std::invalid_argument as the constructor.
+  Scene with_poses(const std::vector<Pose>& poses, int num_threads = 0) const;
+
+  /// Rows of the list of meshes.
+  std::int32_t row_count() const { return static_cast<std::int32_t>(meshes().size()); }
+
+  /// As given, each in its own frame.
   const std::vector<TriangleMesh>& meshes() const;
 
-  /// Bytes held by the hierarchy, the meshes' own arrays left out.
+  /// world_from_mesh and scale of each row; the identity and 1 for a scene without poses.
+  std::vector<Pose> poses() const;
+  std::vector<double> scales() const;
+
+  /// Whether row `mesh` is neither moved, turned nor scaled: its mesh is in the world as it is.
+  bool is_at_identity(std::int32_t mesh) const;
+
+  /// Row `mesh` in the world: the mesh itself where it is at the identity, else a moved copy. With
+  /// the attributes of the mesh; its datum only where it is at the identity.
+  TriangleMesh mesh_in_world(std::int32_t mesh) const;
+
+  /// Corner `corner` (0, 1, 2) of a triangle of row `mesh`, in the world.
+  Vec3 corner(std::int32_t mesh, Index triangle, int corner) const;
+
+  /// Its area_vector in the world.
+  Vec3 area_vector(std::int32_t mesh, Index triangle) const;
+
+  /// A direction of row `mesh`'s frame, turned into the world.
+  Vec3 turn_to_world(std::int32_t mesh, const Vec3& direction) const;
+
+  /// Bytes held by hierarchies and instances, the meshes' own arrays left out.
   std::size_t memory() const;
 
   /// First triangle met at t ≥ 0 from `origin` along `direction` (any length but zero), from either
@@ -167,10 +208,27 @@ class Scene {
   std::vector<Polyline> section(const Vec3& a, const Vec3& b, const Vec3& up = Vec3::UnitZ()) const;
 
   struct Hierarchy;  ///< lives in hierarchy.hpp
-  const Hierarchy& hierarchy() const;
+  struct Instances;  ///< lives in instances.hpp
+
+  /// \pre The scene was made without poses.
+  const Hierarchy& hierarchy() const { return *hierarchy_; }
 
  private:
-  std::shared_ptr<const Hierarchy> hierarchy_;
+  explicit Scene(std::shared_ptr<const Instances> instances);
+
+  std::shared_ptr<const Hierarchy> hierarchy_;  // of all meshes; null where there are instances
+  std::shared_ptr<const Instances> instances_;
 };
+
+/// Where a hit lies in the world, from the corners of its triangle; NaN where nothing was met.
+Vec3 hit_point(const Scene& scene, const RayHit& hit);
+
+/// Unit normal of the triangle that was hit, as it is wound, in the world; NaN where nothing was
+/// met. A triangle without area gives the direction across its longest edge that points up most.
+Vec3 hit_normal(const Scene& scene, const RayHit& hit);
+
+/// The same of a hit on a mesh by itself.
+Vec3 hit_point(const TriangleMesh& mesh, const RayHit& hit);
+Vec3 hit_normal(const TriangleMesh& mesh, const RayHit& hit);
 
 }  // namespace bathyal

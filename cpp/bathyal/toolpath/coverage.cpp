@@ -94,7 +94,9 @@ double height_above(const Surface& surface, const PlanPoint& at) {
     return (plane->offset() - m.x() * at.x() - m.y() * at.y()) / m.z() + kClearance;
   }
   double top = -std::numeric_limits<double>::infinity();
-  for (const TriangleMesh& mesh : std::get<Scene>(surface).meshes()) {
+  const auto& scene = std::get<Scene>(surface);
+  for (std::int32_t m = 0; m < scene.row_count(); ++m) {
+    const TriangleMesh mesh = scene.mesh_in_world(m);
     if (mesh.triangle_count() > 0) top = std::max(top, mesh.vertices().col(2).maxCoeff());
   }
   return top + kClearance;

@@ -71,13 +71,9 @@ TargetStatus explain_miss(const Scene& scene, const Eigen::AlignedBox3d& bounds,
 
 void set_hit(Targets& targets, std::size_t i, const Scene& scene, const RayHit& hit,
              const Vec3& direction, double grazing_angle) {
-  const TriangleMesh& mesh = scene.meshes()[static_cast<std::size_t>(hit.mesh)];
-  const Vec3 v0 = mesh.corner(hit.triangle, 0);
   // eq 4, from the differences to V0: the sum of three weighted survey coordinates loses digits.
-  const Vec3 point = v0 + hit.u * (mesh.corner(hit.triangle, 1) - v0) +
-                     hit.v * (mesh.corner(hit.triangle, 2) - v0);
-  set_found(targets, i, direction, point, outward_normal(mesh, hit.triangle), hit.range,
-            grazing_angle);
+  set_found(targets, i, direction, hit_point(scene, hit),
+            outward_normal(scene, hit.mesh, hit.triangle), hit.range, grazing_angle);
   targets.mesh[i] = hit.mesh;
   targets.triangle[i] = hit.triangle;
   targets.barycentric[i] = Vec3(hit.u, hit.v, 1.0 - hit.u - hit.v);
@@ -144,6 +140,11 @@ Vec3 outward_normal(const TriangleMesh& mesh, std::int32_t triangle) {
   const Vec3 area = mesh.area_vector(triangle);
   const double length = area.norm();
   return length > 0.0 ? Vec3(area / length) : Vec3(Vec3::Zero());
+}
+
+Vec3 outward_normal(const Scene& scene, std::int32_t mesh, std::int32_t triangle) {
+  const TriangleMesh& own = scene.meshes()[static_cast<std::size_t>(mesh)];
+  return scene.turn_to_world(mesh, outward_normal(own, triangle));
 }
 
 }  // namespace bathyal

@@ -79,4 +79,7 @@ Vec3 outward_normal(const Plane& plane, const Vec3& up);
 /// The triangle's unit normal on the side it is wound for; zero for a triangle without area.
 Vec3 outward_normal(const TriangleMesh& mesh, std::int32_t triangle);
 
+/// The same of a triangle of row `mesh` of a scene, in the world.
+Vec3 outward_normal(const Scene& scene, std::int32_t mesh, std::int32_t triangle);
+
 }  // namespace bathyal

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from bathyal._core import Plane
 
 if TYPE_CHECKING:
-    from bathyal._core import Scene
+    from bathyal._core import Scene, TriangleMesh
 
 Floats = NDArray[np.float64]
 
@@ -50,6 +50,11 @@ class Relief:
         return (self.x[0] - half, self.x[-1] + half, self.y[0] - half, self.y[-1] + half)
 
 
+def meshes_in_world(scene: Scene) -> list[TriangleMesh]:
+    """Each row's mesh where its pose puts it."""
+    return [scene.mesh_in_world(row) for row in range(len(scene.meshes))]
+
+
 def bounds(surface: Scene | Plane, *points: Floats) -> tuple[Floats, Floats]:
     """Lowest and highest corner (3,) of the bottom's meshes and of what else is given [m].
 
@@ -57,7 +62,7 @@ def bounds(surface: Scene | Plane, *points: Floats) -> tuple[Floats, Floats]:
     """
     clouds = [np.asarray(p).reshape(-1, 3) for p in points]
     if not isinstance(surface, Plane):
-        clouds += [mesh.vertices for mesh in surface.meshes]
+        clouds += [mesh.vertices for mesh in meshes_in_world(surface)]
     low, high = np.full(3, np.inf), np.full(3, -np.inf)
     for cloud in clouds:
         finite = cloud if np.isfinite(cloud).all() else cloud[np.isfinite(cloud).all(axis=1)]

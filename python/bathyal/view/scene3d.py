@@ -19,7 +19,7 @@ from bathyal._core import Plane, PointCloud, Scene, ToolPath, TriangleMesh
 from bathyal.arrays import unmasked
 from bathyal.view.decimate import Indices, crop, decimate
 from bathyal.view.palette import INK
-from bathyal.view.relief import bounds
+from bathyal.view.relief import bounds, meshes_in_world
 from bathyal.view.stations import axis_ends
 from bathyal.view.traces import (
     ARROW,
@@ -111,11 +111,12 @@ def _bottom_parts(
     if isinstance(surface, Plane):
         return [_plane_patch(surface, *surroundings(path, aims))], "the bottom is a plane"
     corners = view_window(surface, aims, path)
-    cropped = [crop(mesh, *corners) for mesh in surface.meshes]
-    budget = TRIANGLE_BUDGET // len(surface.meshes)
+    meshes = meshes_in_world(surface)
+    cropped = [crop(mesh, *corners) for mesh in meshes]
+    budget = TRIANGLE_BUDGET // len(meshes)
     parts = [decimate(*part, budget) for part in cropped if len(part[1])]
     shown, around = (sum(len(part[1]) for part in some) for some in (parts, cropped))
-    return parts, _triangle_note(shown, around, sum(len(mesh.triangles) for mesh in surface.meshes))
+    return parts, _triangle_note(shown, around, sum(len(mesh.triangles) for mesh in meshes))
 
 
 def _figure(

@@ -35,6 +35,7 @@ from bathyal.io.yaml_schema import at
 from bathyal.seabed.bottom import make_bottom, noting
 from bathyal.seabed.meshes import read_mesh
 from bathyal.view.arm_solid import resting_pose
+from bathyal.view.relief import meshes_in_world
 from bathyal.view.solids import box
 from bathyal.workspace import sections as own
 from bathyal.workspace.plausible import size_warnings
@@ -255,7 +256,7 @@ class _Builder:
             if scene is None:
                 raise ValueError("expected a section scene, in which the point is looked for")
             x, y = section.on_bottom or (0.0, 0.0)
-            high = max(float(np.max(np.asarray(m.vertices)[:, 2])) for m in scene.meshes)
+            high = max(float(np.max(np.asarray(m.vertices)[:, 2])) for m in meshes_in_world(scene))
             hits = scene.cast([[x, y, high + _ABOVE]], [[0, 0, -1]])
             if not math.isfinite(hits.range[0]):
                 raise ValueError(f"expected a point of the scene, got none at {x:g}, {y:g}")

@@ -16,6 +16,7 @@ from bathyal.view import solids
 from bathyal.view.decimate import crop, decimate
 from bathyal.view.motion import AT_REST, Body, Light, Motion, Panel, frames_of
 from bathyal.view.palette import GAP
+from bathyal.view.relief import meshes_in_world
 
 Floats = NDArray[np.float64]
 
@@ -230,7 +231,7 @@ def _bottom(scene: Scene, low: Floats, high: Floats) -> list[Body]:
     """The part of the scene under what moves."""
     middle, half = (low + high) / 2, _FAR * float(np.max((high - low)[:2])) / 2 + 1e-3
     corners = middle[:2] - half, middle[:2] + half
-    parts = [crop(mesh, *corners) for mesh in scene.meshes]
+    parts = [crop(mesh, *corners) for mesh in meshes_in_world(scene)]
     parts = [part for part in parts if len(part[1])]
     return [
         Body("bottom", "bottom", *decimate(*part, BOTTOM_BUDGET // len(parts)), colour="depth")

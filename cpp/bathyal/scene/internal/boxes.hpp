@@ -2,6 +2,7 @@
 #pragma once
 
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 
@@ -41,6 +42,21 @@ struct Box {
  private:
   static constexpr float kInf = std::numeric_limits<float>::infinity();
 };
+
+/// A box given in double, rounded outwards by two units in the last place, which covers the
+/// rounding of the differences that made it.
+inline Box rounded_outwards(const double* low, const double* high) {
+  constexpr float kOut = 0x1p-22F;
+  constexpr float kTiny = std::numeric_limits<float>::min();
+  Box box;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto least = static_cast<float>(low[axis]);
+    const auto most = static_cast<float>(high[axis]);
+    box.low[axis] = least - std::abs(least) * kOut - kTiny;
+    box.high[axis] = most + std::abs(most) * kOut + kTiny;
+  }
+  return box;
+}
 
 /// Twice the middle of a box. The tags are masked out: read as floats they may be denormal or NaN.
 inline Float4 twice_middle(const Box& box) {

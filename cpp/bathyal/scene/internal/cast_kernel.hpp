@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "bathyal/scene/internal/instance_frame.hpp"
 #include "bathyal/scene/internal/nodes.hpp"
 #include "bathyal/scene/ray_hit.hpp"
 
@@ -11,6 +12,9 @@
 // plain pointers only.
 
 namespace bathyal::scene {
+
+/// What a double decision may be off by, as a part of the distance of the ray's origin.
+inline constexpr double kFarPad = 0x1p-48;
 
 /// What a kernel needs of a hierarchy.
 struct CastScene {
@@ -21,7 +25,15 @@ struct CastScene {
   double origin[3];  ///< of the local frame, in the world
   double low[3];     ///< box of all triangles in the local frame
   double high[3];
-  double reach;  ///< largest absolute coordinate of that box
+  double reach;    ///< largest absolute coordinate of that box
+  double far_pad;  ///< what a decision may be off by, as a part of the distance of the ray's origin
+};
+
+/// What a kernel needs of instances.
+struct InstancedScene {
+  CastScene top;                ///< over the instances' boxes in the world; no blocks and no meshes
+  const CastScene* meshes;      ///< the distinct ones, each in its own frame
+  const InstanceFrame* frames;  ///< of each row
 };
 
 /// Rays begin … end − 1 of a batch. `origins` steps by `origin_step` doubles from ray to ray: 3, or
@@ -45,9 +57,16 @@ using CastKernel = std::size_t (*)(const CastScene&, const RayBatch&, RayHit* hi
 /// row with an end that is not finite, else kNoRow.
 using OccludedKernel = std::size_t (*)(const CastScene&, const RayBatch&, std::uint8_t* blocked);
 
+/// The same for instances.
+using CastInstancesKernel = std::size_t (*)(const InstancedScene&, const RayBatch&, RayHit* hits);
+using OccludedInstancesKernel = std::size_t (*)(const InstancedScene&, const RayBatch&,
+                                                std::uint8_t* blocked);
+
 struct CastKernels {
   CastKernel cast;
   OccludedKernel occluded;
+  CastInstancesKernel cast_instances;
+  OccludedInstancesKernel occluded_instances;
 };
 
 CastKernels baseline_kernels();

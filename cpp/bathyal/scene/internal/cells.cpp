@@ -70,16 +70,12 @@ Box box_of(const MeshArrays& mesh, std::uint32_t primitive, const double* origin
   const double* a = mesh.vertices + 3 * std::int64_t{index[0]};
   const double* b = mesh.vertices + 3 * std::int64_t{index[1]};
   const double* c = mesh.vertices + 3 * std::int64_t{index[2]};
-  Box box;
+  double low[3], high[3];
   for (int axis = 0; axis < 3; ++axis) {
-    const double low = std::min(a[axis], std::min(b[axis], c[axis])) - origin[axis];
-    const double high = std::max(a[axis], std::max(b[axis], c[axis])) - origin[axis];
-    // Two units in the last place outwards, which covers the rounding of both operations.
-    constexpr float kOut = 0x1p-22F;
-    constexpr float kTiny = std::numeric_limits<float>::min();
-    box.low[axis] = static_cast<float>(low) - std::abs(static_cast<float>(low)) * kOut - kTiny;
-    box.high[axis] = static_cast<float>(high) + std::abs(static_cast<float>(high)) * kOut + kTiny;
+    low[axis] = std::min(a[axis], std::min(b[axis], c[axis])) - origin[axis];
+    high[axis] = std::max(a[axis], std::max(b[axis], c[axis])) - origin[axis];
   }
+  Box box = rounded_outwards(low, high);
   box.set_tags(1, primitive);
   return box;
 }
@@ -144,21 +140,13 @@ void split_cell(Box* items, const Cell& cell, std::vector<Cell>& done, int num_t
   }
 }
 
-}  // namespace
-
-SortedBoxes sort_into_cells(const Scene::Hierarchy& hierarchy, int num_threads) {
-  const std::uint32_t count = hierarchy.primitive_count;
-  const double* origin = hierarchy.origin.data();
-  const auto mesh_count = static_cast<std::int32_t>(hierarchy.arrays.size());
-  const auto item = [&](std::uint32_t i) {
-    const MeshArrays* meshes = hierarchy.arrays.data();
-    const std::int32_t mesh = mesh_count == 1 ? 0 : name_of(meshes, mesh_count, i).mesh;
-    return box_of(meshes[mesh], i, origin);
-  };
+template <class Item>
+SortedBoxes sort_items(std::uint32_t count, const LocalFrame& frame, const Item& item,
+                       int num_threads) {
   Box middles;
   for (int axis = 0; axis < 3; ++axis) {
-    middles.low[axis] = 2.0F * static_cast<float>(hierarchy.low[axis]);
-    middles.high[axis] = 2.0F * static_cast<float>(hierarchy.high[axis]);
+    middles.low[axis] = 2.0F * static_cast<float>(frame.low[axis]);
+    middles.high[axis] = 2.0F * static_cast<float>(frame.high[axis]);
   }
   SortedBoxes result{PageArray<Box>(count), {}};
   const std::vector<Cell> cells =
@@ -167,6 +155,26 @@ SortedBoxes sort_into_cells(const Scene::Hierarchy& hierarchy, int num_threads) 
     split_cell(result.items.data(), cell, result.cells, num_threads);
   }
   return result;
+}
+
+}  // namespace
+
+SortedBoxes sort_into_cells(const Scene::Hierarchy& hierarchy, int num_threads) {
+  const double* origin = hierarchy.origin.data();
+  const auto mesh_count = static_cast<std::int32_t>(hierarchy.arrays.size());
+  const auto item = [&](std::uint32_t i) {
+    const MeshArrays* meshes = hierarchy.arrays.data();
+    const std::int32_t mesh = mesh_count == 1 ? 0 : name_of(meshes, mesh_count, i).mesh;
+    return box_of(meshes[mesh], i, origin);
+  };
+  return sort_items(hierarchy.primitive_count, hierarchy, item, num_threads);
+}
+
+SortedBoxes sort_into_cells(const std::vector<Box>& boxes, const LocalFrame& frame,
+                            int num_threads) {
+  return sort_items(
+      static_cast<std::uint32_t>(boxes.size()), frame, [&](std::uint32_t i) { return boxes[i]; },
+      num_threads);
 }
 
 }  // namespace bathyal::scene

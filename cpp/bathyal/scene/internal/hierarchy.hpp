@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <span>
 #include <vector>
 
 #include "bathyal/base/page_array.hpp"
+#include "bathyal/scene/internal/local_frame.hpp"
 #include "bathyal/scene/internal/nodes.hpp"
 #include "bathyal/scene/internal/winding.hpp"
 #include "bathyal/scene/scene.hpp"
@@ -19,8 +19,9 @@ namespace bathyal {
 /// every block belongs to exactly one lane of one node. The same bytes for any number of threads.
 ///
 /// Boxes and blocks are in the local frame, local = world − origin, in float; boxes are rounded
-/// outwards. They serve to cull; hits are decided in double on `corners`.
-struct Scene::Hierarchy {
+/// outwards. They serve to cull; hits are decided in double on `corners`. Where the scene has
+/// instances, each mesh has a hierarchy of its own, and "world" here is the mesh's own frame.
+struct Scene::Hierarchy : scene::LocalFrame {
   /// Copies no mesh array.
   /// \throw std::invalid_argument when the triangles reach further than 10¹² m from their middle,
   /// or when there are more than 2³² − 2 of them.
@@ -50,17 +51,11 @@ struct Scene::Hierarchy {
   }
   std::array<Vec3, 3> corners(std::uint32_t primitive) const { return corners(row(primitive)); }
 
-  /// Largest coordinate of any triangle in the local frame [m].
-  double reach() const { return std::max(low.cwiseAbs().maxCoeff(), high.cwiseAbs().maxCoeff()); }
-
   std::size_t memory() const { return nodes.bytes() + blocks.bytes() + clusters.bytes(); }
 
   std::vector<TriangleMesh> meshes;
   std::vector<scene::MeshArrays> arrays;  ///< of each mesh
   std::uint32_t primitive_count = 0;
-  Vec3 origin = Vec3::Zero();  ///< of the local frame, in the world: whole metres
-  Vec3 low = Vec3::Zero();     ///< box of all triangles in the local frame, exact up to double
-  Vec3 high = Vec3::Zero();
   PageArray<scene::WideNode> nodes;
   PageArray<scene::TriangleBlock> blocks;
   scene::Clusters clusters;  ///< for winding numbers; made at the first query

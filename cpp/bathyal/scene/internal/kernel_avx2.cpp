@@ -2,7 +2,7 @@
 // Compiled with -mavx2 -mfma, for machines that have them (base/simd.hpp).
 #include <immintrin.h>
 
-#include "bathyal/scene/internal/packet_walk.hpp"
+#include "bathyal/scene/internal/instance_walk.hpp"
 
 namespace bathyal::scene {
 namespace {
@@ -51,6 +51,8 @@ struct Avx2 {
 
 }  // namespace
 
-CastKernels avx2_kernels() { return {cast<Avx2>, occluded<Avx2>}; }
+CastKernels avx2_kernels() {
+  return {cast<Avx2>, occluded<Avx2>, cast_instances<Avx2>, occluded_instances<Avx2>};
+}
 
 }  // namespace bathyal::scene

@@ -3,7 +3,7 @@
 // (base/simd.hpp).
 #include <immintrin.h>
 
-#include "bathyal/scene/internal/packet_walk.hpp"
+#include "bathyal/scene/internal/instance_walk.hpp"
 
 namespace bathyal::scene {
 namespace {
@@ -61,6 +61,8 @@ struct Avx512 {
 
 }  // namespace
 
-CastKernels avx512_kernels() { return {cast<Avx512>, occluded<Avx512>}; }
+CastKernels avx512_kernels() {
+  return {cast<Avx512>, occluded<Avx512>, cast_instances<Avx512>, occluded_instances<Avx512>};
+}
 
 }  // namespace bathyal::scene

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "bathyal/scene/internal/packet_walk.hpp"
+#include "bathyal/scene/internal/instance_walk.hpp"
 
 namespace bathyal::scene {
 namespace {
@@ -84,6 +84,9 @@ struct Baseline {
 
 }  // namespace
 
-CastKernels baseline_kernels() { return {cast<Baseline>, occluded<Baseline>}; }
+CastKernels baseline_kernels() {
+  return {cast<Baseline>, occluded<Baseline>, cast_instances<Baseline>,
+          occluded_instances<Baseline>};
+}
 
 }  // namespace bathyal::scene

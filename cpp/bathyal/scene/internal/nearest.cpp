@@ -8,6 +8,8 @@
 #include "bathyal/base/parallel.hpp"
 #include "bathyal/scene/internal/cutter.hpp"
 #include "bathyal/scene/internal/hierarchy.hpp"
+#include "bathyal/scene/internal/instance_nearest.hpp"
+#include "bathyal/scene/internal/instances.hpp"
 #include "bathyal/scene/internal/nearest_walk.hpp"
 #include "bathyal/scene/internal/nearness.hpp"
 
@@ -71,11 +73,11 @@ class PointQuery {
  public:
   using Found = ClosestPoint;
 
-  PointQuery(const Scene::Hierarchy& hierarchy, const Vec3& point)
+  PointQuery(const LocalFrame& frame, const Vec3& point)
       : point_(point),
-        nearness_(hierarchy, point - hierarchy.origin),
+        nearness_(frame, point - frame.origin),
         rounding_(16.0 * std::numeric_limits<double>::epsilon() *
-                  (reach(point) + reach(hierarchy.origin))) {}
+                  (reach(point) + reach(frame.origin))) {}
 
   template <class Lanes>
   void bound(const Lanes& lanes, LaneDistances& bounds) const {
@@ -99,6 +101,20 @@ NearestPoint nearest_to(const Scene::Hierarchy& hierarchy, const Vec3& point) {
   return {std::sqrt(best.squared_distance), name.mesh, name.triangle, best.u, best.v, best.point};
 }
 
+NearestPoint nearest_to(const Scene::Instances& instances, const Vec3& point) {
+  InstanceNearest walk(instances, PointQuery(instances, point),
+                       std::numeric_limits<double>::infinity());
+  walk.run([&](const Scene::Hierarchy& hierarchy, const InstanceFrame& frame) {
+    return PointQuery(hierarchy, is_identity(frame) ? point : to_mesh(frame, point));
+  });
+  if (walk.row() < 0) return {};
+  const InstanceFrame& frame = instances.frame(walk.row());
+  const ClosestPoint& best = walk.found();
+  return {
+      walk.distance(), walk.row(), static_cast<std::int32_t>(walk.triangle()),
+      best.u,          best.v,     is_identity(frame) ? best.point : to_world(frame, best.point)};
+}
+
 }  // namespace
 }  // namespace scene
 
@@ -112,7 +128,9 @@ std::vector<NearestPoint> Scene::nearest(PointView points, int num_threads) cons
   constexpr std::size_t kGrain = 256;
   parallel_for(found.size(), kGrain, num_threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      found[i] = scene::nearest_to(*hierarchy_, points.row(static_cast<Index>(i)).transpose());
+      const Vec3 point = points.row(static_cast<Index>(i)).transpose();
+      found[i] = instances_ ? scene::nearest_to(*instances_, point)
+                            : scene::nearest_to(*hierarchy_, point);
     }
   });
   return found;

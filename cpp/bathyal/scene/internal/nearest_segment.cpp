@@ -9,6 +9,8 @@
 #include "bathyal/base/parallel.hpp"
 #include "bathyal/scene/internal/cutter.hpp"
 #include "bathyal/scene/internal/hierarchy.hpp"
+#include "bathyal/scene/internal/instance_nearest.hpp"
+#include "bathyal/scene/internal/instances.hpp"
 #include "bathyal/scene/internal/nearest_walk.hpp"
 #include "bathyal/scene/internal/ray_rows.hpp"
 #include "bathyal/scene/internal/segment_nearness.hpp"
@@ -29,12 +31,12 @@ class SegmentQuery {
  public:
   using Found = SegmentApproach;
 
-  SegmentQuery(const Scene::Hierarchy& hierarchy, const Vec3& start, const Vec3& end)
+  SegmentQuery(const LocalFrame& frame, const Vec3& start, const Vec3& end)
       : start_(start),
         end_(end),
-        nearness_(hierarchy, start - hierarchy.origin, end - hierarchy.origin),
+        nearness_(frame, start - frame.origin, end - frame.origin),
         rounding_(32.0 * std::numeric_limits<double>::epsilon() *
-                  (reach(start) + reach(end) + reach(hierarchy.origin))) {}
+                  (reach(start) + reach(end) + reach(frame.origin))) {}
 
   template <class Lanes>
   void bound(const Lanes& lanes, LaneDistances& bounds) const {
@@ -80,6 +82,41 @@ NearestToSegment nearest_to_segment(const Scene::Hierarchy& hierarchy, const Vec
           best.on_segment};
 }
 
+/// Found in the frame of a mesh, and as it is in the world.
+NearestToSegment in_world(const SegmentApproach& found, const InstanceFrame& frame,
+                          const Vec3& start, const Vec3& end) {
+  NearestToSegment nearest;
+  nearest.u = found.u;
+  nearest.v = found.v;
+  nearest.fraction = found.fraction;
+  if (is_identity(frame)) {
+    nearest.point = found.point;
+    nearest.segment_point = found.on_segment;
+    return nearest;
+  }
+  nearest.point = to_world(frame, found.point);
+  nearest.segment_point = found.squared_distance == 0.0 ? nearest.point
+                          : found.fraction == 0.0       ? start
+                          : found.fraction == 1.0       ? end
+                                                        : to_world(frame, found.on_segment);
+  return nearest;
+}
+
+NearestToSegment nearest_to_segment(const Scene::Instances& instances, const Vec3& start,
+                                    const Vec3& end, double within) {
+  InstanceNearest walk(instances, SegmentQuery(instances, start, end), within);
+  walk.run([&](const Scene::Hierarchy& hierarchy, const InstanceFrame& frame) {
+    return is_identity(frame) ? SegmentQuery(hierarchy, start, end)
+                              : SegmentQuery(hierarchy, to_mesh(frame, start), to_mesh(frame, end));
+  });
+  if (walk.row() < 0) return {};
+  NearestToSegment nearest = in_world(walk.found(), instances.frame(walk.row()), start, end);
+  nearest.distance = walk.distance();
+  nearest.mesh = walk.row();
+  nearest.triangle = static_cast<std::int32_t>(walk.triangle());
+  return nearest;
+}
+
 }  // namespace
 }  // namespace scene
 
@@ -100,8 +137,9 @@ std::vector<NearestToSegment> Scene::nearest_segments(PointView start, PointView
   constexpr std::size_t kGrain = 64;
   parallel_for(found.size(), kGrain, num_threads, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
-      found[i] = scene::nearest_to_segment(*hierarchy_, scene::row_of(start, i),
-                                           scene::row_of(end, i), options.within);
+      const Vec3 from = scene::row_of(start, i), to = scene::row_of(end, i);
+      found[i] = instances_ ? scene::nearest_to_segment(*instances_, from, to, options.within)
+                            : scene::nearest_to_segment(*hierarchy_, from, to, options.within);
     }
   });
   return found;

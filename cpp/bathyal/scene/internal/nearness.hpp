@@ -30,11 +30,11 @@ inline LaneVector all_lanes(const Vec3& v) {
 class NearnessLimit {
  public:
   /// `reach`: largest coordinate of the query in the local frame [m].
-  NearnessLimit(const Scene::Hierarchy& hierarchy, double reach) {
+  NearnessLimit(const LocalFrame& frame, double reach) {
     // Differences of rounded coordinates, and their products with a direction, are off by less than
     // 18 ε · (the largest coordinate of the query + that of the scene).
     constexpr double kRounding = 32.0 * std::numeric_limits<float>::epsilon();
-    slack_ = kRounding * (reach + hierarchy.reach());
+    slack_ = kRounding * (reach + frame.reach());
   }
 
   /// The largest bound of what is within `distance` [m].
@@ -63,8 +63,8 @@ inline Float4 bound_along(Float4 h, Float4 squared) {
 class Nearness {
  public:
   /// `query` in the local frame [m].
-  Nearness(const Scene::Hierarchy& hierarchy, const Vec3& query)
-      : query_(all_lanes(query)), limit_(hierarchy, query.lpNorm<Eigen::Infinity>()) {}
+  Nearness(const LocalFrame& frame, const Vec3& query)
+      : query_(all_lanes(query)), limit_(frame, query.lpNorm<Eigen::Infinity>()) {}
 
   /// The largest bound of what is within `distance` [m].
   float limit(double distance) const { return limit_(distance); }

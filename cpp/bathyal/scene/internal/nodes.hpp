@@ -20,12 +20,17 @@ inline constexpr std::uint32_t kNoPrimitive = UINT32_MAX;
 /// Most entries that a depth-first walk can have waiting (build.cpp bounds the depth).
 inline constexpr int kStackSize = 1024;
 
+/// Farthest from the middle of all that a box may reach [m]: products of three lengths stay far
+/// from float's limit.
+inline constexpr double kLargestReach = 1e12;
+
 /// Up to eight boxes in the local frame of the hierarchy [m], rounded outwards.
 struct alignas(64) WideNode {
   float low[3][kWidth];   ///< [axis][child]; +inf where there is no child
   float high[3][kWidth];  ///< [axis][child]; −inf where there is no child
 
-  /// ≥ 0: a node, with a higher number than this one; kNoChild: nothing; else ~child is a block.
+  /// ≥ 0: a node, with a higher number than this one; kNoChild: nothing; else ~child is a block, or
+  /// in the tree over instances the row of one.
   std::int32_t child[kWidth];
 
   /// Where the child is a block: no less than |e1|₁ and |e2|₁ of each of its triangles [m].

@@ -16,6 +16,7 @@ struct alignas(64) Packet {
 
   double o[3][kRays];
   double d[3][kRays];  ///< as given
+  double unit[3][kRays];
   double sx[kRays];
   double sy[kRays];
   double slope[kRays];
@@ -36,6 +37,7 @@ struct alignas(64) Packet {
   std::int64_t primitive[kRays];
   float bound[kRays];
 
+  double length;     ///< way of the rays in their frame [m] for one unit of t
   int common_kz;     ///< kz of all rays that enter, −1 where they differ
   bool backward[3];  ///< which way they go along each axis
   bool mixed;        ///< they do not all go the same way along every axis
@@ -64,49 +66,49 @@ struct SetUp {
   unsigned suspect = 0;  ///< rays that are not fine, or whose length needs care
 };
 
-/// The double half of setting up, for the lanes from `first` on that fill a register.
-template <class Simd>
-inline SetUp set_up_exact(const CastScene& scene, Packet<Simd>& packet, int first) {
-  using D = typename Simd::D;
-  using I = typename Simd::I;
+/// Some lanes of a ray in double.
+template <class D>
+struct RayRegister {
   D o[3];
   D d[3];
-  for (int axis = 0; axis < 3; ++axis) {
-    o[axis] = load_as<D>(packet.o[axis] + first);
-    d[axis] = load_as<D>(packet.d[axis] + first);
-  }
-  const D square = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
-  const D sum = o[0] + o[1] + o[2];  // finite for all origins but absurd ones, which are suspect
-  const I fine = (square > 1e-200) & (square < 1e200) & (sum - sum == 0.0);
-
-  const D length = Simd::root(square);
   D unit[3];
-  for (int axis = 0; axis < 3; ++axis) unit[axis] = d[axis] / length;
-  const D x = absolute_of(d[0]);
-  const D y = absolute_of(d[1]);
-  const D z = absolute_of(d[2]);
+};
+
+/// Sets up the lanes from `first` on in the frame of `scene`, where one unit of t is `length` [m]
+/// of way; returns those that enter its box and whose lengths are `fine`.
+template <class Simd>
+inline unsigned place_rays(const CastScene& scene, Packet<Simd>& packet, int first,
+                           const RayRegister<typename Simd::D>& ray, typename Simd::I fine) {
+  using D = typename Simd::D;
+  using I = typename Simd::I;
+  const D x = absolute_of(ray.d[0]);
+  const D y = absolute_of(ray.d[1]);
+  const D z = absolute_of(ray.d[2]);
   const I z_over_x = ~(x > z);
   const I z_over_y = ~(y > z);
   const I along_x = (x > y) & ~z_over_x;
   const I along_y = ~(x > y) & ~z_over_y;
-  const D major = along_x ? d[0] : along_y ? d[1] : d[2];
-  store_as(packet.sx + first, (along_x ? d[1] : along_y ? d[2] : d[0]) / major);
-  store_as(packet.sy + first, (along_x ? d[2] : along_y ? d[0] : d[1]) / major);
-  store_as(packet.slope + first, along_x ? unit[0] : along_y ? unit[1] : unit[2]);
+  const D major = along_x ? ray.d[0] : along_y ? ray.d[1] : ray.d[2];
+  store_as(packet.sx + first, (along_x ? ray.d[1] : along_y ? ray.d[2] : ray.d[0]) / major);
+  store_as(packet.sy + first, (along_x ? ray.d[2] : along_y ? ray.d[0] : ray.d[1]) / major);
+  const D slope = along_x ? ray.unit[0] : along_y ? ray.unit[1] : ray.unit[2];
+  store_as(packet.slope + first, slope * packet.length);
   store_as(packet.kz + first, along_x ? I{} : along_y ? I{} + 1 : I{} + 2);
 
   // As enter() does for one ray.
+  D o[3];
   D distance = D{};
   for (int axis = 0; axis < 3; ++axis) {
-    o[axis] = o[axis] - scene.origin[axis];
+    o[axis] = ray.o[axis] - scene.origin[axis];
     distance = distance + absolute_of(o[axis]);
   }
-  const D far = kFarPad * distance;
+  const D far = scene.far_pad * distance;
   const D pad = kBoxPad * scene.reach + far;
   D start = D{};
   D end = D{} + __builtin_inf();
   for (int axis = 0; axis < 3; ++axis) {
-    const D inverse = 1.0 / (absolute_of(unit[axis]) > 1e-200 ? unit[axis] : D{} + 1e-200);
+    const D unit = ray.unit[axis];
+    const D inverse = 1.0 / (absolute_of(unit) > 1e-200 ? unit : D{} + 1e-200);
     const D a = (scene.low[axis] - 2.0 * pad - o[axis]) * inverse;
     const D b = (scene.high[axis] + 2.0 * pad - o[axis]) * inverse;
     const D least = a < b ? a : b;
@@ -116,13 +118,34 @@ inline SetUp set_up_exact(const CastScene& scene, Packet<Simd>& packet, int firs
   }
   store_as(packet.start + first, start);
   for (int axis = 0; axis < 3; ++axis) {
-    Simd::store_narrow(packet.cull_o[axis] + first, o[axis] + start * unit[axis]);
-    Simd::store_narrow(packet.cull_d[axis] + first, unit[axis]);
+    Simd::store_narrow(packet.cull_o[axis] + first, o[axis] + start * ray.unit[axis]);
+    Simd::store_narrow(packet.cull_d[axis] + first, ray.unit[axis]);
   }
   Simd::store_narrow(packet.box_pad + first, pad);
   Simd::store_narrow(packet.triangle_pad + first, kTrianglePad * scene.reach + 4.0 * far);
-  const I enters = fine & (start <= end) & (distance < kFarthest);
-  return {Simd::bits(enters), Simd::bits(~fine)};
+  return Simd::bits(fine & (start <= end) & (distance < kFarthest));
+}
+
+/// The double half of setting up, for the lanes from `first` on that fill a register.
+template <class Simd>
+inline SetUp set_up_exact(const CastScene& scene, Packet<Simd>& packet, int first) {
+  using D = typename Simd::D;
+  using I = typename Simd::I;
+  RayRegister<D> ray;
+  for (int axis = 0; axis < 3; ++axis) {
+    ray.o[axis] = load_as<D>(packet.o[axis] + first);
+    ray.d[axis] = load_as<D>(packet.d[axis] + first);
+  }
+  const D square = ray.d[0] * ray.d[0] + ray.d[1] * ray.d[1] + ray.d[2] * ray.d[2];
+  // Finite for all origins but absurd ones, which are suspect.
+  const D sum = ray.o[0] + ray.o[1] + ray.o[2];
+  const I fine = (square > 1e-200) & (square < 1e200) & (sum - sum == 0.0);
+  const D length = Simd::root(square);
+  for (int axis = 0; axis < 3; ++axis) {
+    ray.unit[axis] = ray.d[axis] / length;
+    store_as(packet.unit[axis] + first, ray.unit[axis]);
+  }
+  return {place_rays<Simd>(scene, packet, first, ray, fine), Simd::bits(~fine)};
 }
 
 /// The float half, for all lanes.
@@ -177,6 +200,7 @@ inline SetUp set_up(const CastScene& scene, const RayBatch& batch, std::size_t r
       direction += 3;
     }
   }
+  packet.length = 1.0;
   SetUp lanes;
   for (int first = 0; first < kRays; first += Simd::kDoubles) {
     const SetUp part = set_up_exact<Simd>(scene, packet, first);
@@ -225,7 +249,7 @@ inline CullRay cull_lane(const Packet<Simd>& packet, int lane) {
   }
   ray.triangle_pad = packet.triangle_pad[lane];
   ray.start = packet.start[lane];
-  ray.length = 1.0;
+  ray.length = packet.length;
   return ray;
 }
 

@@ -145,7 +145,7 @@ inline unsigned confirm_register(Packet<Simd>& packet, int first, unsigned rays,
     store_as(packet.v + first, take ? w / sum + 0.0 : load_as<D>(packet.v + first));
     store_as(packet.primitive + first, take ? I{} + number : best_primitive);
     const D start = load_as<D>(packet.start + first);
-    const D bound = new_t - start;  // as cull_bound
+    const D bound = new_t * packet.length - start;  // as cull_bound
     const D padded = bound + (absolute_of(bound) * 0x1p-22 + start * kFarPad);
     Simd::store_narrow(packet.bound + first, padded < 3e38 ? padded : D{} + 3e38);
   }

@@ -20,7 +20,6 @@ namespace {
 
 inline constexpr double kBoxPad = 0x1p-20;       ///< 16 · 2⁻²⁴, of the reach
 inline constexpr double kTrianglePad = 0x1p-17;  ///< 128 · 2⁻²⁴, of the reach
-inline constexpr double kFarPad = 0x1p-48;       ///< of the distance of the origin
 inline constexpr double kFarthest = 1e25;        ///< origins further out meet nothing [m]
 inline constexpr float kLeastSlope = 0x1p-28F;   ///< keeps 1/d finite; moves a ray by 4 R 2⁻²⁸
 
@@ -33,7 +32,7 @@ struct CullRay {
   float far_shift[3];   ///< t of a far plane b ≤ b · inverse − far_shift
   float triangle_pad;   ///< of a triangle with edges of a metre
   double start;         ///< distance of `o` along the ray [m]
-  double length;        ///< of the exact ray's d [m]
+  double length;        ///< way of this ray [m] for one unit of the exact ray's t
 };
 
 inline bool is_finite3(const double* p) {
@@ -71,7 +70,7 @@ inline bool enter(const CastScene& scene, const double* origin, const double* d,
     o[axis] = origin[axis] - scene.origin[axis];
     distance += absolute(o[axis]);
   }
-  const double far = kFarPad * distance;
+  const double far = scene.far_pad * distance;
   if (!(distance < kFarthest)) return false;
   const double pad = kBoxPad * scene.reach + far;
   double start = 0.0;

@@ -18,11 +18,10 @@ namespace bathyal::scene {
 class SegmentNearness {
  public:
   /// `start` and `end` in the local frame [m].
-  SegmentNearness(const Scene::Hierarchy& hierarchy, const Vec3& start, const Vec3& end)
+  SegmentNearness(const LocalFrame& frame, const Vec3& start, const Vec3& end)
       : start_(all_lanes(start)),
         end_(all_lanes(end)),
-        limit_(hierarchy,
-               std::max(start.lpNorm<Eigen::Infinity>(), end.lpNorm<Eigen::Infinity>())) {
+        limit_(frame, std::max(start.lpNorm<Eigen::Infinity>(), end.lpNorm<Eigen::Infinity>())) {
     const Vec3 along = end - start;
     along_ = all_lanes(along);
     per_length_ = all_lanes(along / std::max(along.squaredNorm(), 1e-30));

@@ -7,20 +7,21 @@
 
 #include "bathyal/scene/internal/hierarchy.hpp"
 #include "bathyal/scene/internal/lanes.hpp"
+#include "bathyal/scene/internal/local_frame.hpp"
 
 namespace bathyal::scene {
 
-/// x ↦ direction · (x − anchor) over the hierarchy's frame, the direction scaled to unit length, in
+/// x ↦ direction · (x − anchor) over a local frame, the direction scaled to unit length, in
 /// float and eight lanes at a time: finds what may lie in the slab [0, length]. It rules out and
 /// decides nothing.
 class SlabFilter {
  public:
   /// `length` [m]; `slack`, in the direction's own units, is what the rounding of vertices may be
   /// worth; that of the floats comes on top.
-  SlabFilter(const Scene::Hierarchy& hierarchy, const Vec3& direction, const Vec3& anchor,
-             double length, double slack) {
+  SlabFilter(const LocalFrame& frame, const Vec3& direction, const Vec3& anchor, double length,
+             double slack) {
     const double scale = 1.0 / direction.stableNorm();
-    const double offset = scale * direction.dot(hierarchy.origin - anchor);
+    const double offset = scale * direction.dot(frame.origin - anchor);
     for (std::size_t axis = 0; axis < 3; ++axis) {
       direction_[axis] = all4(static_cast<float>(scale * direction[static_cast<Index>(axis)]));
       rising_[axis] = direction_[axis][0] >= 0.0F;
@@ -28,7 +29,7 @@ class SlabFilter {
     offset_ = all4(static_cast<float>(offset));
     constexpr double kRounding = 16.0 * std::numeric_limits<float>::epsilon();
     const auto margin =
-        static_cast<float>(kRounding * (hierarchy.reach() + std::abs(offset)) + scale * slack);
+        static_cast<float>(kRounding * (frame.reach() + std::abs(offset)) + scale * slack);
     bottom_ = all4(-margin);
     top_ = all4(static_cast<float>(length) + margin);
   }

@@ -9,6 +9,7 @@
 #include "bathyal/base/check.hpp"
 #include "bathyal/base/parallel.hpp"
 #include "bathyal/scene/internal/hierarchy.hpp"
+#include "bathyal/scene/internal/instances.hpp"
 #include "bathyal/scene/internal/nearest.hpp"
 
 namespace bathyal {
@@ -122,7 +123,8 @@ class WindingWalk {
               double accuracy)
       : hierarchy_(hierarchy), clusters_(clusters), accuracy_(accuracy) {}
 
-  Winding at(const Vec3& query) const {
+  /// `rounding`: how far the query may be off what was asked for [m].
+  Winding at(const Vec3& query, double rounding = 0.0) const {
     const Vec3 local = query - hierarchy_.origin;
     double angle = 0.0;
     bool on_surface = false;
@@ -143,8 +145,8 @@ class WindingWalk {
         } else if (child >= 0) {
           stack[depth++] = child;
         } else {
-          angle +=
-              near_angle(hierarchy_.blocks[static_cast<std::size_t>(~child)], query, on_surface);
+          angle += near_angle(hierarchy_.blocks[static_cast<std::size_t>(~child)], query, rounding,
+                              on_surface);
         }
       }
     }
@@ -170,12 +172,13 @@ class WindingWalk {
            d3;
   }
 
-  double near_angle(const TriangleBlock& block, const Vec3& query, bool& on_surface) const {
+  double near_angle(const TriangleBlock& block, const Vec3& query, double rounding,
+                    bool& on_surface) const {
     double angle = 0.0;
     for (const std::uint32_t primitive : block.primitive) {
       if (primitive == kNoPrimitive) break;
       const std::array<Vec3, 3> corners = hierarchy_.corners(primitive);
-      if (touches(corners, query)) {  // adds the mean of its two sides: nothing
+      if (touches(corners, query, rounding)) {  // adds the mean of its two sides: nothing
         on_surface = true;
         continue;
       }
@@ -185,12 +188,12 @@ class WindingWalk {
   }
 
   /// Whether the query lies on the triangle to the rounding of its coordinates.
-  static bool touches(const std::array<Vec3, 3>& corners, const Vec3& query) {
+  static bool touches(const std::array<Vec3, 3>& corners, const Vec3& query, double rounding) {
     const Vec3 a = corners[0] - query;
     const Vec3 normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
     constexpr double kRounding = 4.0 * std::numeric_limits<double>::epsilon();
     const double slack =
-        kRounding * (query.lpNorm<Eigen::Infinity>() + a.lpNorm<Eigen::Infinity>());
+        kRounding * (query.lpNorm<Eigen::Infinity>() + a.lpNorm<Eigen::Infinity>()) + rounding;
     if (std::abs(a.dot(normal)) > slack * normal.lpNorm<1>()) return false;
     return closest_point(corners, query).squared_distance <= slack * slack;
   }
@@ -200,17 +203,56 @@ class WindingWalk {
   double accuracy_;
 };
 
-std::vector<Winding> find_windings(const Scene::Hierarchy& hierarchy, PointView points,
-                                   const WindingOptions& options, int num_threads) {
-  options.check();
-  check_points_finite("points", points);
-  const WindingWalk walk(hierarchy, hierarchy.clusters.of(hierarchy, num_threads),
-                         options.accuracy);
+/// Which hierarchies a point winds in, and where they lie: one without a frame, or instances.
+class Windings {
+ public:
+  Windings(const Scene::Hierarchy* whole, const Scene::Instances* instances, double accuracy,
+           int num_threads)
+      : instances_(instances) {
+    const auto add = [&](const Scene::Hierarchy& hierarchy) {
+      walks_.emplace_back(hierarchy, hierarchy.clusters.of(hierarchy, num_threads), accuracy);
+    };
+    if (instances == nullptr) {
+      add(*whole);
+      return;
+    }
+    for (const auto& hierarchy : instances->shared->hierarchies) add(*hierarchy);
+  }
+
+  /// The sum over instances: moving, turning and scaling a mesh with the point changes no angle.
+  Winding at(const Vec3& point) const {
+    if (instances_ == nullptr) return walks_[0].at(point);
+    Winding sum;
+    for (const InstanceFrame& frame : instances_->frames) {
+      const WindingWalk& walk = walks_[static_cast<std::size_t>(frame.mesh)];
+      const Winding part = is_identity(frame)
+                               ? walk.at(point)
+                               : walk.at(to_mesh(frame, point), rounding(frame, point));
+      sum.number += part.number;
+      sum.on_surface = sum.on_surface || part.on_surface;
+    }
+    return sum;
+  }
+
+ private:
+  /// What moving the point into the frame may be off by, in it [m].
+  static double rounding(const InstanceFrame& frame, const Vec3& point) {
+    constexpr double kRounding = 8.0 * std::numeric_limits<double>::epsilon();
+    const Vec3 position(frame.position);
+    return kRounding * frame.per_metre *
+           (point.lpNorm<Eigen::Infinity>() + position.lpNorm<Eigen::Infinity>());
+  }
+
+  const Scene::Instances* instances_;
+  std::vector<WindingWalk> walks_;  ///< of each distinct mesh
+};
+
+std::vector<Winding> find_windings(const Windings& windings, PointView points, int num_threads) {
   std::vector<Winding> found(static_cast<std::size_t>(points.rows()));
   constexpr std::size_t kGrain = 64;
   parallel_for(found.size(), kGrain, num_threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      found[i] = walk.at(points.row(static_cast<Index>(i)).transpose());
+      found[i] = windings.at(points.row(static_cast<Index>(i)).transpose());
     }
   });
   return found;
@@ -230,9 +272,12 @@ const std::vector<Cluster>& Clusters::of(const Scene::Hierarchy& hierarchy, int 
 
 std::vector<double> Scene::winding_number(PointView points, const WindingOptions& options,
                                           int num_threads) const {
+  options.check();
+  check_points_finite("points", points);
+  const scene::Windings windings(hierarchy_.get(), instances_.get(), options.accuracy, num_threads);
   std::vector<double> numbers;
   numbers.reserve(static_cast<std::size_t>(points.rows()));
-  for (const auto& found : scene::find_windings(*hierarchy_, points, options, num_threads)) {
+  for (const auto& found : scene::find_windings(windings, points, num_threads)) {
     numbers.push_back(found.number);
   }
   return numbers;
@@ -240,9 +285,12 @@ std::vector<double> Scene::winding_number(PointView points, const WindingOptions
 
 std::vector<bool> Scene::contains(PointView points, const WindingOptions& options,
                                   int num_threads) const {
+  options.check();
+  check_points_finite("points", points);
+  const scene::Windings windings(hierarchy_.get(), instances_.get(), options.accuracy, num_threads);
   std::vector<bool> inside;
   inside.reserve(static_cast<std::size_t>(points.rows()));
-  for (const auto& found : scene::find_windings(*hierarchy_, points, options, num_threads)) {
+  for (const auto& found : scene::find_windings(windings, points, num_threads)) {
     inside.push_back(found.on_surface || std::abs(found.number) > 0.5);
   }
   return inside;

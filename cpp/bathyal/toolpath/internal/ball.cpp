@@ -31,7 +31,8 @@ Vec3 closest_to_origin(const Vec3& a, const Vec3& b, const Vec3& c) {
 
 double reach_of(const Scene& scene) {
   double reach = 0.0;
-  for (const TriangleMesh& mesh : scene.meshes()) {
+  for (std::int32_t m = 0; m < scene.row_count(); ++m) {
+    const TriangleMesh mesh = scene.mesh_in_world(m);
     if (mesh.vertex_count() > 0) reach = std::max(reach, mesh.vertices().cwiseAbs().maxCoeff());
   }
   return reach;
@@ -52,10 +53,9 @@ Touch Ball::nearest(const Vec3& centre) const {
 }
 
 Touch Ball::touch(std::int32_t mesh, std::int32_t triangle, const Vec3& centre) const {
-  const TriangleMesh& on = scene_.meshes()[static_cast<std::size_t>(mesh)];
-  const Vec3 away =
-      closest_to_origin(on.corner(triangle, 0) - centre, on.corner(triangle, 1) - centre,
-                        on.corner(triangle, 2) - centre);
+  const Vec3 away = closest_to_origin(scene_.corner(mesh, triangle, 0) - centre,
+                                      scene_.corner(mesh, triangle, 1) - centre,
+                                      scene_.corner(mesh, triangle, 2) - centre);
   const double distance = away.norm();
   return {centre + away, distance > 0.0 ? Vec3(-away / distance) : Vec3(Vec3::Zero()), distance,
           mesh, triangle};

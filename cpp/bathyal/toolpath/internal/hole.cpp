@@ -55,7 +55,8 @@ bool meets(const Eigen::AlignedBox3d& box, const Vec3& origin, const Vec3& direc
 
 Eigen::AlignedBox3d bounds_of(const Scene& scene) {
   Eigen::AlignedBox3d box;
-  for (const TriangleMesh& mesh : scene.meshes()) {
+  for (std::int32_t m = 0; m < scene.row_count(); ++m) {
+    const TriangleMesh mesh = scene.mesh_in_world(m);
     for (Index i = 0; i < mesh.vertex_count(); ++i) {
       box.extend(mesh.vertices().row(i).transpose());
     }

@@ -123,10 +123,10 @@ void estimate_normals(Route& route, const Surface& surface, double radius, int n
   for (Run& run : route.runs) {
     for (Piece& piece : run.pieces) pieces.push_back(&piece);
   }
-  for (std::size_t m = 0; m < scene->meshes().size(); ++m) {
-    const TriangleMesh& mesh = scene->meshes()[m];
-    const auto on_mesh = [&](const Piece* p) { return p->mesh == static_cast<std::int32_t>(m); };
+  for (std::int32_t m = 0; m < scene->row_count(); ++m) {
+    const auto on_mesh = [m](const Piece* p) { return p->mesh == m; };
     if (std::none_of(pieces.begin(), pieces.end(), on_mesh)) continue;
+    const TriangleMesh mesh = scene->mesh_in_world(m);
     const SheetWalk walk(mesh);
     parallel_for(pieces.size(), 256, num_threads, [&](std::size_t begin, std::size_t end) {
       for (std::size_t k = begin; k < end; ++k) {

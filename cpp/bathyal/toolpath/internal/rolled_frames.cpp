@@ -45,8 +45,7 @@ std::vector<std::vector<Piece>> touched_pieces(const RolledRoute& rolled, const 
       piece.from = piece.to = rest.touch;
       piece.mesh = rest.mesh;
       piece.triangle = rest.triangle;
-      piece.normal =
-          outward_normal(scene.meshes()[static_cast<std::size_t>(rest.mesh)], rest.triangle);
+      piece.normal = outward_normal(scene, rest.mesh, rest.triangle);
       if (piece.normal.isZero()) piece.normal = rest.approach;
       run.pieces.push_back(piece);
     }

@@ -65,8 +65,7 @@ void set_facet_normals(Route& route, const Surface& surface, const Vec3& up) {
       if (const auto* plane = std::get_if<Plane>(&surface)) {
         piece.normal = outward_normal(*plane, up);
       } else {
-        const auto& meshes = std::get<Scene>(surface).meshes();
-        piece.normal = outward_normal(meshes[static_cast<std::size_t>(piece.mesh)], piece.triangle);
+        piece.normal = outward_normal(std::get<Scene>(surface), piece.mesh, piece.triangle);
       }
     }
     auto& pieces = run.pieces;

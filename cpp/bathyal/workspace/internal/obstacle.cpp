@@ -11,7 +11,8 @@ namespace {
 
 Eigen::AlignedBox3d box_of(const Scene& scene) {
   Eigen::AlignedBox3d box;
-  for (const TriangleMesh& mesh : scene.meshes()) {
+  for (std::int32_t m = 0; m < scene.row_count(); ++m) {
+    const TriangleMesh mesh = scene.mesh_in_world(m);
     const PointView vertices = mesh.vertices();
     for (Index i = 0; i < vertices.rows(); ++i) box.extend(Vec3(vertices.row(i).transpose()));
   }
@@ -78,7 +79,7 @@ bool Obstacle::holds(const Vec3& point) const {
   if (const Scene* scene = std::get_if<Scene>(&body_)) {
     if (point.z() > box_.max().z()) return false;
     const RayHit hit = scene->cast(point, Vec3::UnitZ());
-    return hit.mesh >= 0 && hit_normal(scene->meshes(), hit).z() > 0.0;
+    return hit.mesh >= 0 && hit_normal(*scene, hit).z() > 0.0;
   }
   if (!box_.contains(point)) return false;
   bool inside = false;

@@ -179,7 +179,8 @@ HullRoom::HullRoom(const Surroundings& surroundings, double clearance,
   for (const Vec3& vertex : vertices_) radius = std::max(radius, vertex.norm());
   const Vec3 around = Vec3::Constant(radius + clearance);
   const Eigen::AlignedBox3d near(area.min() - around, area.max() + around);
-  for (const TriangleMesh& mesh : surroundings.scene->meshes()) {
+  for (std::int32_t m = 0; m < surroundings.scene->row_count(); ++m) {
+    const TriangleMesh mesh = surroundings.scene->mesh_in_world(m);
     if (mesh.vertex_count() > 0) top_ = std::max(top_, mesh.vertices().col(2).maxCoeff());
     collect_edges(mesh, near, bottom_);
   }

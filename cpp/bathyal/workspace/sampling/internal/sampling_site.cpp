@@ -19,7 +19,7 @@ Vec3 upward_normal(const Scene& scene, const Vec3& point) {
   RayHit hit;
   hit.mesh = nearest.mesh;
   hit.triangle = nearest.triangle;
-  const Vec3 normal = hit_normal(scene.meshes(), hit);
+  const Vec3 normal = hit_normal(scene, hit);
   return normal.z() < 0.0 ? Vec3(-normal) : normal;
 }
 
