@@ -18,7 +18,9 @@ void bind_terrain(pybind11::module_& module);
 void bind_scene(pybind11::module_& module);
 void bind_toolpath(pybind11::module_& module);
 void bind_arm(pybind11::module_& module);
+void bind_world(pybind11::module_& module);
 void bind_workspace(pybind11::module_& module);
+void bind_sonar(pybind11::module_& module);
 void bind_identify(pybind11::module_& module);
 void bind_plan_touches(pybind11::module_& module);  // of the room identify, as the next one
 void bind_verify(pybind11::module_& module);

@@ -18,7 +18,9 @@ PYBIND11_MODULE(_core, module) {
   bind_scene(module);
   bind_toolpath(module);
   bind_arm(module);
+  bind_world(module);
   bind_workspace(module);
+  bind_sonar(module);
   bind_identify(module);
   bind_plan_touches(module);
   bind_verify(module);

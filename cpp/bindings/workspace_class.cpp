@@ -17,6 +17,7 @@
 #include "enum_names.hpp"
 #include "hooks.hpp"
 #include "trajectory.hpp"
+#include "warnings.hpp"
 #include "workspace_answers.hpp"
 #include "workspace_class_docs.hpp"
 
@@ -74,10 +75,6 @@ std::optional<Points> mesh_corners(const Shape& shape) {
   const py::object found = hook(Hook::kMeshVertices)(shape);
   if (found.is_none()) return std::nullopt;
   return points_argument("mesh " + shape.file, found);
-}
-
-void warn_user(const std::string& text) {
-  if (PyErr_WarnEx(PyExc_UserWarning, text.c_str(), 1) != 0) throw py::error_already_set();
 }
 
 std::vector<LinkCapsule> arm_capsules(const Arm& arm, const OptionalArray& radii,

@@ -3,7 +3,7 @@
 
 from importlib.metadata import version as _version
 
-from bathyal import arms, effects
+from bathyal import arms, effects, sonars
 from bathyal._core import (
     Arm,
     ArmFit,
@@ -26,6 +26,8 @@ from bathyal._core import (
     MotionPlan,
     Nearest,
     NearestSegments,
+    Ping,
+    PingTruth,
     Plane,
     PlaneFit,
     PointCloud,
@@ -38,6 +40,7 @@ from bathyal._core import (
     Shape,
     SheetPatch,
     SheetReport,
+    Sonar,
     Standpoint,
     StaticTrim,
     TargetChecks,
@@ -52,6 +55,8 @@ from bathyal._core import (
     TriangleMesh,
     Voxels,
     Workspace,
+    World,
+    WorldSnapshot,
     best_standpoint,
     clean_cloud,
     cover_polygon,
@@ -120,6 +125,8 @@ __all__ = [
     "MotionPlan",
     "Nearest",
     "NearestSegments",
+    "Ping",
+    "PingTruth",
     "Plane",
     "PlaneFit",
     "PointCloud",
@@ -134,6 +141,7 @@ __all__ = [
     "SheetPatch",
     "SheetReport",
     "SheetWarning",
+    "Sonar",
     "Standpoint",
     "StaticTrim",
     "SupportWarning",
@@ -149,6 +157,8 @@ __all__ = [
     "TriangleMesh",
     "Voxels",
     "Workspace",
+    "World",
+    "WorldSnapshot",
     "arms",
     "best_standpoint",
     "clean_cloud",

@@ -47,16 +47,23 @@ std::vector<Task> tasks_of(const std::vector<BeamRays>& fans) {
   return tasks;
 }
 
+/// What a thread works with from task to task.
+struct Scratch {
+  EchoRow row;
+  std::vector<double> directions = std::vector<double>(3 * kRaysOfCast);
+  std::vector<RayHit> hits = std::vector<RayHit>(kRaysOfCast);
+};
+
 /// Traces rays of a sonar that rests in the world.
 class Tracer {
  public:
   Tracer(const SonarOptions& options, const WorldSnapshot& world, const Pose& world_from_head)
       : options_(options), world_(world), facets_(world.scene), world_from_head_(world_from_head) {}
 
-  EchoRow trace(const BeamRays& fan, const Task& task) const {
-    EchoRow row(static_cast<std::size_t>(options_.samples), options_.sample_length());
-    std::vector<double> directions(3 * kRaysOfCast);
-    std::vector<RayHit> hits(kRaysOfCast);
+  EchoPart trace(const BeamRays& fan, const Task& task) const {
+    thread_local Scratch scratch;
+    auto& [row, directions, hits] = scratch;
+    row.reset(static_cast<std::size_t>(options_.samples), options_.sample_length());
     const Vec3 array = world_from_head_.linear() * fan.beam.array;
     for (std::size_t column = task.first_column; column < task.last_column; ++column) {
       double farthest = 0.0;  // of what lies lower in the column
@@ -75,7 +82,7 @@ class Tracer {
         }
       }
     }
-    return row;
+    return row.take();
   }
 
  private:
@@ -139,20 +146,17 @@ class Tracer {
   Pose world_from_head_;
 };
 
-void write_row(const EchoRow& row, std::size_t beam, Echo& echo) {
-  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-  const auto samples = static_cast<std::size_t>(echo.samples);
-  for (std::size_t i = 0; i < samples; ++i) {
-    const std::size_t at = beam * samples + i;
+void write_row(const EchoPart& row, std::size_t beam, Echo& echo) {
+  for (std::size_t i = 0; i < row.power.size(); ++i) {
+    const std::size_t at = beam * static_cast<std::size_t>(echo.samples) + row.first + i;
     const Strongest& best = row.strongest[i];
-    const bool hit = best.weight > 0.0;
     echo.power[at] = row.power[i];
-    echo.truth.range[at] = hit ? best.range : kNone;
-    echo.truth.incidence[at] = hit ? std::acos(best.incidence_cosine) : kNone;
-    echo.truth.material[at] = hit ? best.material : -1;
-    for (int axis = 0; axis < 3; ++axis) {
-      echo.truth.point[3 * at + static_cast<std::size_t>(axis)] = hit ? best.point[axis] : kNone;
-    }
+    if (!(best.weight > 0.0)) continue;
+    echo.truth.range[at] = best.range;
+    echo.truth.incidence[at] = std::acos(best.incidence_cosine);
+    echo.truth.material[at] = best.material;
+    std::copy(best.point.begin(), best.point.end(),
+              echo.truth.point.begin() + static_cast<std::ptrdiff_t>(3 * at));
   }
 }
 
@@ -162,8 +166,9 @@ Echo empty_echo(const SonarOptions& options) {
   echo.samples = options.samples;
   const auto size = static_cast<std::size_t>(echo.beams * echo.samples);
   echo.power.assign(size, 0.0);
-  echo.truth = {std::vector<double>(size), std::vector<double>(size),
-                std::vector<std::int32_t>(size), std::vector<double>(3 * size)};
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  echo.truth = {std::vector<double>(size, kNone), std::vector<double>(size, kNone),
+                std::vector<std::int32_t>(size, -1), std::vector<double>(3 * size, kNone)};
   return echo;
 }
 
@@ -205,17 +210,18 @@ Echo Sonar::echo(const WorldSnapshot& world, const Water& water, const Pose& wor
 
   const sonar::Tracer tracer(options, world, world_from_head);
   const std::vector<sonar::Task> tasks = sonar::tasks_of(state_->fans);
-  std::vector<std::optional<sonar::EchoRow>> parts(tasks.size());
+  std::vector<sonar::EchoPart> parts(tasks.size());
   parallel_for(tasks.size(), 1, num_threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       parts[i] = tracer.trace(state_->fans[tasks[i].beam], tasks[i]);
     }
   });
+  sonar::EchoRow row;
+  row.reset(static_cast<std::size_t>(options.samples), options.sample_length());
   for (std::size_t i = 0; i < tasks.size();) {
-    sonar::EchoRow row = std::move(*parts[i]);
     const std::size_t beam = tasks[i].beam;
-    for (++i; i < tasks.size() && tasks[i].beam == beam; ++i) row.add(*parts[i]);
-    sonar::write_row(row, beam, echo);
+    for (; i < tasks.size() && tasks[i].beam == beam; ++i) row.add(parts[i]);
+    sonar::write_row(row.take(), beam, echo);
   }
   return echo;
 }

@@ -10,10 +10,18 @@ constexpr double degrees(double angle) { return angle * std::numbers::pi / 180.0
 
 }  // namespace
 
-SonarOptions side_scan_sonar() { return {}; }
+SonarOptions side_scan_sonar() {
+  SonarOptions sonar;
+  sonar.beam_width = degrees(0.6);
+  sonar.fan_width = degrees(50.0);
+  sonar.fan_span = degrees(90.0);
+  sonar.tilt = degrees(45.0);
+  sonar.axis_tilt = degrees(30.0);
+  return sonar;
+}
 
 SonarOptions side_scan_100khz_sonar() {
-  SonarOptions sonar;
+  SonarOptions sonar = side_scan_sonar();
   sonar.name = "side_scan_100khz";
   sonar.frequency = 100e3;
   sonar.pulse_length = 200e-6;
@@ -130,6 +138,15 @@ SonarOptions scanning_sonar() {
   sonar.rays_across_beam = 8;
   sonar.rays_along_fan = 1000;
   return sonar;
+}
+
+SonarOptions with_real_physics(SonarOptions options) {
+  options.spreading = true;
+  options.absorption = AbsorptionModel::kFrancoisGarrison;
+  options.backscatter = BackscatterModel::kMaterial;
+  options.beam_pattern = BeamPattern::kUniform;
+  options.pixel_solid_angle = true;
+  return options;
 }
 
 }  // namespace bathyal

@@ -32,4 +32,7 @@ SonarOptions imaging_sonar();
 /// A mechanically scanning head, 675 kHz, 1.8° × 30°, 0.9° a ping.
 SonarOptions scanning_sonar();
 
+/// The same sonar with every physical effect on: the `real` preset.
+SonarOptions with_real_physics(SonarOptions options);
+
 }  // namespace bathyal

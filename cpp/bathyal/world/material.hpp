@@ -15,11 +15,11 @@ struct Sediment {
   double loss = 0.01624;              ///< imaginary over real wave number
   double volume = 0.002;              ///< σ₂: scattering in the volume over its absorption
   double spectral_exponent = 3.25;    ///< γ of the relief's spectrum, 2.4 to 3.9
-  double spectral_strength = 4.4e-5;  ///< w₂ of the relief's spectrum [m⁴] at 1 cm⁻¹
+  double spectral_strength = 0.004446;  ///< w₂ of the relief's spectrum [cm⁴], at 1 cm⁻¹
 };
 
-/// How a surface scatters sound back: σ₀ by the angle of incidence θ from its normal, power per unit
-/// area and solid angle at 1 m (dimensionless). By Lambert's law σ₀ = strength cos²θ.
+/// How a surface scatters sound back: σ₀ by the angle of incidence θ from its normal, power per
+/// unit area and solid angle at 1 m (dimensionless). By Lambert's law σ₀ = strength cos²θ.
 struct Material {
   std::string name;
   double strength = 1.0;  ///< μ of Lambert's law, linear, 0 or more; the paper's K_d

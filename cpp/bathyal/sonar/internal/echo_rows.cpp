@@ -6,9 +6,16 @@
 
 namespace bathyal::sonar {
 
+void EchoRow::reset(std::size_t samples, double sample_length) {
+  take();
+  power_.resize(samples, 0.0);
+  strongest_.resize(samples);
+  sample_length_ = sample_length;
+}
+
 void EchoRow::put(std::size_t sample, double weight, const Return& back) {
-  power[sample] += weight;
-  Strongest& best = strongest[sample];
+  power_[sample] += weight;
+  Strongest& best = strongest_[sample];
   if (!(weight > best.weight)) return;
   const double low = static_cast<double>(sample) * sample_length_;
   const double range = std::clamp(back.range, low, low + sample_length_);
@@ -17,7 +24,7 @@ void EchoRow::put(std::size_t sample, double weight, const Return& back) {
 }
 
 void EchoRow::add(const Return& back) {
-  const auto count = static_cast<double>(power.size());
+  const auto count = static_cast<double>(power_.size());
   const double middle = back.range / sample_length_;
   const double half = back.half / sample_length_;
   const double low = middle - half;
@@ -25,6 +32,7 @@ void EchoRow::add(const Return& back) {
   if (!(low < count) || high < 0.0) return;
   const double first = std::floor(std::max(low, 0.0));
   const double last = std::min(std::floor(high), count - 1.0);
+  touch(static_cast<std::size_t>(first), static_cast<std::size_t>(last));
   if (first >= last && low >= first && high < first + 1.0) {
     put(static_cast<std::size_t>(first), back.weight, back);
     return;
@@ -36,11 +44,31 @@ void EchoRow::add(const Return& back) {
   }
 }
 
-void EchoRow::add(const EchoRow& later) {
-  for (std::size_t i = 0; i < power.size(); ++i) {
-    power[i] += later.power[i];
-    if (later.strongest[i].weight > strongest[i].weight) strongest[i] = later.strongest[i];
+void EchoRow::add(const EchoPart& later) {
+  if (later.power.empty()) return;
+  touch(later.first, later.first + later.power.size() - 1);
+  for (std::size_t i = 0; i < later.power.size(); ++i) {
+    power_[later.first + i] += later.power[i];
+    Strongest& best = strongest_[later.first + i];
+    if (later.strongest[i].weight > best.weight) best = later.strongest[i];
   }
+}
+
+EchoPart EchoRow::take() {
+  const auto begin = static_cast<std::ptrdiff_t>(first_), end = static_cast<std::ptrdiff_t>(end_);
+  EchoPart part{first_,
+                {power_.begin() + begin, power_.begin() + end},
+                {strongest_.begin() + begin, strongest_.begin() + end}};
+  std::fill(power_.begin() + begin, power_.begin() + end, 0.0);
+  std::fill(strongest_.begin() + begin, strongest_.begin() + end, Strongest());
+  first_ = end_ = 0;
+  return part;
+}
+
+void EchoRow::touch(std::size_t first, std::size_t last) {
+  const bool empty = first_ == end_;
+  first_ = empty ? first : std::min(first_, first);
+  end_ = empty ? last + 1 : std::max(end_, last + 1);
 }
 
 }  // namespace bathyal::sonar

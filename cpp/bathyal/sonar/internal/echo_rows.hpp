@@ -30,25 +30,36 @@ struct Strongest {
   Vec3 point = Vec3::Zero();
 };
 
-/// The samples of a row that rays put their power into.
+/// Samples first … of a row, as far as rays put power into them.
+struct EchoPart {
+  std::size_t first = 0;
+  std::vector<double> power;
+  std::vector<Strongest> strongest;
+};
+
+/// A row that rays put their power into, used again and again.
 class EchoRow {
  public:
-  EchoRow(std::size_t samples, double sample_length)
-      : power(samples, 0.0), strongest(samples), sample_length_(sample_length) {}
+  /// Empty.
+  void reset(std::size_t samples, double sample_length);
 
   /// Spreads a return evenly over the ranges of its cell; what lies outside of the row is lost.
   void add(const Return& back);
 
-  /// Adds a row that was filled after this one: of equals, this one's return stays the strongest.
-  void add(const EchoRow& later);
+  /// Adds what another row holds: of equally strong returns, that of this row stays.
+  void add(const EchoPart& later);
 
-  std::vector<double> power;
-  std::vector<Strongest> strongest;
+  /// What has been added; the row is empty then.
+  EchoPart take();
 
  private:
+  void touch(std::size_t first, std::size_t last);
   void put(std::size_t sample, double weight, const Return& back);
 
-  double sample_length_;
+  std::vector<double> power_;
+  std::vector<Strongest> strongest_;
+  std::size_t first_ = 0, end_ = 0;  ///< touched; all else is 0
+  double sample_length_ = 1.0;
 };
 
 }  // namespace bathyal::sonar

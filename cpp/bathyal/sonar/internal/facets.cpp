@@ -4,8 +4,14 @@
 namespace bathyal::sonar {
 
 Facets::Facets(const Scene& scene) {
-  for (const TriangleMesh& mesh : scene.meshes()) {
+  const std::vector<Pose> poses = scene.poses();
+  for (std::int32_t row = 0; row < scene.row_count(); ++row) {
+    const auto at = static_cast<std::size_t>(row);
+    const TriangleMesh& mesh = scene.meshes()[at];
     meshes_.push_back({mesh.vertices().data(), mesh.triangles().data()});
+    if (scene.is_at_identity(row)) continue;
+    meshes_.back().turned = static_cast<std::ptrdiff_t>(turns_.size());
+    turns_.push_back(poses[at].linear());
   }
 }
 
@@ -18,7 +24,9 @@ Vec3 Facets::normal(const RayHit& hit) const {
   const Vec3 first = corner(0);
   const Vec3 area = (corner(1) - first).cross(corner(2) - first);
   const double length = area.norm();
-  return length > 0.0 ? Vec3(area / length) : Vec3::Zero();
+  if (!(length > 0.0)) return Vec3::Zero();
+  const Vec3 normal = area / length;
+  return mesh.turned < 0 ? normal : turns_[static_cast<std::size_t>(mesh.turned)] * normal;
 }
 
 }  // namespace bathyal::sonar

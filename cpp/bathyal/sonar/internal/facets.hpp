@@ -21,8 +21,10 @@ class Facets {
   struct Mesh {
     const double* vertices;
     const std::int32_t* triangles;
+    std::ptrdiff_t turned = -1;  ///< row of turns_; −1 at the identity
   };
   std::vector<Mesh> meshes_;
+  std::vector<Eigen::Matrix3d> turns_;
 };
 
 }  // namespace bathyal::sonar

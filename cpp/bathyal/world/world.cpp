@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bathyal/world/world.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "bathyal/base/check.hpp"
+#include "bathyal/world/materials.hpp"
+
+namespace bathyal {
+
+/// What does not change until something is added.
+struct World::Built {
+  Scene scene;  ///< at the time at which it was first asked for
+  std::vector<SurfaceMaterial> surfaces;
+};
+
+namespace {
+
+std::string quoted(const std::string& text) {
+  std::string result = "\"";
+  return result.append(text).append("\"");
+}
+
+std::vector<Pose> poses_at(const std::vector<WorldObject>& objects, double time) {
+  std::vector<Pose> poses;
+  poses.reserve(objects.size());
+  for (const WorldObject& object : objects) poses.push_back(object.pose.at(time));
+  return poses;
+}
+
+bool at_identity(const WorldObject& object) {
+  return !object.pose.moves() && object.scale == 1.0 &&
+         object.pose.at(0.0).matrix() == Pose::Identity().matrix();
+}
+
+Scene scene_of(const std::vector<WorldObject>& objects, double time, int num_threads) {
+  std::vector<TriangleMesh> meshes;
+  std::vector<double> scales;
+  for (const WorldObject& object : objects) {
+    meshes.push_back(object.mesh);
+    scales.push_back(object.scale);
+  }
+  // Where everything is as its mesh says, one hierarchy over all of it is the fastest.
+  if (std::all_of(objects.begin(), objects.end(), at_identity)) {
+    return Scene(std::move(meshes), num_threads);
+  }
+  return Scene(std::move(meshes), poses_at(objects, time), scales, num_threads);
+}
+
+}  // namespace
+
+World::World() : materials_(std::make_shared<const std::vector<Material>>(material_library())) {}
+
+World::World(const World& other)
+    : objects_(other.objects_), materials_(other.materials_), water_(other.water_) {}
+
+World& World::operator=(const World& other) {
+  if (this == &other) return *this;
+  objects_ = other.objects_;
+  materials_ = other.materials_;
+  water_ = other.water_;
+  built_.reset();
+  return *this;
+}
+
+World::~World() = default;
+
+Index World::add(TriangleMesh mesh, Motion pose, const std::string& material, std::string name,
+                 double scale) {
+  check_positive("scale", scale);
+  const std::int32_t row = material_row(material);
+  if (name.empty()) name = "object_" + std::to_string(objects_.size());
+  for (const WorldObject& object : objects_) {
+    if (object.name == name) throw_argument("name", "a name that is not taken", quoted(name));
+  }
+  objects_.push_back({std::move(name), mesh.snapshot(), std::move(pose), scale, {row, nullptr}});
+  built_.reset();
+  return static_cast<Index>(objects_.size()) - 1;
+}
+
+void World::set_material(Material material) {
+  material.check();
+  auto materials = std::make_shared<std::vector<Material>>(*materials_);
+  const auto found = std::find_if(materials->begin(), materials->end(),
+                                  [&](const Material& m) { return m.name == material.name; });
+  if (found == materials->end()) {
+    materials->push_back(std::move(material));
+  } else {
+    *found = std::move(material);
+  }
+  materials_ = std::move(materials);
+}
+
+std::int32_t World::material_row(const std::string& name) const {
+  for (std::size_t i = 0; i < materials_->size(); ++i) {
+    if ((*materials_)[i].name == name) return static_cast<std::int32_t>(i);
+  }
+  std::string known;
+  for (const Material& material : *materials_) {
+    known.append(known.empty() ? "" : ", ").append(material.name);
+  }
+  throw_argument("material", known.insert(0, "one of "), quoted(name));
+}
+
+Index World::row_of(const std::string& name) const {
+  for (std::size_t i = 0; i < objects_.size(); ++i) {
+    if (objects_[i].name == name) return static_cast<Index>(i);
+  }
+  throw_argument("object", "the name of an object", quoted(name));
+}
+
+bool World::moves() const {
+  return std::any_of(objects_.begin(), objects_.end(),
+                     [](const WorldObject& object) { return object.pose.moves(); });
+}
+
+std::shared_ptr<const World::Built> World::built(double time, int num_threads) const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (!built_) {
+    std::vector<SurfaceMaterial> surfaces;
+    for (const WorldObject& object : objects_) surfaces.push_back(object.surface);
+    built_ = std::make_shared<const Built>(
+        Built{scene_of(objects_, time, num_threads), std::move(surfaces)});
+  }
+  return built_;
+}
+
+WorldSnapshot World::at(double time, int num_threads) const {
+  check_finite("time", time);
+  if (objects_.empty()) throw_argument("world", "one object or more", "none");
+  const std::shared_ptr<const Built> now = built(time, num_threads);
+  const Scene scene =
+      moves() ? now->scene.with_poses(poses_at(objects_, time), num_threads) : now->scene;
+  return {scene, now->surfaces, materials_, time};
+}
+
+}  // namespace bathyal

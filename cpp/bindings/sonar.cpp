@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pybind11/stl.h>
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <variant>
+
+#include "arrays.hpp"
+#include "bathyal/base/error.hpp"
+#include "bathyal/sonar/echo.hpp"
+#include "bathyal/sonar/presets.hpp"
+#include "bathyal/world/world.hpp"
+#include "bindings.hpp"
+#include "enum_names.hpp"
+#include "sonar_docs.hpp"
+#include "sonar_fields.hpp"
+#include "warnings.hpp"
+
+namespace bathyal::python {
+namespace {
+
+/// One ping, after the receiver.
+struct Ping {
+  py::array intensity, range, truth_range, incidence, material, point;
+  std::vector<std::string> beam_names, warnings;
+  double time = 0.0, altitude = 0.0, sound_speed = 0.0;
+};
+
+struct PingTruth {
+  py::array range, incidence, material, point;
+};
+
+py::array in_rows(std::vector<double> values, const Echo& echo,
+                  std::vector<py::ssize_t> tail = {}) {
+  tail.insert(tail.begin(), echo.samples);
+  return to_numpy(std::move(values), std::move(tail));
+}
+
+std::vector<double> sample_middles(const SonarOptions& options) {
+  std::vector<double> middles;
+  for (int i = 0; i < options.samples; ++i) middles.push_back((i + 0.5) * options.sample_length());
+  return middles;
+}
+
+std::vector<std::string> beam_names(const SonarOptions& options) {
+  std::vector<std::string> names;
+  for (const Beam& beam : beams_of(options)) names.push_back(beam.name);
+  return names;
+}
+
+using PresetMaker = SonarOptions (*)();
+
+EnumNames<PresetMaker> presets() {
+  return {{"side_scan", side_scan_sonar},
+          {"side_scan_100khz", side_scan_100khz_sonar},
+          {"paper_side_scan", paper_side_scan_sonar},
+          {"multibeam", multibeam_sonar},
+          {"echo_sounder", echo_sounder_sonar},
+          {"paper_forward_sounders", paper_forward_sounders},
+          {"imaging", imaging_sonar},
+          {"scanning", scanning_sonar}};
+}
+
+Ping ping_of(const Sonar& sonar, const std::shared_ptr<World>& world, const ArrayLike& pose,
+             double time, std::int64_t ping, int num_threads) {
+  const Pose world_from_vehicle = pose_argument("world_from_vehicle", pose);
+  Echo echo;
+  {
+    const py::gil_scoped_release unlocked;
+    echo = sonar.echo(world->at(time, num_threads), world->water(), world_from_vehicle, ping,
+                      num_threads);
+  }
+  for (const std::string& warning : echo.warnings) warn_user(warning);
+  Ping made;
+  made.intensity = in_rows(std::move(echo.power), echo);
+  made.range = to_numpy(sample_middles(sonar.options()));
+  made.truth_range = in_rows(std::move(echo.truth.range), echo);
+  made.incidence = in_rows(std::move(echo.truth.incidence), echo);
+  made.material = to_numpy(std::move(echo.truth.material), {echo.samples});
+  made.point = in_rows(std::move(echo.truth.point), echo, {3});
+  made.beam_names = beam_names(sonar.options());
+  made.warnings = std::move(echo.warnings);
+  made.time = time;
+  made.altitude = echo.altitude;
+  made.sound_speed = echo.sound_speed;
+  return made;
+}
+
+void bind_ping(py::module_& module) {
+  py::class_<PingTruth>(module, "PingTruth", sonar_docs::kPingTruth)
+      .def_readonly("range", &PingTruth::range, "(beams, samples) one-way from the sonar [m].")
+      .def_readonly("incidence", &PingTruth::incidence,
+                    "(beams, samples) from the surface's normal [rad].")
+      .def_readonly("material", &PingTruth::material,
+                    "(beams, samples) row of `World.materials`, −1 where nothing was hit.")
+      .def_readonly("point", &PingTruth::point, "(beams, samples, 3) in the world [m].");
+  py::class_<Ping>(module, "Ping", sonar_docs::kPing)
+      .def_readonly("intensity", &Ping::intensity,
+                    "(beams, samples) received power over transmitted at 1 m.")
+      .def_readonly("range", &Ping::range, "(samples,) slant range of their middles [m].")
+      .def_property_readonly(
+          "truth",
+          [](const Ping& p) {
+            return PingTruth{p.truth_range, p.incidence, p.material, p.point};
+          },
+          "PingTruth: of each sample, what contributed most.")
+      .def_readonly("beam_names", &Ping::beam_names, "Of the rows.")
+      .def_readonly("time", &Ping::time, "[s]")
+      .def_readonly("altitude", &Ping::altitude,
+                    "Of the sonar over what lies straight below [m]; NaN where nothing does.")
+      .def_readonly("sound_speed", &Ping::sound_speed, "At the sonar [m/s].")
+      .def_readonly("warnings", &Ping::warnings, "As text.")
+      .def("__repr__", [](const Ping& p) {
+        return "Ping(" + std::to_string(p.intensity.shape(0)) + " beams, " +
+               std::to_string(p.intensity.shape(1)) + " samples)";
+      });
+}
+
+void add_fields(py::class_<Sonar>& cls) {
+  for (const auto& [name, doc] : sonar_docs::fields()) {
+    const SonarField* field = &sonar_field(name);
+    cls.def_property_readonly(
+        name.c_str(), [field](const Sonar& s) { return field->get(s.options()); }, doc.c_str());
+  }
+}
+
+}  // namespace
+
+void bind_sonar(py::module_& module) {
+  bind_ping(module);
+  py::class_<Sonar> cls(module, "Sonar", sonar_docs::kSonar);
+  cls.def_static(
+         "preset",
+         [](const std::string& name, const std::string& physics) {
+           const SonarOptions options = enum_argument("name", name, presets())();
+           const EnumNames<bool> kinds{{"off", false}, {"real", true}};
+           return Sonar(enum_argument("physics", physics, kinds) ? with_real_physics(options)
+                                                                 : options);
+         },
+         py::arg("name"), py::arg("physics") = "off", sonar_docs::kPreset)
+      .def(
+          "replace",
+          [](const Sonar& sonar, const py::kwargs& fields) {
+            return Sonar(replaced(sonar.options(), fields));
+          },
+          sonar_docs::kReplace)
+      .def(
+          "to_dict", [](const Sonar& sonar) { return sonar_to_dict(sonar.options()); },
+          "Every field's value by its name.")
+      .def_static(
+          "from_dict",
+          [](const py::typing::Dict<py::str, py::object>& fields) {
+            return Sonar(replaced(SonarOptions(), fields));
+          },
+          py::arg("fields"), "The sonar that `to_dict` describes.")
+      .def("ping", &ping_of, py::arg("world"), py::arg("world_from_vehicle"), py::arg("time") = 0.0,
+           py::kw_only(), py::arg("ping") = 0, py::arg("num_threads") = 0, sonar_docs::kPingCall)
+      .def_property_readonly(
+          "ray_count", [](const Sonar& s) { return s.ray_count(); }, "Rays of a ping.")
+      .def_property_readonly(
+          "beam_names", [](const Sonar& s) { return beam_names(s.options()); }, "Of the rows.")
+      .def("__eq__",
+           [](const Sonar& a, const py::object& b) {
+             if (!py::isinstance<Sonar>(b)) return false;
+             const Sonar other = b.cast<Sonar>();
+             return py::repr(sonar_to_dict(a.options()))
+                 .equal(py::repr(sonar_to_dict(other.options())));
+           })
+      .def("__repr__",
+           [](const Sonar& s) {
+             const SonarOptions& o = s.options();
+             return "Sonar(" + o.name + ": " + to_text(o.frequency / 1e3) + " kHz, " +
+                    std::to_string(o.beams) + (o.beams == 1 ? " beam, " : " beams, ") +
+                    to_text(o.range) + " m)";
+           })
+      .def(py::pickle(
+          [](const Sonar& s) { return sonar_to_dict(s.options()); },
+          [](const py::dict& fields) { return Sonar(replaced(SonarOptions(), fields)); }));
+  cls.attr("__hash__") = py::none();
+  add_fields(cls);
+}
+
+}  // namespace bathyal::python
