@@ -79,7 +79,7 @@ std::vector<double> Scene::scales() const {
 }
 
 bool Scene::is_at_identity(std::int32_t mesh) const {
-  return !instances_ || scene::is_identity(instances_->frame(mesh));
+  return !instances_ || instances_->frame(mesh).at_identity;
 }
 
 TriangleMesh Scene::mesh_in_world(std::int32_t mesh) const {

@@ -139,8 +139,8 @@ std::vector<Polyline> cut_scene(const Cutter& cutter, const Scene::Instances& in
   for (const std::int32_t row : find_leaves(instances.nodes, filters_in(instances, cutter))) {
     const Scene::Hierarchy& hierarchy = instances.hierarchy(row);
     const InstanceFrame& frame = instances.frame(row);
-    const CutFilters filters = scene::is_identity(frame) ? filters_in(hierarchy, cutter)
-                                                         : filters_in(hierarchy, cutter, frame);
+    const CutFilters filters =
+        frame.at_identity ? filters_in(hierarchy, cutter) : filters_in(hierarchy, cutter, frame);
     for (const std::uint32_t primitive : find_candidates(hierarchy, filters)) {
       candidates.push_back({row, primitive});
     }
@@ -149,7 +149,7 @@ std::vector<Polyline> cut_scene(const Cutter& cutter, const Scene::Instances& in
   for (const Candidate& candidate : candidates) {
     std::array<Vec3, 3> corners = instances.hierarchy(candidate.row).corners(candidate.primitive);
     const InstanceFrame& frame = instances.frame(candidate.row);
-    if (!scene::is_identity(frame)) {
+    if (!frame.at_identity) {
       for (Vec3& corner : corners) corner = scene::to_world(frame, corner);
     }
     collector.add(corners, candidate.row, static_cast<std::int32_t>(candidate.primitive));

@@ -70,6 +70,29 @@ TEST(Instances, AThousandClonesAreTheMergedMesh) {
   }
 }
 
+TEST(Instances, RaysThatGrazeTheEndsOfABodyMeetIt) {
+  for (const Vec3& offset : {Vec3(0, 0, 0), Vec3(6.2e5, 7.2e6, -52)}) {
+    const Cast cast = stones(200, offset, 3);
+    const Scene merged = cast.merged();
+    for (std::int32_t m = 1; m <= 200; ++m) {
+      const auto row = static_cast<std::size_t>(m);
+      const Scene alone({cast.meshes[row]}, {cast.poses[row]}, {cast.scales[row]});
+      const PointView vertices = merged.meshes()[row].vertices();
+      const Vec3 middle = vertices.colwise().mean();
+      for (int axis = 0; axis < 3; ++axis) {
+        Index most = 0;
+        vertices.col(axis).maxCoeff(&most);
+        const Vec3 end = vertices.row(most).transpose();
+        const Vec3 inside = end + 1e-4 * (middle - end);
+        RandomStream random(37, static_cast<std::uint64_t>(3 * m + axis));
+        Vec3 across = test::random_vector(random);
+        across[axis] = 0.0;
+        EXPECT_EQ(alone.cast(inside - 9.0 * across.normalized(), across).mesh, 0) << m;
+      }
+    }
+  }
+}
+
 TEST(Instances, AtTheIdentityTheBytesAreThoseWithoutPoses) {
   for (const Vec3& offset : {Vec3(0, 0, 0), Vec3(6.2e5, 7.2e6, -52), Vec3(-1e7, 1e7, 1e7)}) {
     Cast cast;

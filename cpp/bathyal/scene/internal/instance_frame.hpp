@@ -14,6 +14,7 @@ struct InstanceFrame {
   double scale;           ///< metres of the world for one of the mesh
   double per_metre;       ///< 1 / scale
   std::int32_t mesh;      ///< number among the scene's distinct meshes
+  bool at_identity;       ///< neither moved, turned nor scaled
 };
 
 /// What turning a point from one frame into the other may move it by, as a part of the lengths that

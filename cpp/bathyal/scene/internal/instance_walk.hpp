@@ -37,6 +37,40 @@ inline D bound_of(D t, double length, D start) {
   return padded < 3e38 ? padded : D{} + 3e38;
 }
 
+/// The lanes of the world's packet in the frame of an instance.
+template <class Simd>
+inline void turn_rays(const InstanceFrame& frame, const Packet<Simd>& world, int first,
+                      Packet<Simd>& local) {
+  using D = typename Simd::D;
+  RayRegister<D> ray;
+  for (int axis = 0; axis < 3; ++axis) {
+    ray.o[axis] = load_as<D>(world.o[axis] + first);
+    ray.d[axis] = load_as<D>(world.d[axis] + first);
+    ray.unit[axis] = load_as<D>(world.unit[axis] + first);
+  }
+  RayRegister<D> turned;
+  move_back(frame, ray.o, turned.o);
+  turn_back(frame, ray.d, turned.d);
+  turn_back(frame, ray.unit, turned.unit);
+  for (int axis = 0; axis < 3; ++axis) store_as(local.o[axis] + first, turned.o[axis]);
+  shear_rays(local, first, turned);
+}
+
+/// The same at the identity: what turn_rays comes to, without its divisions.
+template <class Simd>
+inline void copy_rays(const Packet<Simd>& world, int first, Packet<Simd>& local) {
+  using D = typename Simd::D;
+  for (int axis = 0; axis < 3; ++axis) {
+    store_as(local.o[axis] + first, load_as<D>(world.o[axis] + first));
+    store_as(local.unit[axis] + first, load_as<D>(world.unit[axis] + first));
+    store_as(local.inverse_unit[axis] + first, load_as<D>(world.inverse_unit[axis] + first));
+  }
+  store_as(local.sx + first, load_as<D>(world.sx + first));
+  store_as(local.sy + first, load_as<D>(world.sy + first));
+  store_as(local.slope + first, load_as<D>(world.slope + first));
+  store_as(local.kz + first, load_as<D>(world.kz + first));
+}
+
 /// Sets up `rays` of the world's packet in the frame of an instance; returns those that enter its
 /// mesh's box before they end.
 template <class Simd>
@@ -50,21 +84,12 @@ inline unsigned set_up_instance(const CastScene& mesh, const InstanceFrame& fram
   for (int first = 0; first < Simd::kRays; first += Simd::kDoubles) {
     const unsigned part = rays >> first & kRegister;
     if (part == 0) continue;
-    RayRegister<D> ray;
-    for (int axis = 0; axis < 3; ++axis) {
-      ray.o[axis] = load_as<D>(world.o[axis] + first);
-      ray.d[axis] = load_as<D>(world.d[axis] + first);
-      ray.unit[axis] = load_as<D>(world.unit[axis] + first);
+    if (frame.at_identity) {
+      copy_rays(world, first, local);
+    } else {
+      turn_rays(frame, world, first, local);
     }
-    RayRegister<D> turned;
-    move_back(frame, ray.o, turned.o);
-    turn_back(frame, ray.d, turned.d);
-    turn_back(frame, ray.unit, turned.unit);
-    for (int axis = 0; axis < 3; ++axis) {
-      store_as(local.o[axis] + first, turned.o[axis]);
-      store_as(local.d[axis] + first, turned.d[axis]);
-    }
-    const unsigned placed = place_rays<Simd>(mesh, local, first, turned, Simd::lanes(part)) & part;
+    const unsigned placed = enter_rays(mesh, local, first, Simd::lanes(part));
     if (placed == 0) continue;
     const D t = load_as<D>(world.t + first);
     const D bound = bound_of(t, frame.per_metre, load_as<D>(local.start + first));
@@ -80,17 +105,27 @@ inline unsigned set_up_instance(const CastScene& mesh, const InstanceFrame& fram
 template <class Simd>
 inline void keep_nearer(const Packet<Simd>& local, unsigned rays, std::int32_t row,
                         Packet<Simd>& world) {
-  for (; rays != 0; rays &= rays - 1) {
-    const int lane = __builtin_ctz(rays);
-    if (local.primitive[lane] == static_cast<std::int64_t>(kNoPrimitive)) continue;
-    const InstanceKey key = key_of(row, static_cast<std::uint32_t>(local.primitive[lane]));
-    const double t = local.t[lane];
-    if (!(t < world.t[lane] || (t == world.t[lane] && key < world.primitive[lane]))) continue;
-    world.t[lane] = t;
-    world.u[lane] = local.u[lane];
-    world.v[lane] = local.v[lane];
-    world.primitive[lane] = key;
-    world.bound[lane] = static_cast<float>(bound_of(t, world.length, world.start[lane]));
+  using D = typename Simd::D;
+  using I = typename Simd::I;
+  constexpr unsigned kRegister = (1U << Simd::kDoubles) - 1U;
+  for (int first = 0; first < Simd::kRays; first += Simd::kDoubles) {
+    const unsigned part = rays >> first & kRegister;
+    if (part == 0) continue;
+    const I triangle = load_as<I>(local.primitive + first);
+    const I met = Simd::lanes(part) & (triangle != static_cast<std::int64_t>(kNoPrimitive));
+    if (Simd::bits(met) == 0) continue;
+    const I key = triangle + key_of(row, 0);
+    const I best_key = load_as<I>(world.primitive + first);
+    const D t = load_as<D>(local.t + first);
+    const D best_t = load_as<D>(world.t + first);
+    const I take = met & ((t < best_t) | ((t == best_t) & (key < best_key)));
+    const D new_t = take ? t : best_t;
+    const D start = load_as<D>(world.start + first);
+    store_as(world.t + first, new_t);
+    store_as(world.u + first, take ? load_as<D>(local.u + first) : load_as<D>(world.u + first));
+    store_as(world.v + first, take ? load_as<D>(local.v + first) : load_as<D>(world.v + first));
+    store_as(world.primitive + first, take ? key : best_key);
+    Simd::store_narrow(world.bound + first, bound_of(new_t, world.length, start));
   }
 }
 

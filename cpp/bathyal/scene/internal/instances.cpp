@@ -72,6 +72,7 @@ InstanceFrame frame_of(const Pose& pose, double scale, std::int32_t mesh) {
   frame.scale = scale;
   frame.per_metre = 1.0 / scale;
   frame.mesh = mesh;
+  frame.at_identity = scale == 1.0 && pose.matrix() == Eigen::Matrix4d::Identity();
   return frame;
 }
 
@@ -89,42 +90,18 @@ struct Extent3 {
 
 /// The mesh's box turned into the world, no further from its middle than the mesh reaches; with
 /// room for the rounding of what is turned from one frame into the other.
-Extent3 extent_in_world(const InstanceFrame& frame, const Scene::Hierarchy& hierarchy,
-                        double radius) {
+Extent3 extent_in_world(const InstanceFrame& frame, const InstanceMeshes& shared) {
+  const auto mesh = static_cast<std::size_t>(frame.mesh);
+  const Scene::Hierarchy& hierarchy = *shared.hierarchies[mesh];
   const Vec3 middle = hierarchy.origin + 0.5 * (hierarchy.low + hierarchy.high);
   const Vec3 half = 0.5 * (hierarchy.high - hierarchy.low);
   const Vec3 centre = to_world(frame, middle);
   const Vec3 turned = frame.scale * (rotation_of(frame).cwiseAbs() * half);
-  const double most = frame.scale * radius;
+  const double most = frame.scale * shared.radius[mesh];
   const double room = kInstancePad * (position_of(frame).lpNorm<1>() +
                                       frame.scale * (middle.lpNorm<1>() + half.lpNorm<1>()));
   const Vec3 reach = turned.cwiseMin(most) + Vec3::Constant(room);
   return {centre - reach, centre + reach};
-}
-
-/// Boxes of the rows with triangles, in the world.
-struct InstanceBoxes {
-  std::vector<Extent3> extents;  ///< of each row
-  Extent3 whole;
-};
-
-InstanceBoxes find_boxes(const InstanceMeshes& shared, const PageArray<InstanceFrame>& frames,
-                         int num_threads) {
-  InstanceBoxes boxes;
-  boxes.extents.resize(frames.size());
-  boxes.whole = parallel_sum<Extent3>(
-      frames.size(), kInstanceGrain, num_threads, [&](std::size_t begin, std::size_t end) {
-        Extent3 part;
-        for (std::size_t i = begin; i < end; ++i) {
-          const auto mesh = static_cast<std::size_t>(frames[i].mesh);
-          const Scene::Hierarchy& hierarchy = *shared.hierarchies[mesh];
-          if (hierarchy.primitive_count == 0) continue;
-          boxes.extents[i] = extent_in_world(frames[i], hierarchy, shared.radius[mesh]);
-          part += boxes.extents[i];
-        }
-        return part;
-      });
-  return boxes;
 }
 
 void fill_leaf(const BinaryTree& tree, const BinaryNode& leaf, WideNode& node) {
@@ -165,8 +142,8 @@ PageArray<WideNode> make_nodes(const BinaryTree& tree) {
   return nodes;
 }
 
-void check_instances(std::size_t rows, const std::vector<Pose>& poses,
-                     const std::vector<double>& scales, int num_threads) {
+void check_counts(std::size_t rows, const std::vector<Pose>& poses,
+                  const std::vector<double>& scales) {
   if (poses.size() != rows) {
     throw_argument("poses", "one a mesh (" + std::to_string(rows) + ")",
                    std::to_string(poses.size()));
@@ -175,18 +152,57 @@ void check_instances(std::size_t rows, const std::vector<Pose>& poses,
     throw_argument("scales", "none, or one a mesh (" + std::to_string(rows) + ")",
                    std::to_string(scales.size()));
   }
-  parallel_for(rows, kInstanceGrain, num_threads, [&](std::size_t begin, std::size_t end) {
+}
+
+void check_instance(std::size_t row, const Pose& pose, double scale) {
+  const Eigen::Matrix3d r = pose.linear();
+  const bool surely = pose.matrix().allFinite() && (r.transpose() * r).isIdentity(1e-9) &&
+                      pose.matrix().row(3) == Eigen::RowVector4d(0, 0, 0, 1) &&
+                      r.determinant() > 0.0;
+  if (!surely) check_rigid("poses[" + std::to_string(row) + "]", pose);
+  if (scale >= kLeastScale && scale <= kLargestScale) return;
+  throw_argument("scales[" + std::to_string(row) + "]", "a number above 0, from 1e-9 to 1e9",
+                 to_text(scale));
+}
+
+/// Sets the frame of each row; returns the box of all triangles in the world.
+Extent3 set_frames(const InstanceMeshes& shared, const std::vector<Pose>& poses,
+                   const std::vector<double>& scales, PageArray<InstanceFrame>& frames,
+                   int num_threads) {
+  return parallel_sum<Extent3>(frames.size(), kInstanceGrain, num_threads,
+                               [&](std::size_t begin, std::size_t end) {
+                                 Extent3 part;
+                                 for (std::size_t i = begin; i < end; ++i) {
+                                   const double scale = scales.empty() ? 1.0 : scales[i];
+                                   check_instance(i, poses[i], scale);
+                                   frames[i] = frame_of(poses[i], scale, shared.number[i]);
+                                   if (shared.has_triangles(i))
+                                     part += extent_in_world(frames[i], shared);
+                                 }
+                                 return part;
+                               });
+}
+
+/// Boxes in `local` of the rows with triangles.
+std::vector<Box> make_boxes(const InstanceMeshes& shared, const PageArray<InstanceFrame>& frames,
+                            const LocalFrame& local, int num_threads) {
+  std::vector<std::uint32_t> rows;
+  rows.reserve(frames.size());
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    if (shared.has_triangles(i)) rows.push_back(static_cast<std::uint32_t>(i));
+  }
+  const double room = kInstancePad * local.origin.lpNorm<1>();
+  std::vector<Box> boxes(rows.size());
+  parallel_for(rows.size(), kInstanceGrain, num_threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      const Eigen::Matrix4d& m = poses[i].matrix();
-      const Eigen::Matrix3d r = m.topLeftCorner<3, 3>();
-      const bool surely = m.allFinite() && (r.transpose() * r).isIdentity(1e-9) &&
-                          m.row(3) == Eigen::RowVector4d(0, 0, 0, 1) && r.determinant() > 0.0;
-      if (!surely) check_rigid("poses[" + std::to_string(i) + "]", poses[i]);
-      if (scales.empty() || (scales[i] >= kLeastScale && scales[i] <= kLargestScale)) continue;
-      throw_argument("scales[" + std::to_string(i) + "]", "a number above 0, from 1e-9 to 1e9",
-                     to_text(scales[i]));
+      const Extent3 extent = extent_in_world(frames[rows[i]], shared);
+      const Vec3 low = (extent.low - local.origin).array() - room;
+      const Vec3 high = (extent.high - local.origin).array() + room;
+      boxes[i] = rounded_outwards(low.data(), high.data());
+      boxes[i].set_tags(1, rows[i]);
     }
   });
+  return boxes;
 }
 
 }  // namespace
@@ -212,11 +228,6 @@ Pose pose_of(const InstanceFrame& frame) {
   pose.linear() = rotation_of(frame);
   pose.translation() = position_of(frame);
   return pose;
-}
-
-bool is_identity(const InstanceFrame& frame) {
-  return frame.scale == 1.0 && position_of(frame).isZero(0.0) &&
-         rotation_of(frame) == RowMajor3::Identity();
 }
 
 InstanceMeshes::InstanceMeshes(std::vector<TriangleMesh> given,
@@ -254,36 +265,19 @@ Scene::Instances::Instances(std::shared_ptr<const scene::InstanceMeshes> given,
                             const std::vector<Pose>& poses, const std::vector<double>& scales,
                             int num_threads)
     : shared(std::move(given)) {
-  const std::size_t rows = shared->meshes.size();
-  scene::check_instances(rows, poses, scales, num_threads);
-  frames = PageArray<scene::InstanceFrame>(rows);
-  parallel_for(rows, scene::kInstanceGrain, num_threads, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      frames[i] = scene::frame_of(poses[i], scales.empty() ? 1.0 : scales[i], shared->number[i]);
-    }
-  });
-
-  const scene::InstanceBoxes world = scene::find_boxes(*shared, frames, num_threads);
-  if (!(world.whole.low.x() <= world.whole.high.x())) return;  // no triangle at all
-  const double half = 0.5 * (world.whole.high - world.whole.low).maxCoeff();
+  scene::check_counts(shared->meshes.size(), poses, scales);
+  frames = PageArray<scene::InstanceFrame>(shared->meshes.size());
+  const scene::Extent3 world = scene::set_frames(*shared, poses, scales, frames, num_threads);
+  if (!(world.low.x() <= world.high.x())) return;  // no triangle at all
+  const double half = 0.5 * (world.high - world.low).maxCoeff();
   if (!(half <= scene::kLargestReach)) {
     throw_argument("poses", "triangles within 1e12 m of their middle", to_text(half) + " m");
   }
-  origin = (0.5 * world.whole.low + 0.5 * world.whole.high).array().round();
+  origin = (0.5 * world.low + 0.5 * world.high).array().round();
   const double room = scene::kInstancePad * origin.lpNorm<1>();
-  low = (world.whole.low - origin).array() - room;
-  high = (world.whole.high - origin).array() + room;
-
-  std::vector<scene::Box> boxes;
-  boxes.reserve(rows);
-  for (std::size_t i = 0; i < rows; ++i) {
-    if (shared->hierarchies[static_cast<std::size_t>(frames[i].mesh)]->primitive_count == 0)
-      continue;
-    const Vec3 least = (world.extents[i].low - origin).array() - room;
-    const Vec3 most = (world.extents[i].high - origin).array() + room;
-    boxes.push_back(scene::rounded_outwards(least.data(), most.data()));
-    boxes.back().set_tags(1, static_cast<std::uint32_t>(i));
-  }
+  low = (world.low - origin).array() - room;
+  high = (world.high - origin).array() + room;
+  const std::vector<scene::Box> boxes = scene::make_boxes(*shared, frames, *this, num_threads);
   nodes = scene::make_nodes(
       scene::build_binary_tree(scene::sort_into_cells(boxes, *this, num_threads), num_threads));
 }

@@ -29,6 +29,9 @@ struct InstanceMeshes {
   std::vector<CastScene> views;                                      ///< the same for the kernels
   std::vector<double> radius;  ///< about the middle of its box, of each distinct mesh [m]
 
+  bool has_triangles(std::size_t row) const {
+    return hierarchies[static_cast<std::size_t>(number[row])]->primitive_count > 0;
+  }
   std::size_t memory() const;
 };
 
@@ -46,9 +49,6 @@ Vec3 to_world(const InstanceFrame& frame, const Vec3& point);
 Vec3 to_mesh(const InstanceFrame& frame, const Vec3& point);
 Vec3 turn_to_world(const InstanceFrame& frame, const Vec3& direction);
 Vec3 turn_to_mesh(const InstanceFrame& frame, const Vec3& direction);
-
-/// Neither moved, turned nor scaled.
-bool is_identity(const InstanceFrame& frame);
 
 }  // namespace scene
 

@@ -105,14 +105,14 @@ NearestPoint nearest_to(const Scene::Instances& instances, const Vec3& point) {
   InstanceNearest walk(instances, PointQuery(instances, point),
                        std::numeric_limits<double>::infinity());
   walk.run([&](const Scene::Hierarchy& hierarchy, const InstanceFrame& frame) {
-    return PointQuery(hierarchy, is_identity(frame) ? point : to_mesh(frame, point));
+    return PointQuery(hierarchy, frame.at_identity ? point : to_mesh(frame, point));
   });
   if (walk.row() < 0) return {};
   const InstanceFrame& frame = instances.frame(walk.row());
   const ClosestPoint& best = walk.found();
   return {
       walk.distance(), walk.row(), static_cast<std::int32_t>(walk.triangle()),
-      best.u,          best.v,     is_identity(frame) ? best.point : to_world(frame, best.point)};
+      best.u,          best.v,     frame.at_identity ? best.point : to_world(frame, best.point)};
 }
 
 }  // namespace

@@ -89,7 +89,7 @@ NearestToSegment in_world(const SegmentApproach& found, const InstanceFrame& fra
   nearest.u = found.u;
   nearest.v = found.v;
   nearest.fraction = found.fraction;
-  if (is_identity(frame)) {
+  if (frame.at_identity) {
     nearest.point = found.point;
     nearest.segment_point = found.on_segment;
     return nearest;
@@ -106,8 +106,8 @@ NearestToSegment nearest_to_segment(const Scene::Instances& instances, const Vec
                                     const Vec3& end, double within) {
   InstanceNearest walk(instances, SegmentQuery(instances, start, end), within);
   walk.run([&](const Scene::Hierarchy& hierarchy, const InstanceFrame& frame) {
-    return is_identity(frame) ? SegmentQuery(hierarchy, start, end)
-                              : SegmentQuery(hierarchy, to_mesh(frame, start), to_mesh(frame, end));
+    return frame.at_identity ? SegmentQuery(hierarchy, start, end)
+                             : SegmentQuery(hierarchy, to_mesh(frame, start), to_mesh(frame, end));
   });
   if (walk.row() < 0) return {};
   NearestToSegment nearest = in_world(walk.found(), instances.frame(walk.row()), start, end);

@@ -17,6 +17,7 @@ struct alignas(64) Packet {
   double o[3][kRays];
   double d[3][kRays];  ///< as given
   double unit[3][kRays];
+  double inverse_unit[3][kRays];
   double sx[kRays];
   double sy[kRays];
   double slope[kRays];
@@ -74,11 +75,10 @@ struct RayRegister {
   D unit[3];
 };
 
-/// Sets up the lanes from `first` on in the frame of `scene`, where one unit of t is `length` [m]
-/// of way; returns those that enter its box and whose lengths are `fine`.
+/// What the double decision takes of the lanes' directions, where one unit of t is `length` [m] of
+/// way in the packet's frame.
 template <class Simd>
-inline unsigned place_rays(const CastScene& scene, Packet<Simd>& packet, int first,
-                           const RayRegister<typename Simd::D>& ray, typename Simd::I fine) {
+inline void shear_rays(Packet<Simd>& packet, int first, const RayRegister<typename Simd::D>& ray) {
   using D = typename Simd::D;
   using I = typename Simd::I;
   const D x = absolute_of(ray.d[0]);
@@ -94,12 +94,24 @@ inline unsigned place_rays(const CastScene& scene, Packet<Simd>& packet, int fir
   const D slope = along_x ? ray.unit[0] : along_y ? ray.unit[1] : ray.unit[2];
   store_as(packet.slope + first, slope * packet.length);
   store_as(packet.kz + first, along_x ? I{} : along_y ? I{} + 1 : I{} + 2);
+  for (int axis = 0; axis < 3; ++axis) {
+    const D unit = ray.unit[axis];
+    store_as(packet.unit[axis] + first, unit);
+    store_as(packet.inverse_unit[axis] + first,
+             1.0 / (absolute_of(unit) > 1e-200 ? unit : D{} + 1e-200));
+  }
+}
 
-  // As enter() does for one ray.
+/// Whether the lanes, sheared already, enter the scene's box: as enter() does for one ray. A bit
+/// for each of those that are `fine`.
+template <class Simd>
+inline unsigned enter_rays(const CastScene& scene, Packet<Simd>& packet, int first,
+                           typename Simd::I fine) {
+  using D = typename Simd::D;
   D o[3];
   D distance = D{};
   for (int axis = 0; axis < 3; ++axis) {
-    o[axis] = ray.o[axis] - scene.origin[axis];
+    o[axis] = load_as<D>(packet.o[axis] + first) - scene.origin[axis];
     distance = distance + absolute_of(o[axis]);
   }
   const D far = scene.far_pad * distance;
@@ -107,8 +119,7 @@ inline unsigned place_rays(const CastScene& scene, Packet<Simd>& packet, int fir
   D start = D{};
   D end = D{} + __builtin_inf();
   for (int axis = 0; axis < 3; ++axis) {
-    const D unit = ray.unit[axis];
-    const D inverse = 1.0 / (absolute_of(unit) > 1e-200 ? unit : D{} + 1e-200);
+    const D inverse = load_as<D>(packet.inverse_unit[axis] + first);
     const D a = (scene.low[axis] - 2.0 * pad - o[axis]) * inverse;
     const D b = (scene.high[axis] + 2.0 * pad - o[axis]) * inverse;
     const D least = a < b ? a : b;
@@ -118,8 +129,9 @@ inline unsigned place_rays(const CastScene& scene, Packet<Simd>& packet, int fir
   }
   store_as(packet.start + first, start);
   for (int axis = 0; axis < 3; ++axis) {
-    Simd::store_narrow(packet.cull_o[axis] + first, o[axis] + start * ray.unit[axis]);
-    Simd::store_narrow(packet.cull_d[axis] + first, ray.unit[axis]);
+    const D unit = load_as<D>(packet.unit[axis] + first);
+    Simd::store_narrow(packet.cull_o[axis] + first, o[axis] + start * unit);
+    Simd::store_narrow(packet.cull_d[axis] + first, unit);
   }
   Simd::store_narrow(packet.box_pad + first, pad);
   Simd::store_narrow(packet.triangle_pad + first, kTrianglePad * scene.reach + 4.0 * far);
@@ -141,11 +153,9 @@ inline SetUp set_up_exact(const CastScene& scene, Packet<Simd>& packet, int firs
   const D sum = ray.o[0] + ray.o[1] + ray.o[2];
   const I fine = (square > 1e-200) & (square < 1e200) & (sum - sum == 0.0);
   const D length = Simd::root(square);
-  for (int axis = 0; axis < 3; ++axis) {
-    ray.unit[axis] = ray.d[axis] / length;
-    store_as(packet.unit[axis] + first, ray.unit[axis]);
-  }
-  return {place_rays<Simd>(scene, packet, first, ray, fine), Simd::bits(~fine)};
+  for (int axis = 0; axis < 3; ++axis) ray.unit[axis] = ray.d[axis] / length;
+  shear_rays(packet, first, ray);
+  return {enter_rays(scene, packet, first, fine), Simd::bits(~fine)};
 }
 
 /// The float half, for all lanes.

@@ -225,7 +225,7 @@ class Windings {
     Winding sum;
     for (const InstanceFrame& frame : instances_->frames) {
       const WindingWalk& walk = walks_[static_cast<std::size_t>(frame.mesh)];
-      const Winding part = is_identity(frame)
+      const Winding part = frame.at_identity
                                ? walk.at(point)
                                : walk.at(to_mesh(frame, point), rounding(frame, point));
       sum.number += part.number;
