@@ -25,6 +25,8 @@ struct Ping {
   py::array intensity, range, truth_range, incidence, material, point;
   std::vector<std::string> beam_names, warnings;
   double time = 0.0, altitude = 0.0, sound_speed = 0.0;
+  std::int64_t clipped = 0;
+  bool dropped = false;
 };
 
 struct PingTruth {
@@ -63,17 +65,22 @@ EnumNames<PresetMaker> presets() {
 }
 
 Ping ping_of(const Sonar& sonar, const std::shared_ptr<World>& world, const ArrayLike& pose,
-             double time, std::int64_t ping, int num_threads) {
+             double time, std::uint64_t seed, std::int64_t ping, int num_threads) {
   const Pose world_from_vehicle = pose_argument("world_from_vehicle", pose);
   Echo echo;
+  Received received;
   {
     const py::gil_scoped_release unlocked;
     echo = sonar.echo(world->at(time, num_threads), world->water(), world_from_vehicle, ping,
                       num_threads);
+    const SonarOptions& options = sonar.options();
+    const Pose world_from_sonar =
+        world_from_vehicle * options.vehicle_from_sonar * head_pose(options, ping);
+    received = receive(options, echo, {seed, world_from_sonar, time});
   }
   for (const std::string& warning : echo.warnings) warn_user(warning);
   Ping made;
-  made.intensity = in_rows(std::move(echo.power), echo);
+  made.intensity = in_rows(std::move(received.intensity), echo);
   made.range = to_numpy(sample_middles(sonar.options()));
   made.truth_range = in_rows(std::move(echo.truth.range), echo);
   made.incidence = in_rows(std::move(echo.truth.incidence), echo);
@@ -81,6 +88,8 @@ Ping ping_of(const Sonar& sonar, const std::shared_ptr<World>& world, const Arra
   made.point = in_rows(std::move(echo.truth.point), echo, {3});
   made.beam_names = beam_names(sonar.options());
   made.warnings = std::move(echo.warnings);
+  made.clipped = received.clipped;
+  made.dropped = received.dropped;
   made.time = time;
   made.altitude = echo.altitude;
   made.sound_speed = echo.sound_speed;
@@ -110,6 +119,8 @@ void bind_ping(py::module_& module) {
       .def_readonly("altitude", &Ping::altitude,
                     "Of the sonar over what lies straight below [m]; NaN where nothing does.")
       .def_readonly("sound_speed", &Ping::sound_speed, "At the sonar [m/s].")
+      .def_readonly("clipped", &Ping::clipped, "Samples at full scale.")
+      .def_readonly("dropped", &Ping::dropped, "Whether the ping brought nothing.")
       .def_readonly("warnings", &Ping::warnings, "As text.")
       .def("__repr__", [](const Ping& p) {
         return "Ping(" + std::to_string(p.intensity.shape(0)) + " beams, " +
@@ -155,7 +166,8 @@ void bind_sonar(py::module_& module) {
           },
           py::arg("fields"), "The sonar that `to_dict` describes.")
       .def("ping", &ping_of, py::arg("world"), py::arg("world_from_vehicle"), py::arg("time") = 0.0,
-           py::kw_only(), py::arg("ping") = 0, py::arg("num_threads") = 0, sonar_docs::kPingCall)
+           py::kw_only(), py::arg("seed") = 0, py::arg("ping") = 0, py::arg("num_threads") = 0,
+           sonar_docs::kPingCall)
       .def_property_readonly(
           "ray_count", [](const Sonar& s) { return s.ray_count(); }, "Rays of a ping.")
       .def_property_readonly(

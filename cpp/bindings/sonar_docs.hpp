@@ -81,6 +81,8 @@ world_from_vehicle : (4, 4) array
     x forward, y port, z up.
 time : float
     At which the world is looked at [s].
+seed : int
+    Of speckle, noise and dropouts. Speckle belongs to the place, noise and dropouts to the time.
 ping : int
     Counts the pings of a scanning head.
 num_threads : int
@@ -124,12 +126,22 @@ inline const std::vector<std::pair<std::string, std::string>>& fields() {
       {"rays_along_fan", "Over ψ, of each beam."},
       {"spreading", "Whether power falls with R⁻⁴."},
       {"absorption", "None, \"francois_garrison\" or \"ainslie_mccolm\"."},
-      {"ph", "Of the water, for the absorption."},
       {"backscatter", "\"lambert\", or \"material\": its table or sediment where it has one."},
       {"beam_pattern", "None, \"uniform\" (sinc² with side lobes) or \"gaussian\"."},
       {"pixel_solid_angle",
        "Whether pixels count by their solid angle, cos³ of the angle off axis."},
       {"layover", "Whether what is nearer than a lower part of its fan is heard as well."},
+      {"pulse", "None, \"rectangle\" (its length) or \"chirp\" (compressed to c / 2B)."},
+      {"speckle", "None, \"rayleigh\" or \"k\"."},
+      {"speckle_shape", "ν of the K distribution."},
+      {"noise", "Whether the sea's noise is heard."},
+      {"noise_level", "Its spectral level [dB re 1 µPa²/Hz]."},
+      {"dropout_rate", "Part of the pings that bring nothing."},
+      {"tvg", "Whether a gain over range is applied."},
+      {"tvg_spreading", "Its part with range [dB a decade]."},
+      {"tvg_absorption", "Its part with the way there and back [dB/m]."},
+      {"bits", "Of the samples' amplitude; 0 is not quantised."},
+      {"full_scale", "Intensity at which samples clip [dB]."},
   };
   return docs;
 }

@@ -93,6 +93,15 @@ SonarField pose(const char* name, Pose SonarOptions::*member) {
       [name, member](SonarOptions& o, const py::object& v) { o.*member = pose_argument(name, v); }};
 }
 
+/// None, or a formula by its name; True is the first.
+SonarField absorption() {
+  using Formula = std::optional<AbsorptionFormula>;
+  static const EnumNames<Formula> names{{"none", std::nullopt},
+                                        {"francois_garrison", AbsorptionFormula::kFrancoisGarrison},
+                                        {"ainslie_mccolm", AbsorptionFormula::kAinslieMcColm}};
+  return choice<Formula>("absorption", &SonarOptions::absorption, names, true);
+}
+
 std::vector<SonarField> make_fields() {
   using O = SonarOptions;
   return {
@@ -126,12 +135,7 @@ std::vector<SonarField> make_fields() {
       count("rays_across_beam", &O::rays_across_beam),
       count("rays_along_fan", &O::rays_along_fan),
       flag("spreading", &O::spreading),
-      choice<AbsorptionModel>("absorption", &O::absorption,
-                              {{"none", AbsorptionModel::kNone},
-                               {"francois_garrison", AbsorptionModel::kFrancoisGarrison},
-                               {"ainslie_mccolm", AbsorptionModel::kAinslieMcColm}},
-                              true),
-      number("ph", &O::ph),
+      absorption(),
       choice<BackscatterModel>(
           "backscatter", &O::backscatter,
           {{"lambert", BackscatterModel::kLambert}, {"material", BackscatterModel::kMaterial}},
@@ -143,6 +147,25 @@ std::vector<SonarField> make_fields() {
                           true),
       flag("pixel_solid_angle", &O::pixel_solid_angle),
       flag("layover", &O::layover),
+      choice<PulseModel>("pulse", &O::pulse,
+                         {{"none", PulseModel::kNone},
+                          {"rectangle", PulseModel::kRectangle},
+                          {"chirp", PulseModel::kChirp}},
+                         true),
+      choice<SpeckleModel>("speckle", &O::speckle,
+                           {{"none", SpeckleModel::kNone},
+                            {"rayleigh", SpeckleModel::kRayleigh},
+                            {"k", SpeckleModel::kK}},
+                           true),
+      number("speckle_shape", &O::speckle_shape),
+      flag("noise", &O::noise),
+      number("noise_level", &O::noise_level),
+      number("dropout_rate", &O::dropout_rate),
+      flag("tvg", &O::tvg),
+      number("tvg_spreading", &O::tvg_spreading),
+      number("tvg_absorption", &O::tvg_absorption),
+      count("bits", &O::bits),
+      number("full_scale", &O::full_scale),
   };
 }
 

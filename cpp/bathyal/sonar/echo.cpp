@@ -160,6 +160,15 @@ void write_row(const EchoPart& row, std::size_t beam, Echo& echo) {
   }
 }
 
+/// e^(−4αR) at the middle of each sample.
+void absorb(const SonarOptions& options, double decibels_per_km, Echo& echo) {
+  const double rate = -4.0 * nepers_per_metre(decibels_per_km);
+  for (std::size_t at = 0; at < echo.power.size(); ++at) {
+    const auto sample = static_cast<double>(at % static_cast<std::size_t>(echo.samples));
+    echo.power[at] *= std::exp(rate * (sample + 0.5) * options.sample_length());
+  }
+}
+
 Echo empty_echo(const SonarOptions& options) {
   Echo echo;
   echo.beams = options.beams;
@@ -201,7 +210,7 @@ Echo Sonar::echo(const WorldSnapshot& world, const Water& water, const Pose& wor
 
   Echo echo = sonar::empty_echo(options);
   echo.altitude = sonar::checked_altitude(world, water, world_from_head.translation());
-  echo.sound_speed = water.sound_speed(world_from_head.translation().z());
+  echo.sound_speed = water.sound_speed(world_from_head.translation().z(), world.time);
   if (echo.altitude > options.range) {
     echo.warnings.push_back("the range of " + to_text(options.range) +
                             " m ends above the bottom, " + to_text(echo.altitude) +
@@ -222,6 +231,11 @@ Echo Sonar::echo(const WorldSnapshot& world, const Water& water, const Pose& wor
     const std::size_t beam = tasks[i].beam;
     for (; i < tasks.size() && tasks[i].beam == beam; ++i) row.add(parts[i]);
     sonar::write_row(row.take(), beam, echo);
+  }
+  if (options.absorption) {
+    const double z = world_from_head.translation().z();
+    sonar::absorb(options, water.absorption(options.frequency, z, world.time, *options.absorption),
+                  echo);
   }
   return echo;
 }

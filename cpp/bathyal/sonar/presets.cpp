@@ -142,10 +142,16 @@ SonarOptions scanning_sonar() {
 
 SonarOptions with_real_physics(SonarOptions options) {
   options.spreading = true;
-  options.absorption = AbsorptionModel::kFrancoisGarrison;
+  options.absorption = AbsorptionFormula::kFrancoisGarrison;
   options.backscatter = BackscatterModel::kMaterial;
   options.beam_pattern = BeamPattern::kUniform;
   options.pixel_solid_angle = true;
+  options.pulse = PulseModel::kRectangle;
+  options.speckle = SpeckleModel::kRayleigh;
+  options.noise = true;
+  options.tvg = true;
+  options.tvg_absorption = 1e-3 * absorption(*options.absorption, options.frequency, {});
+  options.bits = 16;
   return options;
 }
 

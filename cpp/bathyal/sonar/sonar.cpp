@@ -54,7 +54,6 @@ void check_signal(const SonarOptions& options) {
   check_range("ping_rate", options.ping_rate, 1e-4, 1e4);
   check_range("range", options.range, 1e-3, 1e6);
   check_range("samples", options.samples, 1, 1000000);
-  check_range("ph", options.ph, 7.0, 9.0);
 }
 
 void check_beams(const SonarOptions& options) {
@@ -89,6 +88,7 @@ void check_rays(const SonarOptions& options) {
 }  // namespace
 
 void SonarOptions::check() const {
+  ReceiverOptions::check();
   check_signal(*this);
   check_beams(*this);
   check_rays(*this);

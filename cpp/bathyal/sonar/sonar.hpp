@@ -3,10 +3,13 @@
 
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "bathyal/geometry/pose.hpp"
+#include "bathyal/sonar/receiver.hpp"
+#include "bathyal/water/absorption.hpp"
 
 namespace bathyal {
 
@@ -25,8 +28,6 @@ enum class BeamPattern {
   kGaussian,
 };
 
-enum class AbsorptionModel { kNone, kFrancoisGarrison, kAinslieMcColm };
-
 /// By which law a surface scatters sound back.
 enum class BackscatterModel {
   kLambert,   ///< strength · cos²θ
@@ -36,8 +37,9 @@ enum class BackscatterModel {
 /// The description of a sonar. A beam is made narrow by a line array: φ is the angle from the plane
 /// across the array, ψ turns about it, from the beam's axis. Of a side-scan the array lies along x
 /// (φ along track, ψ from the bottom to the horizon); of a multibeam, imaging or scanning sonar
-/// along y (φ across, ψ in the plane of x and z). Every physical effect is a switch, and off.
-struct SonarOptions {
+/// along y (φ across, ψ in the plane of x and z). Every physical effect is a switch, and off;
+/// those of the receiver come first.
+struct SonarOptions : ReceiverOptions {
   SonarKind kind = SonarKind::kSideScan;
   std::string name = "side_scan";
 
@@ -71,9 +73,8 @@ struct SonarOptions {
   int rays_along_fan = 2000;  ///< over ψ, 1 to 10⁶
 
   // Switches.
-  bool spreading = false;  ///< two-way, R⁻⁴ of what an area scatters
-  AbsorptionModel absorption = AbsorptionModel::kNone;
-  double ph = 8.0;  ///< of the water, for the absorption, 7 to 9
+  bool spreading = false;                       ///< two-way, R⁻⁴ of what an area scatters
+  std::optional<AbsorptionFormula> absorption;  ///< by the water at the sonar's depth
   BackscatterModel backscatter = BackscatterModel::kLambert;
   BeamPattern beam_pattern = BeamPattern::kNone;
   bool pixel_solid_angle =

@@ -21,9 +21,11 @@ std::string text_of(const Vec3& point) {
 }  // namespace
 
 double checked_altitude(const WorldSnapshot& world, const Water& water, const Vec3& sonar) {
-  if (water.surface() && sonar.z() > *water.surface()) {
+  const double surface = water.surface() ? water.surface_height(sonar.x(), sonar.y(), world.time)
+                                         : std::numeric_limits<double>::infinity();
+  if (sonar.z() > surface) {
     throw_argument("world_from_vehicle",
-                   "the sonar below the surface at " + to_text(*water.surface()) + " m",
+                   "the sonar below the surface at " + to_text(surface) + " m",
                    "it at " + text_of(sonar));
   }
   const Vec3 up = Vec3(0.0013, 0.0029, 1.0);  // through no pole or edge of what was built upright
