@@ -10,6 +10,7 @@
 #include "bathyal/base/error.hpp"
 #include "bathyal/sonar/echo.hpp"
 #include "bathyal/sonar/presets.hpp"
+#include "bathyal/sonar/survey.hpp"
 #include "bathyal/world/world.hpp"
 #include "bindings.hpp"
 #include "enum_names.hpp"
@@ -64,21 +65,7 @@ EnumNames<PresetMaker> presets() {
           {"scanning", scanning_sonar}};
 }
 
-Ping ping_of(const Sonar& sonar, const std::shared_ptr<World>& world, const ArrayLike& pose,
-             double time, std::uint64_t seed, std::int64_t ping, int num_threads) {
-  const Pose world_from_vehicle = pose_argument("world_from_vehicle", pose);
-  Echo echo;
-  Received received;
-  {
-    const py::gil_scoped_release unlocked;
-    echo = sonar.echo(world->at(time, num_threads), world->water(), world_from_vehicle, ping,
-                      num_threads);
-    const SonarOptions& options = sonar.options();
-    const Pose world_from_sonar =
-        world_from_vehicle * options.vehicle_from_sonar * head_pose(options, ping);
-    received = receive(options, echo, {seed, world_from_sonar, time});
-  }
-  for (const std::string& warning : echo.warnings) warn_user(warning);
+Ping made_ping(const Sonar& sonar, double time, Echo echo, Received received) {
   Ping made;
   made.intensity = in_rows(std::move(received.intensity), echo);
   made.range = to_numpy(sample_middles(sonar.options()));
@@ -94,6 +81,42 @@ Ping ping_of(const Sonar& sonar, const std::shared_ptr<World>& world, const Arra
   made.altitude = echo.altitude;
   made.sound_speed = echo.sound_speed;
   return made;
+}
+
+Ping ping_of(const Sonar& sonar, const std::shared_ptr<World>& world, const ArrayLike& pose,
+             double time, std::uint64_t seed, std::int64_t ping, int num_threads) {
+  const Pose world_from_vehicle = pose_argument("world_from_vehicle", pose);
+  Echo echo;
+  Received received;
+  {
+    const py::gil_scoped_release unlocked;
+    echo = sonar.echo(world->at(time, num_threads), world->water(), world_from_vehicle, ping,
+                      num_threads);
+    const SonarOptions& options = sonar.options();
+    const Pose world_from_sonar =
+        world_from_vehicle * options.vehicle_from_sonar * head_pose(options, ping);
+    received = receive(options, echo, {seed, world_from_sonar, time});
+  }
+  for (const std::string& warning : echo.warnings) warn_user(warning);
+  return made_ping(sonar, time, std::move(echo), std::move(received));
+}
+
+using KeepPing = py::typing::Callable<py::bool_(Ping, py::int_, py::array)>;
+
+void hear(const Sonar& sonar, const std::shared_ptr<World>& world, const Trajectory& trajectory,
+          const KeepPing& keep, std::uint64_t seed, std::int64_t first, std::int64_t count,
+          int num_threads) {
+  const py::gil_scoped_release unlocked;
+  survey(
+      sonar, *world, trajectory, seed, {first, count},
+      [&](SurveyPing&& one) {
+        const py::gil_scoped_acquire locked;
+        const Pose pose = one.world_from_vehicle;
+        return py::cast<bool>(
+            keep(made_ping(sonar, one.time, std::move(one.echo), std::move(one.received)),
+                 one.number, to_numpy(pose)));
+      },
+      num_threads);
 }
 
 void bind_ping(py::module_& module) {
@@ -168,6 +191,15 @@ void bind_sonar(py::module_& module) {
       .def("ping", &ping_of, py::arg("world"), py::arg("world_from_vehicle"), py::arg("time") = 0.0,
            py::kw_only(), py::arg("seed") = 0, py::arg("ping") = 0, py::arg("num_threads") = 0,
            sonar_docs::kPingCall)
+      .def("hear", &hear, py::arg("world"), py::arg("trajectory"), py::arg("keep"), py::kw_only(),
+           py::arg("seed") = 0, py::arg("first") = 0, py::arg("count") = -1,
+           py::arg("num_threads") = 0, sonar_docs::kHear)
+      .def(
+          "ping_times",
+          [](const Sonar& sonar, const Trajectory& trajectory) {
+            return to_numpy(ping_times(sonar.options(), trajectory));
+          },
+          py::arg("trajectory"), "Times of a survey's pings along a trajectory [s].")
       .def_property_readonly(
           "ray_count", [](const Sonar& s) { return s.ray_count(); }, "Rays of a ping.")
       .def_property_readonly(

@@ -98,6 +98,28 @@ ValueError
     For a pose that is not rigid, a sonar above the surface, below the bottom or inside a body.
 )";
 
+inline constexpr const char* kHear = R"(A survey, ping after ping; `survey` keeps it as a record.
+
+Parameters
+----------
+world : World
+trajectory : Trajectory
+    world_from_vehicle.
+keep : function
+    Called with the ping, its number and world_from_vehicle; the survey ends where it returns False.
+seed : int
+    Of all random numbers.
+first, count : int
+    Which of the pings at `ping_times`; −1 is to the end. Parts join to the bytes of the whole.
+num_threads : int
+    0 means all.
+
+Raises
+------
+ValueError
+    As `ping`, with the ping's number.
+)";
+
 /// Each field's docstring.
 inline const std::vector<std::pair<std::string, std::string>>& fields() {
   static const std::vector<std::pair<std::string, std::string>> docs = {

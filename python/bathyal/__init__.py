@@ -91,6 +91,7 @@ from bathyal.seabed.meshes import read_mesh, write_mesh
 from bathyal.seabed.triangulate import SheetWarning, triangulate
 from bathyal.toolpath import methods as _toolpath_methods  # noqa: F401
 from bathyal.toolpath.aims import read_aims
+from bathyal.sonar import methods as _sonar_methods  # noqa: F401
 from bathyal.workspace import hull_methods as _hull_methods  # noqa: F401
 from bathyal.workspace import link_meshes as _link_meshes  # noqa: F401
 from bathyal.workspace import motion_methods as _motion_methods  # noqa: F401
