@@ -14,6 +14,7 @@ void bind_shape(pybind11::module_& module);
 void bind_trajectory(pybind11::module_& module);
 void bind_soundings(pybind11::module_& module);
 void bind_survey(pybind11::module_& module);  // the second file of soundings
+void bind_xtf(pybind11::module_& module);     // the third
 void bind_terrain(pybind11::module_& module);
 void bind_scene(pybind11::module_& module);
 void bind_toolpath(pybind11::module_& module);

@@ -14,6 +14,7 @@ PYBIND11_MODULE(_core, module) {
   bind_shape(module);
   bind_trajectory(module);
   bind_soundings(module);
+  bind_xtf(module);
   bind_terrain(module);
   bind_scene(module);
   bind_toolpath(module);

@@ -89,9 +89,12 @@ from bathyal.seabed import methods as _seabed_methods  # noqa: F401
 from bathyal.seabed.clouds import read_cloud, write_cloud
 from bathyal.seabed.meshes import read_mesh, write_mesh
 from bathyal.seabed.triangulate import SheetWarning, triangulate
+from bathyal.sonar import methods as _sonar_methods  # noqa: F401
+from bathyal.sonar.files import read_sonar
+from bathyal.sonar.navigation import Navigation
+from bathyal.sonar.record import RecordTruth, SonarRecord
 from bathyal.toolpath import methods as _toolpath_methods  # noqa: F401
 from bathyal.toolpath.aims import read_aims
-from bathyal.sonar import methods as _sonar_methods  # noqa: F401
 from bathyal.workspace import hull_methods as _hull_methods  # noqa: F401
 from bathyal.workspace import link_meshes as _link_meshes  # noqa: F401
 from bathyal.workspace import motion_methods as _motion_methods  # noqa: F401
@@ -124,6 +127,7 @@ __all__ = [
     "MeshReport",
     "MotionCheck",
     "MotionPlan",
+    "Navigation",
     "Nearest",
     "NearestSegments",
     "Ping",
@@ -133,6 +137,7 @@ __all__ = [
     "PointCloud",
     "Polyline",
     "ReachMap",
+    "RecordTruth",
     "RigidBody",
     "SamplingPhase",
     "SamplingPlan",
@@ -143,6 +148,7 @@ __all__ = [
     "SheetReport",
     "SheetWarning",
     "Sonar",
+    "SonarRecord",
     "Standpoint",
     "StaticTrim",
     "SupportWarning",
@@ -184,6 +190,7 @@ __all__ = [
     "read_mesh",
     "read_reach_map",
     "read_scenario",
+    "read_sonar",
     "read_srdf",
     "read_touches",
     "read_tracked",
