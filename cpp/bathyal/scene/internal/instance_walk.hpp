@@ -37,33 +37,43 @@ inline D bound_of(D t, double length, D start) {
   return padded < 3e38 ? padded : D{} + 3e38;
 }
 
+/// Unit directions of the world's packet and their inverses: what each instance begins with.
+template <class Simd>
+struct Directions {
+  double unit[3][Simd::kRays];
+  double inverse[3][Simd::kRays];
+};
+
 /// The lanes of the world's packet in the frame of an instance.
 template <class Simd>
-inline void turn_rays(const InstanceFrame& frame, const Packet<Simd>& world, int first,
-                      Packet<Simd>& local) {
+inline void turn_rays(const InstanceFrame& frame, const Packet<Simd>& world,
+                      const Directions<Simd>& directions, int first, Packet<Simd>& local,
+                      RayRegister<typename Simd::D>& turned) {
   using D = typename Simd::D;
   RayRegister<D> ray;
   for (int axis = 0; axis < 3; ++axis) {
     ray.o[axis] = load_as<D>(world.o[axis] + first);
     ray.d[axis] = load_as<D>(world.d[axis] + first);
-    ray.unit[axis] = load_as<D>(world.unit[axis] + first);
+    ray.unit[axis] = load_as<D>(directions.unit[axis] + first);
   }
-  RayRegister<D> turned;
   move_back(frame, ray.o, turned.o);
   turn_back(frame, ray.d, turned.d);
   turn_back(frame, ray.unit, turned.unit);
+  set_inverse(turned);
   for (int axis = 0; axis < 3; ++axis) store_as(local.o[axis] + first, turned.o[axis]);
-  shear_rays(local, first, turned);
+  shear_rays(local, first, turned, frame.per_metre);
 }
 
 /// The same at the identity: what turn_rays comes to, without its divisions.
 template <class Simd>
-inline void copy_rays(const Packet<Simd>& world, int first, Packet<Simd>& local) {
+inline void copy_rays(const Packet<Simd>& world, const Directions<Simd>& directions, int first,
+                      Packet<Simd>& local, RayRegister<typename Simd::D>& copied) {
   using D = typename Simd::D;
   for (int axis = 0; axis < 3; ++axis) {
-    store_as(local.o[axis] + first, load_as<D>(world.o[axis] + first));
-    store_as(local.unit[axis] + first, load_as<D>(world.unit[axis] + first));
-    store_as(local.inverse_unit[axis] + first, load_as<D>(world.inverse_unit[axis] + first));
+    copied.o[axis] = load_as<D>(world.o[axis] + first);
+    copied.unit[axis] = load_as<D>(directions.unit[axis] + first);
+    copied.inverse[axis] = load_as<D>(directions.inverse[axis] + first);
+    store_as(local.o[axis] + first, copied.o[axis]);
   }
   store_as(local.sx + first, load_as<D>(world.sx + first));
   store_as(local.sy + first, load_as<D>(world.sy + first));
@@ -75,7 +85,8 @@ inline void copy_rays(const Packet<Simd>& world, int first, Packet<Simd>& local)
 /// mesh's box before they end.
 template <class Simd>
 inline unsigned set_up_instance(const CastScene& mesh, const InstanceFrame& frame,
-                                const Packet<Simd>& world, unsigned rays, Packet<Simd>& local) {
+                                const Packet<Simd>& world, const Directions<Simd>& directions,
+                                unsigned rays, Packet<Simd>& local) {
   using D = typename Simd::D;
   using I = typename Simd::I;
   constexpr unsigned kRegister = (1U << Simd::kDoubles) - 1U;
@@ -84,12 +95,13 @@ inline unsigned set_up_instance(const CastScene& mesh, const InstanceFrame& fram
   for (int first = 0; first < Simd::kRays; first += Simd::kDoubles) {
     const unsigned part = rays >> first & kRegister;
     if (part == 0) continue;
+    RayRegister<D> ray;
     if (frame.at_identity) {
-      copy_rays(world, first, local);
+      copy_rays(world, directions, first, local, ray);
     } else {
-      turn_rays(frame, world, first, local);
+      turn_rays(frame, world, directions, first, local, ray);
     }
-    const unsigned placed = enter_rays(mesh, local, first, Simd::lanes(part));
+    const unsigned placed = enter_rays(mesh, local, first, ray, Simd::lanes(part));
     if (placed == 0) continue;
     const D t = load_as<D>(world.t + first);
     const D bound = bound_of(t, frame.per_metre, load_as<D>(local.start + first));
@@ -133,6 +145,7 @@ inline void keep_nearer(const Packet<Simd>& local, unsigned rays, std::int32_t r
 template <class Simd>
 struct InstancePackets {
   Packet<Simd> world;
+  Directions<Simd> directions;
   Packet<Simd> local;
   Walkers<Simd> walkers;
 };
@@ -143,7 +156,8 @@ inline void visit_instance(const InstancedScene& scene, std::int32_t row, unsign
   const InstanceFrame& frame = scene.frames[row];
   const CastScene& mesh = scene.meshes[frame.mesh];
   Packet<Simd>& local = packets.local;
-  const unsigned enter = set_up_instance(mesh, frame, packets.world, rays, local);
+  const unsigned enter =
+      set_up_instance(mesh, frame, packets.world, packets.directions, rays, local);
   if (enter == 0) return;
   set_up_cull<Simd>(local);
   find_common<Simd>(local, enter);
@@ -300,10 +314,16 @@ std::size_t cast_instances(const InstancedScene& scene, const RayBatch& batch, R
   InstancePackets<Simd> packets;
   __builtin_memset(&packets.local, 0, sizeof packets.local);
   Packet<Simd>& world = packets.world;
+  const auto keep = [&packets](int first, const RayRegister<typename Simd::D>& ray) {
+    for (int axis = 0; axis < 3; ++axis) {
+      store_as(packets.directions.unit[axis] + first, ray.unit[axis]);
+      store_as(packets.directions.inverse[axis] + first, ray.inverse[axis]);
+    }
+  };
   for (std::size_t row = batch.begin; row < batch.end; row += Simd::kRays) {
     const std::size_t left = batch.end - row;
     const int count = left < Simd::kRays ? static_cast<int>(left) : Simd::kRays;
-    const SetUp lanes = set_up<Simd>(scene.top, batch, row, count, world);
+    const SetUp lanes = set_up<Simd>(scene.top, batch, row, count, world, keep);
     if (scene.top.nodes != nullptr && lanes.enter != 0) {
       if (world.mixed) {
         walk_instances<Simd, true>(scene, lanes.enter, packets);
