@@ -34,6 +34,7 @@ struct InstancedScene {
   CastScene top;                ///< over the instances' boxes in the world; no blocks and no meshes
   const CastScene* meshes;      ///< the distinct ones, each in its own frame
   const InstanceFrame* frames;  ///< of each row
+  std::int32_t home;            ///< row at the identity with the tree's own origin, −1 for none
 };
 
 /// Rays begin … end − 1 of a batch. `origins` steps by `origin_step` doubles from ray to ray: 3, or

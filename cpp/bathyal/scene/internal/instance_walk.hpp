@@ -151,8 +151,50 @@ struct InstancePackets {
 };
 
 template <class Simd>
+inline void walk_mesh(const CastScene& mesh, Packet<Simd>& packet, unsigned rays,
+                      Walkers<Simd>& walkers) {
+  if (packet.mixed) {
+    walk_packet<Simd, true>(mesh, packet, rays, walkers);
+  } else {
+    walk_packet<Simd, false>(mesh, packet, rays, walkers);
+  }
+  walkers.walk_all(mesh, packet);
+}
+
+/// The instance whose frame the tree is in: the world's packet walks its mesh as it is. There
+/// primitives are triangles, so what was met in other rows is put away: 0 where it has the lower
+/// row, which no tie beats, else none, which all do.
+template <class Simd>
+inline void visit_home(const InstancedScene& scene, unsigned rays, InstancePackets<Simd>& packets) {
+  using D = typename Simd::D;
+  using I = typename Simd::I;
+  constexpr auto kNone = static_cast<std::int64_t>(kNoPrimitive);
+  const InstanceKey first_key = key_of(scene.home, 0);
+  Packet<Simd>& world = packets.world;
+  alignas(64) double t[Simd::kRays];
+  alignas(64) std::int64_t keys[Simd::kRays];
+  for (int first = 0; first < Simd::kRays; first += Simd::kDoubles) {
+    const I key = load_as<I>(world.primitive + first);
+    store_as(keys + first, key);
+    store_as(t + first, load_as<D>(world.t + first));
+    store_as(world.primitive + first, key < first_key ? I{} : I{} + kNone);
+  }
+  walk_mesh(scene.meshes[scene.frames[scene.home].mesh], world, rays, packets.walkers);
+  for (int first = 0; first < Simd::kRays; first += Simd::kDoubles) {
+    const D before = load_as<D>(t + first);
+    const D now = load_as<D>(world.t + first);
+    const I key = load_as<I>(keys + first);
+    const I triangle = load_as<I>(world.primitive + first);
+    const I tie = (now == before) & (key >= first_key) & (triangle != kNone);
+    const I is_new = (now < before) | tie;
+    store_as(world.primitive + first, is_new ? triangle + first_key : key);
+  }
+}
+
+template <class Simd>
 inline void visit_instance(const InstancedScene& scene, std::int32_t row, unsigned rays,
                            InstancePackets<Simd>& packets) {
+  if (row == scene.home) return visit_home(scene, rays, packets);
   const InstanceFrame& frame = scene.frames[row];
   const CastScene& mesh = scene.meshes[frame.mesh];
   Packet<Simd>& local = packets.local;
@@ -161,12 +203,7 @@ inline void visit_instance(const InstancedScene& scene, std::int32_t row, unsign
   if (enter == 0) return;
   set_up_cull<Simd>(local);
   find_common<Simd>(local, enter);
-  if (local.mixed) {
-    walk_packet<Simd, true>(mesh, local, enter, packets.walkers);
-  } else {
-    walk_packet<Simd, false>(mesh, local, enter, packets.walkers);
-  }
-  packets.walkers.walk_all(mesh, local);
+  walk_mesh(mesh, local, enter, packets.walkers);
   keep_nearer(local, enter, row, packets.world);
 }
 

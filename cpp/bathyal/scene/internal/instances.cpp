@@ -183,6 +183,20 @@ Extent3 set_frames(const InstanceMeshes& shared, const std::vector<Pose>& poses,
                                });
 }
 
+/// The row at the identity with the most triangles, the first of several; −1 where none is.
+std::int32_t find_home(const InstanceMeshes& shared, const PageArray<InstanceFrame>& frames) {
+  std::int32_t home = -1;
+  std::uint32_t most = 0;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const std::uint32_t count =
+        shared.hierarchies[static_cast<std::size_t>(frames[i].mesh)]->primitive_count;
+    if (!frames[i].at_identity || count <= most) continue;
+    home = static_cast<std::int32_t>(i);
+    most = count;
+  }
+  return home;
+}
+
 /// Boxes in `local` of the rows with triangles.
 std::vector<Box> make_boxes(const InstanceMeshes& shared, const PageArray<InstanceFrame>& frames,
                             const LocalFrame& local, int num_threads) {
@@ -273,7 +287,11 @@ Scene::Instances::Instances(std::shared_ptr<const scene::InstanceMeshes> given,
   if (!(half <= scene::kLargestReach)) {
     throw_argument("poses", "triangles within 1e12 m of their middle", to_text(half) + " m");
   }
-  origin = (0.5 * world.low + 0.5 * world.high).array().round();
+  constexpr double kMostOfIt = 0.25;
+  home = scene::find_home(*shared, frames);
+  if (home >= 0 && hierarchy(home).reach() < kMostOfIt * half) home = -1;
+  origin = home >= 0 ? hierarchy(home).origin
+                     : Vec3((0.5 * world.low + 0.5 * world.high).array().round());
   const double room = scene::kInstancePad * origin.lpNorm<1>();
   low = (world.low - origin).array() - room;
   high = (world.high - origin).array() + room;
@@ -290,6 +308,7 @@ scene::InstancedScene Scene::Instances::view() const {
   view.top.far_pad = scene::kInstancePad;
   view.meshes = shared->views.data();
   view.frames = frames.data();
+  view.home = home;
   return view;
 }
 
