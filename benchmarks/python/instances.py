@@ -191,8 +191,8 @@ def run(rounds):
     many_rows(bottom, rock, rounds)
     print(
         f"\nRatios and rates are medians of {rounds} interleaved rounds of 500,000 rays; one "
-        "thread of processor time, two of the wall clock. `with_poses` moves all clones, from a numpy "
-        f"array of poses to the new scene. SIMD level {simd_level()}."
+        "thread of processor time, two of the wall clock. `with_poses` moves all clones, from a "
+        f"numpy array of poses to the new scene. SIMD level {simd_level()}."
     )
 
 

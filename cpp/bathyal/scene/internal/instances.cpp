@@ -52,22 +52,33 @@ double radius_of(const Scene::Hierarchy& hierarchy, int num_threads) {
   return std::sqrt(largest.squared);
 }
 
-/// The rotation itself where it is one to a few digits of double's last, else the nearest one: rays
-/// are turned into the mesh's frame by its transpose, which must be its inverse.
-Eigen::Matrix3d nearest_rotation(const Eigen::Matrix3d& given) {
+/// Largest deviation of rotationᵀ · rotation from the identity.
+double skewness(const Eigen::Matrix3d& rotation, Eigen::Matrix3d& product) {
+  product.noalias() = rotation.transpose() * rotation;
+  return (product - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
+}
+
+/// The pose's rotation itself where it is one to a few digits of double's last, else the nearest
+/// one: rays are turned into the mesh's frame by its transpose, which must be its inverse.
+/// \throw std::invalid_argument for a pose that is not rigid.
+Eigen::Matrix3d checked_rotation(std::size_t row, const Pose& pose) {
   constexpr double kExact = 1e-14;
-  Eigen::Matrix3d rotation = given;
-  for (int i = 0; i < 4; ++i) {  // Newton; what is off by 1e-6 converges in two steps
-    const Eigen::Matrix3d product = rotation.transpose() * rotation;
-    if ((product - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() <= kExact) break;
+  Eigen::Matrix3d rotation = pose.linear(), product;
+  const bool is_exact = skewness(rotation, product) <= kExact;
+  if (!is_exact || !(rotation.determinant() > 0.0) || !pose.translation().allFinite() ||
+      pose.matrix().row(3) != Eigen::RowVector4d(0, 0, 0, 1)) {
+    check_rigid("poses[" + std::to_string(row) + "]", pose);
+  }
+  if (is_exact) return rotation;
+  for (int i = 0; i < 4 && skewness(rotation, product) > kExact; ++i) {  // Newton: two steps do
     rotation = rotation * (1.5 * Eigen::Matrix3d::Identity() - 0.5 * product);
   }
   return rotation;
 }
 
-InstanceFrame frame_of(const Pose& pose, double scale, std::int32_t mesh) {
+InstanceFrame frame_of(std::size_t row, const Pose& pose, double scale, std::int32_t mesh) {
   InstanceFrame frame;
-  Eigen::Map<RowMajor3>(&frame.rotation[0][0]) = nearest_rotation(pose.linear());
+  Eigen::Map<RowMajor3>(&frame.rotation[0][0]) = checked_rotation(row, pose);
   Eigen::Map<Vec3>(frame.position) = pose.translation();
   frame.scale = scale;
   frame.per_metre = 1.0 / scale;
@@ -154,12 +165,7 @@ void check_counts(std::size_t rows, const std::vector<Pose>& poses,
   }
 }
 
-void check_instance(std::size_t row, const Pose& pose, double scale) {
-  const Eigen::Matrix3d r = pose.linear();
-  const bool surely = pose.matrix().allFinite() && (r.transpose() * r).isIdentity(1e-9) &&
-                      pose.matrix().row(3) == Eigen::RowVector4d(0, 0, 0, 1) &&
-                      r.determinant() > 0.0;
-  if (!surely) check_rigid("poses[" + std::to_string(row) + "]", pose);
+void check_scale(std::size_t row, double scale) {
   if (scale >= kLeastScale && scale <= kLargestScale) return;
   throw_argument("scales[" + std::to_string(row) + "]", "a number above 0, from 1e-9 to 1e9",
                  to_text(scale));
