@@ -18,6 +18,8 @@ PYBIND11_MODULE(_core, module) {
   bind_scene(module);
   bind_toolpath(module);
   bind_arm(module);
+  bind_survey(module);
+  bind_generate(module);
   bind_workspace(module);
   bind_identify(module);
   bind_plan_touches(module);

@@ -10,7 +10,7 @@ import numpy.typing
 import os
 import plotly.graph_objects
 import typing
-__all__: list[str] = ['Arm', 'ArmFit', 'BEYOND_NOISE', 'Capsule', 'Cause', 'CleanReport', 'CleanResult', 'Clearances', 'CorrectedArm', 'DhTable', 'Diagnosis', 'Effect', 'EffectRange', 'EffectRows', 'Error', 'Estimate', 'FitParameter', 'FollowedPath', 'FoundEffect', 'HeldOut', 'HeldOutPart', 'Hits', 'Hull', 'HullReport', 'InverseResult', 'KeepOut', 'Link', 'MeshReport', 'MotionCheck', 'MotionPlan', 'NamedEffect', 'Nearest', 'NearestSegments', 'Outlier', 'Plane', 'PlaneFit', 'PointCloud', 'Polyline', 'ReachMap', 'RigidBody', 'SamplingPhase', 'SamplingPlan', 'Scene', 'Shape', 'SheetPatch', 'SheetReport', 'Standpoint', 'StaticTrim', 'Structure', 'Support', 'TargetChecks', 'Targets', 'TextTable', 'TipMove', 'ToolPath', 'TouchForecast', 'TouchPlan', 'Touches', 'Tracked', 'Trade', 'Trajectory', 'TriangleMesh', 'Verification', 'Voxels', 'Workspace', 'arm_from_chain', 'arm_from_parts', 'arm_parts', 'best_standpoint', 'chain_from_arm', 'check_bytes', 'clean_cloud', 'cover_polygon', 'diagnose', 'find_effect_with', 'find_sheets', 'find_targets', 'fit_plane', 'forecast_touches', 'generate_survey', 'identify_arm', 'intersect_moller_trumbore', 'library_effects', 'mesh_report', 'plan_sampling', 'plan_toolpath', 'plan_touches', 'read_mesh_with', 'read_pcd', 'read_text_table', 'set_simd_level', 'simd_level', 'survey_height', 'triangulate', 'triangulate_delaunay', 'verify_positions', 'warn_of_support_with', 'with_link_radii', 'write_xyz']
+__all__: list[str] = ['Arm', 'ArmFit', 'BEYOND_NOISE', 'Capsule', 'Cause', 'CleanReport', 'CleanResult', 'Clearances', 'CorrectedArm', 'DhTable', 'Diagnosis', 'Effect', 'EffectRange', 'EffectRows', 'Error', 'Estimate', 'FitParameter', 'FollowedPath', 'FoundEffect', 'HeldOut', 'HeldOutPart', 'Hits', 'Hull', 'HullReport', 'InverseResult', 'KeepOut', 'Link', 'MeshReport', 'MotionCheck', 'MotionPlan', 'NamedEffect', 'Nearest', 'NearestSegments', 'Outlier', 'Plane', 'PlaneFit', 'PointCloud', 'Polyline', 'ReachMap', 'RigidBody', 'SamplingPhase', 'SamplingPlan', 'Scene', 'SeabedModel', 'Shape', 'SheetPatch', 'SheetReport', 'Standpoint', 'StaticTrim', 'Structure', 'Support', 'TargetChecks', 'Targets', 'TextTable', 'TipMove', 'ToolPath', 'TouchForecast', 'TouchPlan', 'Touches', 'Tracked', 'Trade', 'Trajectory', 'TriangleMesh', 'Verification', 'Voxels', 'Workspace', 'arm_from_chain', 'arm_from_parts', 'arm_parts', 'best_standpoint', 'chain_from_arm', 'check_bytes', 'clean_cloud', 'cover_polygon', 'diagnose', 'find_effect_with', 'find_sheets', 'find_targets', 'fit_plane', 'forecast_touches', 'generate_survey', 'identify_arm', 'intersect_moller_trumbore', 'library_effects', 'make_seabed', 'mesh_report', 'plan_sampling', 'plan_toolpath', 'plan_touches', 'read_mesh_with', 'read_pcd', 'read_text_table', 'set_simd_level', 'simd_level', 'survey_height', 'triangle_material', 'triangulate', 'triangulate_delaunay', 'verify_positions', 'warn_of_support_with', 'with_link_radii', 'write_xyz']
 class Error(RuntimeError):
     """
     A broken file, a solver that failed or a part that is not installed.
@@ -2009,6 +2009,112 @@ class Arm:
         """
         (n,) greatest speed of the joint that leads each coordinate [rad/s] or [m/s].
         """
+class SeabedModel:
+    """
+    A generated bottom as a function of the place, on an endless plane.
+    
+    Fractal relief, sand ripples with crests that meander and fork, boulders, a trench, a cliff, scour
+    around given points. No height depends on how a mesh of it is cut or where it begins. Angles are
+    counted from x towards y.
+    
+    Parameters
+    ----------
+    seed : int
+    depth : float
+        The mean height is −depth [m].
+    slope, slope_direction : float
+        Of the whole bottom, and in which direction it rises [rad].
+    relief_rms : float
+        Of a relief whose power spectral density goes with k^−exponent [m], 0 for none.
+    relief_exponent : float
+        Of the spectrum over the plane, 1 to 6; along a line it is one less.
+    relief_longest, relief_shortest : float
+        Wavelengths between which the spectrum goes [m].
+    ripple_height, ripple_wavelength : float
+        Trough to crest, 0 for none, and crest to crest [m].
+    ripple_direction : float
+        Of the current, across the crests [rad].
+    ripple_asymmetry : float
+        How much longer the stoss side is than the lee side, in wavelengths, 0 to 0.45.
+    ripple_meander : float
+        Rms by which crests wander, in wavelengths, 0 to 2.
+    ripple_defects : float
+        Crests that fork: pairs per 36 square wavelengths, 0 to 1.
+    ripple_cover, ripple_patch : float
+        Share of the bottom that has ripples, and the size of patches of them [m].
+    boulder_density, boulder_radius : float
+        Domes per m², 0 for none, and the radius of the largest [m]; the smallest have a fifth of it.
+    boulder_scour : float
+        Depth of the hollow around each, over its height, 0 to 1.
+    trench_depth, trench_width, trench_floor : float
+        Depth, 0 for none, width between the tops of the walls, and width of the floor [m].
+    trench_direction, trench_point : float, (2,) array
+        Along it [rad], and a place on its middle line [m].
+    cliff_height, cliff_run : float
+        Height, 0 for none, and the horizontal distance over which it falls [m].
+    cliff_direction, cliff_point : float, (2,) array
+        In which it falls [rad], and a place at half its height [m].
+    edge_meander : float
+        Rms by which trench and cliff wander off their lines [m].
+    scour_points : (K, 2) array
+        Middles of hollows [m].
+    scour_depth, scour_radius : float
+        Of each [m].
+    num_threads : int
+        0: all.
+    
+    Raises
+    ------
+    ValueError
+        For an option out of its range.
+    
+    Examples
+    --------
+    >>> import bathyal
+    >>> model = bathyal.SeabedModel(seed=1, relief_rms=0, trench_depth=2.0)
+    >>> model.height([0.0, 0.0], [0.0, 10.0])
+    array([-2.,  0.])
+    >>> model.mesh(10, 0.5)
+    TriangleMesh(441 vertices, 800 triangles)
+    """
+    materials: typing.ClassVar[list] = ['silt', 'sand', 'rock']
+    def __init__(self, *, seed: typing.SupportsInt | typing.SupportsIndex = 0, depth: typing.SupportsFloat | typing.SupportsIndex = 0.0, slope: typing.SupportsFloat | typing.SupportsIndex = 0.0, slope_direction: typing.SupportsFloat | typing.SupportsIndex = 0.0, relief_rms: typing.SupportsFloat | typing.SupportsIndex = 0.15, relief_exponent: typing.SupportsFloat | typing.SupportsIndex = 3.25, relief_longest: typing.SupportsFloat | typing.SupportsIndex = 50.0, relief_shortest: typing.SupportsFloat | typing.SupportsIndex = 0.5, ripple_height: typing.SupportsFloat | typing.SupportsIndex = 0.0, ripple_wavelength: typing.SupportsFloat | typing.SupportsIndex = 1.0, ripple_direction: typing.SupportsFloat | typing.SupportsIndex = 0.0, ripple_asymmetry: typing.SupportsFloat | typing.SupportsIndex = 0.2, ripple_meander: typing.SupportsFloat | typing.SupportsIndex = 0.15, ripple_defects: typing.SupportsFloat | typing.SupportsIndex = 0.2, ripple_cover: typing.SupportsFloat | typing.SupportsIndex = 1.0, ripple_patch: typing.SupportsFloat | typing.SupportsIndex = 30.0, boulder_density: typing.SupportsFloat | typing.SupportsIndex = 0.0, boulder_radius: typing.SupportsFloat | typing.SupportsIndex = 0.6, boulder_scour: typing.SupportsFloat | typing.SupportsIndex = 0.18, trench_depth: typing.SupportsFloat | typing.SupportsIndex = 0.0, trench_width: typing.SupportsFloat | typing.SupportsIndex = 4.0, trench_floor: typing.SupportsFloat | typing.SupportsIndex = 1.5, trench_direction: typing.SupportsFloat | typing.SupportsIndex = 0.0, trench_point: numpy.typing.ArrayLike = (0.0, 0.0), cliff_height: typing.SupportsFloat | typing.SupportsIndex = 0.0, cliff_run: typing.SupportsFloat | typing.SupportsIndex = 2.0, cliff_direction: typing.SupportsFloat | typing.SupportsIndex = 0.0, cliff_point: numpy.typing.ArrayLike = (0.0, 0.0), edge_meander: typing.SupportsFloat | typing.SupportsIndex = 0.0, scour_points: numpy.typing.ArrayLike | None = None, scour_depth: typing.SupportsFloat | typing.SupportsIndex = 0.4, scour_radius: typing.SupportsFloat | typing.SupportsIndex = 2.0, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> None:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def height(self, x: numpy.typing.ArrayLike, y: numpy.typing.ArrayLike) -> numpy.ndarray:
+        """
+        Heights z [m] at (N,) places x, y [m]: the same bytes as a mesh's vertices there.
+        """
+    def material(self, x: numpy.typing.ArrayLike, y: numpy.typing.ArrayLike) -> numpy.ndarray:
+        """
+        Rows of `materials` at (N,) places x, y [m]: boulders and the face of the cliff are rock, ripples of at least half their height are sand, all else is silt.
+        """
+    def mesh(self, size: numpy.typing.ArrayLike, spacing: typing.SupportsFloat | typing.SupportsIndex, *, origin: numpy.typing.ArrayLike = (0.0, 0.0)) -> TriangleMesh:
+        """
+        A mesh of the bottom: squares, each of two triangles, counter-clockwise from above.
+        
+        Parameters
+        ----------
+        size : float or (2,) array
+            Its sides along x and y [m].
+        spacing : float
+            Side of a square [m]: the largest that divides the mesh's side and is no larger.
+        origin : (2,) array
+            Its middle [m]. Tiles whose corners are whole numbers of half squares from zero have the same
+            bytes along their borders, and as the whole.
+        
+        Returns
+        -------
+        TriangleMesh
+            With an attribute ``material`` of the vertices, as `material` gives it.
+        
+        Raises
+        ------
+        ValueError
+            For a size or spacing that is not above 0, more than 5·10⁷ squares, or ripples shorter than two
+            spacings.
+        """
 class HullReport:
     """
     What is wrong with the mesh of a hull, as numbers.
@@ -3155,8 +3261,8 @@ class Workspace:
         time : float or (N,) array
             [s]; matters where the vehicle or a keep-out moves.
         tip_contact : bool
-            Whether the end of the tool may touch the scene: its last two radii (at least 1 mm) are then not
-            compared with it.
+            Whether the end of the tool may touch the scene: what lies within two radii (at least 1 mm) and
+            `tip_depth` of the tip is then not compared with it.
         num_threads : int
             0 means all.
         
@@ -3511,6 +3617,26 @@ class Workspace:
         >>> round(trim.pitch, 4), trim.status
         (0.2213, 'upright')
         """
+    def with_tip_depth(self, tip_depth: typing.SupportsFloat | typing.SupportsIndex) -> Workspace:
+        """
+        The same workspace, the tool allowed deeper into the scene.
+        
+        Parameters
+        ----------
+        tip_depth : float
+            How deep the end of the tool may be in the scene with ``tip_contact=True`` [m], 0 or more: of a
+            plan of `plan_sampling` its `depth`.
+        
+        Returns
+        -------
+        Workspace
+            Another one; this one stays as it is.
+        
+        Raises
+        ------
+        ValueError
+            For a depth that is negative or not finite.
+        """
     def with_vehicle_pose(self, vehicle_pose: Trajectory | numpy.typing.ArrayLike | collections.abc.Callable[[float], numpy.typing.ArrayLike] | None) -> Workspace:
         """
         Another workspace, the vehicle elsewhere: `vehicle_pose` as of the class.
@@ -3610,6 +3736,11 @@ class Workspace:
     def scene(self) -> Scene | None:
         """
         Scene or None.
+        """
+    @property
+    def tip_depth(self) -> float:
+        """
+        How deep the end of the tool may be in the scene with ``tip_contact=True`` [m].
         """
     @property
     def vehicle_body(self) -> RigidBody | None:
@@ -6026,6 +6157,35 @@ def library_effects() -> list[Effect]:
     """
     The effects of the library, in a fixed order (bathyal.effects.list).
     """
+def make_seabed(size: numpy.typing.ArrayLike, spacing: typing.SupportsFloat | typing.SupportsIndex, origin: numpy.typing.ArrayLike = (0.0, 0.0), *, seed: typing.SupportsInt | typing.SupportsIndex = 0, depth: typing.SupportsFloat | typing.SupportsIndex = 0.0, slope: typing.SupportsFloat | typing.SupportsIndex = 0.0, slope_direction: typing.SupportsFloat | typing.SupportsIndex = 0.0, relief_rms: typing.SupportsFloat | typing.SupportsIndex = 0.15, relief_exponent: typing.SupportsFloat | typing.SupportsIndex = 3.25, relief_longest: typing.SupportsFloat | typing.SupportsIndex = 50.0, relief_shortest: typing.SupportsFloat | typing.SupportsIndex = 0.5, ripple_height: typing.SupportsFloat | typing.SupportsIndex = 0.0, ripple_wavelength: typing.SupportsFloat | typing.SupportsIndex = 1.0, ripple_direction: typing.SupportsFloat | typing.SupportsIndex = 0.0, ripple_asymmetry: typing.SupportsFloat | typing.SupportsIndex = 0.2, ripple_meander: typing.SupportsFloat | typing.SupportsIndex = 0.15, ripple_defects: typing.SupportsFloat | typing.SupportsIndex = 0.2, ripple_cover: typing.SupportsFloat | typing.SupportsIndex = 1.0, ripple_patch: typing.SupportsFloat | typing.SupportsIndex = 30.0, boulder_density: typing.SupportsFloat | typing.SupportsIndex = 0.0, boulder_radius: typing.SupportsFloat | typing.SupportsIndex = 0.6, boulder_scour: typing.SupportsFloat | typing.SupportsIndex = 0.18, trench_depth: typing.SupportsFloat | typing.SupportsIndex = 0.0, trench_width: typing.SupportsFloat | typing.SupportsIndex = 4.0, trench_floor: typing.SupportsFloat | typing.SupportsIndex = 1.5, trench_direction: typing.SupportsFloat | typing.SupportsIndex = 0.0, trench_point: numpy.typing.ArrayLike = (0.0, 0.0), cliff_height: typing.SupportsFloat | typing.SupportsIndex = 0.0, cliff_run: typing.SupportsFloat | typing.SupportsIndex = 2.0, cliff_direction: typing.SupportsFloat | typing.SupportsIndex = 0.0, cliff_point: numpy.typing.ArrayLike = (0.0, 0.0), edge_meander: typing.SupportsFloat | typing.SupportsIndex = 0.0, scour_points: numpy.typing.ArrayLike | None = None, scour_depth: typing.SupportsFloat | typing.SupportsIndex = 0.4, scour_radius: typing.SupportsFloat | typing.SupportsIndex = 2.0, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> TriangleMesh:
+    """
+    A mesh of a generated bottom.
+    
+    As ``SeabedModel(seed=seed, …).mesh(size, spacing, origin=origin)``: see there for the options.
+    
+    Parameters
+    ----------
+    size : float or (2,) array
+        Its sides along x and y [m].
+    spacing : float
+        Side of a square [m]: the largest that divides the mesh's side and is no larger.
+    origin : (2,) array
+        Its middle [m]: a large bottom is made tile by tile.
+    seed : int
+    relief_rms, ripple_height, boulder_density, trench_depth, cliff_height, … : float
+        As given to SeabedModel.
+    
+    Returns
+    -------
+    TriangleMesh
+        With an attribute ``material`` of the vertices: 0 silt, 1 sand, where ripples are, 2 rock.
+    
+    Examples
+    --------
+    >>> import bathyal
+    >>> bathyal.make_seabed((40, 20), 0.25, seed=3, ripple_height=0.05)
+    TriangleMesh(13041 vertices, 25600 triangles)
+    """
 def mesh_report(mesh: TriangleMesh, *, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> MeshReport:
     """
     Measure a mesh: area, rims, pieces, defects, slopes, rugosity.
@@ -6385,6 +6545,27 @@ def survey_height(x: numpy.typing.ArrayLike, y: numpy.typing.ArrayLike, *, seed:
     >>> flat = dict(wave_height=0, ripple_height=0, roughness=0, boulders=0, trench_depth=0)
     >>> bathyal.survey_height([431210.0], [6172660.0], **flat)
     array([-38.])
+    """
+def triangle_material(mesh: TriangleMesh) -> numpy.ndarray:
+    """
+    Material of each triangle of a generated bottom.
+    
+    Parameters
+    ----------
+    mesh : TriangleMesh
+        With an attribute ``material`` of the vertices, as make_seabed gives.
+    
+    Returns
+    -------
+    (T,) array of int
+        Rows of ``SeabedModel.materials``: the middle of the values of the three corners.
+    
+    Examples
+    --------
+    >>> import bathyal
+    >>> mesh = bathyal.make_seabed(1, 0.5)
+    >>> bathyal.triangle_material(mesh)
+    array([0, 0, 0, 0, 0, 0, 0, 0], dtype=int16)
     """
 def triangulate(cloud: PointCloud | numpy.typing.ArrayLike, *, max_edge: typing.SupportsFloat | typing.SupportsIndex | None = None, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> tuple[TriangleMesh, SheetReport]:
     """

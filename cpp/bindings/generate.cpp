@@ -1,0 +1,10 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "generate.hpp"
+
+#include "bindings.hpp"
+
+namespace bathyal::python {
+
+void bind_generate(py::module_& module) { bind_seabed_model(module); }
+
+}  // namespace bathyal::python
