@@ -12,16 +12,6 @@
 namespace bathyal::python {
 namespace {
 
-std::vector<Vec2> places_argument(std::string_view name, const py::object& object) {
-  std::vector<Vec2> places;
-  if (object.is_none()) return places;
-  const py::array array = array_argument(name, object, "real numbers of shape (K, 2)");
-  if (array.size() == 0) return places;
-  const Rows rows = rows_argument(name, array, 2);
-  for (Index i = 0; i < rows.table.rows(); ++i) places.emplace_back(rows.table.row(i));
-  return places;
-}
-
 Vec2 size_argument(const py::object& object) {
   const py::array array = array_argument("size", object, "a number, or real numbers of shape (2,)");
   if (array.ndim() != 0) return place_argument("size", object);
@@ -167,6 +157,16 @@ void bind_model(py::module_& module) {
 }
 
 }  // namespace
+
+std::vector<Vec2> places_argument(std::string_view name, const py::object& object) {
+  std::vector<Vec2> places;
+  if (object.is_none()) return places;
+  const py::array array = array_argument(name, object, "real numbers of shape (K, 2)");
+  if (array.size() == 0) return places;
+  const Rows rows = rows_argument(name, array, 2);
+  for (Index i = 0; i < rows.table.rows(); ++i) places.emplace_back(rows.table.row(i));
+  return places;
+}
 
 Eigen::Vector2d place_argument(std::string_view name, const py::object& object) {
   const Values values = values_argument(name, object);
