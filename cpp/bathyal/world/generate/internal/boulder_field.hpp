@@ -14,7 +14,7 @@ class BoulderField {
 
   struct Part {
     double height = 0.0;  ///< of the highest dome here, less the deepest hollow [m]
-    double bare = 1.0;    ///< 0 on a boulder, 1 well off: what is left of ripples
+    double bare = 1.0;    ///< 0 on a boulder, 1 well off: the share of ripples there
     bool rock = false;
   };
   Part at(double x, double y) const;

@@ -12,8 +12,8 @@ namespace {
 
 Vec3 middle_of(const Ring& ring) {
   Vec3 sum = Vec3::Zero();
-  for (const Vec3& point : ring) sum += point;
-  return sum / static_cast<double>(ring.size());
+  for (const Vec3& point : ring) sum += point - ring.front();
+  return ring.front() + sum / static_cast<double>(ring.size());
 }
 
 }  // namespace
