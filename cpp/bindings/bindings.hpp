@@ -13,13 +13,14 @@ void bind_rigid_body(pybind11::module_& module);
 void bind_shape(pybind11::module_& module);
 void bind_trajectory(pybind11::module_& module);
 void bind_soundings(pybind11::module_& module);
-void bind_survey(pybind11::module_& module);  // the second file of soundings
-void bind_xtf(pybind11::module_& module);     // the third
+void bind_xtf(pybind11::module_& module);  // the second file of soundings
 void bind_terrain(pybind11::module_& module);
 void bind_scene(pybind11::module_& module);
 void bind_toolpath(pybind11::module_& module);
 void bind_arm(pybind11::module_& module);
 void bind_world(pybind11::module_& module);
+void bind_survey(pybind11::module_& module);    // of the room world, as the next one
+void bind_generate(pybind11::module_& module);
 void bind_workspace(pybind11::module_& module);
 void bind_sonar(pybind11::module_& module);
 void bind_identify(pybind11::module_& module);

@@ -20,6 +20,8 @@ PYBIND11_MODULE(_core, module) {
   bind_toolpath(module);
   bind_arm(module);
   bind_world(module);
+  bind_survey(module);
+  bind_generate(module);
   bind_workspace(module);
   bind_sonar(module);
   bind_identify(module);

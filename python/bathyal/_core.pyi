@@ -10,7 +10,7 @@ import numpy.typing
 import os
 import plotly.graph_objects
 import typing
-__all__: list[str] = ['Arm', 'ArmFit', 'BEYOND_NOISE', 'Capsule', 'Cause', 'CleanReport', 'CleanResult', 'Clearances', 'CorrectedArm', 'DhTable', 'Diagnosis', 'Effect', 'EffectRange', 'EffectRows', 'Error', 'Estimate', 'FitParameter', 'FollowedPath', 'FoundEffect', 'HeldOut', 'HeldOutPart', 'Hits', 'Hull', 'HullReport', 'InverseResult', 'KeepOut', 'Link', 'MeshReport', 'MotionCheck', 'MotionPlan', 'NamedEffect', 'Nearest', 'NearestSegments', 'Outlier', 'Plane', 'PlaneFit', 'PointCloud', 'Polyline', 'ReachMap', 'RigidBody', 'SamplingPhase', 'SamplingPlan', 'Scene', 'Shape', 'SheetPatch', 'SheetReport', 'Standpoint', 'StaticTrim', 'Structure', 'Support', 'TargetChecks', 'Targets', 'TextTable', 'TipMove', 'ToolPath', 'TouchForecast', 'TouchPlan', 'Touches', 'Tracked', 'Trade', 'Trajectory', 'TriangleMesh', 'Verification', 'Voxels', 'Workspace', 'arm_from_chain', 'arm_from_parts', 'arm_parts', 'best_standpoint', 'chain_from_arm', 'check_bytes', 'clean_cloud', 'cover_polygon', 'diagnose', 'find_effect_with', 'find_sheets', 'find_targets', 'fit_plane', 'forecast_touches', 'generate_survey', 'identify_arm', 'intersect_moller_trumbore', 'library_effects', 'mesh_report', 'plan_sampling', 'plan_toolpath', 'plan_touches', 'read_mesh_with', 'read_pcd', 'read_text_table', 'set_simd_level', 'simd_level', 'survey_height', 'triangulate', 'triangulate_delaunay', 'verify_positions', 'warn_of_support_with', 'with_link_radii', 'write_xyz']
+__all__: list[str] = ['Arm', 'ArmFit', 'BEYOND_NOISE', 'Capsule', 'Cause', 'CleanReport', 'CleanResult', 'Clearances', 'CorrectedArm', 'DhTable', 'Diagnosis', 'Effect', 'EffectRange', 'EffectRows', 'Error', 'Estimate', 'FitParameter', 'FollowedPath', 'FoundEffect', 'HeldOut', 'HeldOutPart', 'Hits', 'Hull', 'HullReport', 'InverseResult', 'KeepOut', 'Link', 'MeshReport', 'MotionCheck', 'MotionPlan', 'NamedEffect', 'Nearest', 'NearestSegments', 'Outlier', 'Pipeline', 'Plane', 'PlaneFit', 'PointCloud', 'Polyline', 'ReachMap', 'RigidBody', 'SamplingPhase', 'SamplingPlan', 'Scene', 'SeabedModel', 'Shape', 'SheetPatch', 'SheetReport', 'Standpoint', 'StaticTrim', 'Structure', 'Support', 'TargetChecks', 'Targets', 'TextTable', 'TipMove', 'ToolPath', 'TouchForecast', 'TouchPlan', 'Touches', 'Tracked', 'Trade', 'Trajectory', 'TriangleMesh', 'Verification', 'Voxels', 'Workspace', 'arm_from_chain', 'arm_from_parts', 'arm_parts', 'best_standpoint', 'chain_from_arm', 'check_bytes', 'clean_cloud', 'cover_polygon', 'diagnose', 'find_effect_with', 'find_sheets', 'find_targets', 'fish_paths', 'fit_plane', 'forecast_touches', 'generate_survey', 'identify_arm', 'intersect_moller_trumbore', 'library_effects', 'make_boulder', 'make_cable', 'make_fish', 'make_mine', 'make_pipeline', 'make_seabed', 'make_wreck', 'mesh_report', 'plan_sampling', 'plan_toolpath', 'plan_touches', 'read_mesh_with', 'read_pcd', 'read_text_table', 'set_simd_level', 'simd_level', 'survey_height', 'triangle_material', 'triangulate', 'triangulate_delaunay', 'verify_positions', 'warn_of_support_with', 'with_link_radii', 'write_xyz']
 class Error(RuntimeError):
     """
     A broken file, a solver that failed or a part that is not installed.
@@ -2093,6 +2093,153 @@ class Arm:
     def velocity(self) -> numpy.ndarray:
         """
         (n,) greatest speed of the joint that leads each coordinate [rad/s] or [m/s].
+        """
+class SeabedModel:
+    """
+    A generated bottom as a function of the place, on an endless plane.
+    
+    Fractal relief, sand ripples with crests that meander and fork, boulders, a trench, a cliff, scour
+    around given points. No height depends on how a mesh of it is cut or where it begins. Angles are
+    counted from x towards y.
+    
+    Parameters
+    ----------
+    seed : int
+    depth : float
+        The mean height is −depth [m].
+    slope, slope_direction : float
+        Of the whole bottom, and in which direction it rises [rad].
+    relief_rms : float
+        Of a relief whose power spectral density goes with k^−exponent [m], 0 for none.
+    relief_exponent : float
+        Of the spectrum over the plane, 1 to 6; along a line it is one less.
+    relief_longest, relief_shortest : float
+        Wavelengths between which the spectrum goes [m].
+    ripple_height, ripple_wavelength : float
+        Trough to crest, 0 for none, and crest to crest [m].
+    ripple_direction : float
+        Of the current, across the crests [rad].
+    ripple_asymmetry : float
+        How much longer the stoss side is than the lee side, in wavelengths, 0 to 0.45.
+    ripple_meander : float
+        Rms by which crests wander, in wavelengths, 0 to 2.
+    ripple_defects : float
+        Crests that fork: pairs per 36 square wavelengths, 0 to 1.
+    ripple_cover, ripple_patch : float
+        Share of the bottom that has ripples, and the size of patches of them [m].
+    boulder_density, boulder_radius : float
+        Domes per m², 0 for none, and the radius of the largest [m]; the smallest have a fifth of it.
+    boulder_scour : float
+        Depth of the hollow around each, over its height, 0 to 1.
+    trench_depth, trench_width, trench_floor : float
+        Depth, 0 for none, width between the tops of the walls, and width of the floor [m].
+    trench_direction, trench_point : float, (2,) array
+        Along it [rad], and a place on its middle line [m].
+    cliff_height, cliff_run : float
+        Height, 0 for none, and the horizontal distance over which it falls [m].
+    cliff_direction, cliff_point : float, (2,) array
+        In which it falls [rad], and a place at half its height [m].
+    edge_meander : float
+        Rms by which trench and cliff wander off their lines [m].
+    scour_points : (K, 2) array
+        Middles of hollows [m].
+    scour_depth, scour_radius : float
+        Of each [m].
+    num_threads : int
+        0: all.
+    
+    Raises
+    ------
+    ValueError
+        For an option out of its range.
+    
+    Examples
+    --------
+    >>> import bathyal
+    >>> model = bathyal.SeabedModel(seed=1, relief_rms=0, trench_depth=2.0)
+    >>> model.height([0.0, 0.0], [0.0, 10.0])
+    array([-2.,  0.])
+    >>> model.mesh(10, 0.5)
+    TriangleMesh(441 vertices, 800 triangles)
+    """
+    materials: typing.ClassVar[list] = ['silt', 'sand', 'rock']
+    def __init__(self, *, seed: typing.SupportsInt | typing.SupportsIndex = 0, depth: typing.SupportsFloat | typing.SupportsIndex = 0.0, slope: typing.SupportsFloat | typing.SupportsIndex = 0.0, slope_direction: typing.SupportsFloat | typing.SupportsIndex = 0.0, relief_rms: typing.SupportsFloat | typing.SupportsIndex = 0.15, relief_exponent: typing.SupportsFloat | typing.SupportsIndex = 3.25, relief_longest: typing.SupportsFloat | typing.SupportsIndex = 50.0, relief_shortest: typing.SupportsFloat | typing.SupportsIndex = 0.5, ripple_height: typing.SupportsFloat | typing.SupportsIndex = 0.0, ripple_wavelength: typing.SupportsFloat | typing.SupportsIndex = 1.0, ripple_direction: typing.SupportsFloat | typing.SupportsIndex = 0.0, ripple_asymmetry: typing.SupportsFloat | typing.SupportsIndex = 0.2, ripple_meander: typing.SupportsFloat | typing.SupportsIndex = 0.15, ripple_defects: typing.SupportsFloat | typing.SupportsIndex = 0.2, ripple_cover: typing.SupportsFloat | typing.SupportsIndex = 1.0, ripple_patch: typing.SupportsFloat | typing.SupportsIndex = 30.0, boulder_density: typing.SupportsFloat | typing.SupportsIndex = 0.0, boulder_radius: typing.SupportsFloat | typing.SupportsIndex = 0.6, boulder_scour: typing.SupportsFloat | typing.SupportsIndex = 0.18, trench_depth: typing.SupportsFloat | typing.SupportsIndex = 0.0, trench_width: typing.SupportsFloat | typing.SupportsIndex = 4.0, trench_floor: typing.SupportsFloat | typing.SupportsIndex = 1.5, trench_direction: typing.SupportsFloat | typing.SupportsIndex = 0.0, trench_point: numpy.typing.ArrayLike = (0.0, 0.0), cliff_height: typing.SupportsFloat | typing.SupportsIndex = 0.0, cliff_run: typing.SupportsFloat | typing.SupportsIndex = 2.0, cliff_direction: typing.SupportsFloat | typing.SupportsIndex = 0.0, cliff_point: numpy.typing.ArrayLike = (0.0, 0.0), edge_meander: typing.SupportsFloat | typing.SupportsIndex = 0.0, scour_points: numpy.typing.ArrayLike | None = None, scour_depth: typing.SupportsFloat | typing.SupportsIndex = 0.4, scour_radius: typing.SupportsFloat | typing.SupportsIndex = 2.0, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> None:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def height(self, x: numpy.typing.ArrayLike, y: numpy.typing.ArrayLike) -> numpy.ndarray:
+        """
+        Heights z [m] at (N,) places x, y [m]: the same bytes as a mesh's vertices there.
+        """
+    def material(self, x: numpy.typing.ArrayLike, y: numpy.typing.ArrayLike) -> numpy.ndarray:
+        """
+        Rows of `materials` at (N,) places x, y [m]: boulders and the face of the cliff are rock, ripples of at least half their height are sand, all else is silt.
+        """
+    def mesh(self, size: numpy.typing.ArrayLike, spacing: typing.SupportsFloat | typing.SupportsIndex, *, origin: numpy.typing.ArrayLike = (0.0, 0.0)) -> TriangleMesh:
+        """
+        A mesh of the bottom: squares, each of two triangles, counter-clockwise from above.
+        
+        Parameters
+        ----------
+        size : float or (2,) array
+            Its sides along x and y [m].
+        spacing : float
+            Side of a square [m]: the largest that divides the mesh's side and is no larger.
+        origin : (2,) array
+            Its middle [m]. Tiles whose corners are whole numbers of half squares from zero have the same
+            bytes along their borders, and as the whole.
+        
+        Returns
+        -------
+        TriangleMesh
+            With an attribute ``material`` of the vertices, as `material` gives it.
+        
+        Raises
+        ------
+        ValueError
+            For a size or spacing that is not above 0, more than 5·10⁷ squares, or ripples shorter than two
+            spacings.
+        """
+class Pipeline:
+    """
+    A pipeline or cable as it lies; its N stations are rings of the mesh.
+    """
+    def __repr__(self) -> str:
+        ...
+    @property
+    def bottom(self) -> numpy.ndarray:
+        """
+        (N,) height of the terrain below [m], NaN without one.
+        """
+    @property
+    def burial(self) -> numpy.ndarray:
+        """
+        (N,) underside below the bottom [m], 0 or more; NaN without terrain.
+        """
+    @property
+    def center(self) -> numpy.ndarray:
+        """
+        (N, 3) middle line [m].
+        """
+    @property
+    def gap(self) -> numpy.ndarray:
+        """
+        (N,) underside above the bottom [m], 0 or more; NaN without terrain.
+        """
+    @property
+    def kp(self) -> numpy.ndarray:
+        """
+        (N,) along the route [m], horizontal where laid on a terrain.
+        """
+    @property
+    def mesh(self) -> TriangleMesh:
+        """
+        Closed TriangleMesh; a vertex attribute ``kp`` is the way along the route [m].
+        """
+    @property
+    def span(self) -> numpy.typing.NDArray[numpy.bool]:
+        """
+        (N,) in a given span, or above the bottom by more than a tenth of the diameter.
         """
 class HullReport:
     """
@@ -5860,6 +6007,55 @@ def find_targets(surface: Scene | Plane, aims: numpy.typing.ArrayLike, *, world_
     >>> targets.point[0].tolist(), float(targets.range[0]), str(targets.status[0])
     ([3.75, 0.0, -5.0], 6.25, 'hit')
     """
+def fish_paths(scene: Scene, count: typing.SupportsInt | typing.SupportsIndex, duration: typing.SupportsFloat | typing.SupportsIndex, *, seed: typing.SupportsInt | typing.SupportsIndex = 0, region: numpy.typing.ArrayLike | None = None, clearance: typing.SupportsFloat | typing.SupportsIndex = 0.5, altitude: typing.SupportsFloat | typing.SupportsIndex = 4.0, ceiling: typing.SupportsFloat | typing.SupportsIndex = ..., speed: typing.SupportsFloat | typing.SupportsIndex = 0.6, turn_rate: typing.SupportsFloat | typing.SupportsIndex = 0.4, step: typing.SupportsFloat | typing.SupportsIndex = 0.25, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> list[Trajectory]:
+    """
+    Random smooth paths over a terrain, for fish or what drifts.
+    
+    Each path, straight between its poses as a Trajectory is, is checked against the scene. The same
+    bytes for any number of threads; more fish leave the first ones' paths alone.
+    
+    Parameters
+    ----------
+    scene : Scene
+    count : int
+    duration : float
+        [s]
+    seed : int
+    region : (2, 2) array, optional
+        Low and high corner of the place in which they swim, seen from above [m]; else the scene's box.
+    clearance : float
+        No path comes nearer to the scene [m].
+    altitude : float
+        Up to so much higher than that they swim [m].
+    ceiling : float
+        z below which they stay [m].
+    speed : float
+        Horizontal [m/s].
+    turn_rate : float
+        Typical rate at which they change course [rad/s].
+    step : float
+        Between two poses [s].
+    num_threads : int
+        0: all.
+    
+    Returns
+    -------
+    list of Trajectory
+        world_from_fish: x ahead, back up.
+    
+    Raises
+    ------
+    ValueError
+        For an option out of its range, and where no path was found: a region too small to turn in, a
+        ceiling too low.
+    
+    Examples
+    --------
+    >>> import bathyal
+    >>> bottom = bathyal.Scene(bathyal.make_seabed(40, 0.5))
+    >>> bathyal.fish_paths(bottom, 2, 60.0, seed=1)[0]
+    Trajectory(241 poses, 0 to 60 s)
+    """
 def fit_plane(cloud: PointCloud | numpy.typing.ArrayLike, *, tolerance: typing.SupportsFloat | typing.SupportsIndex = 0.05, patch_points: typing.SupportsInt | typing.SupportsIndex = 50, flat_share: typing.SupportsFloat | typing.SupportsIndex = 0.99, trials: typing.SupportsInt | typing.SupportsIndex = 500, seed: typing.SupportsInt | typing.SupportsIndex = 1, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> PlaneFit:
     """
     Fit a plane to a bottom, undisturbed by gross errors in up to 45 % of the points.
@@ -6135,6 +6331,246 @@ def intersect_moller_trumbore(mesh: TriangleMesh, origins: numpy.typing.ArrayLik
 def library_effects() -> list[Effect]:
     """
     The effects of the library, in a fixed order (bathyal.effects.list).
+    """
+def make_boulder(radius: typing.SupportsFloat | typing.SupportsIndex, *, seed: typing.SupportsInt | typing.SupportsIndex = 0, roughness: typing.SupportsFloat | typing.SupportsIndex = 0.04, subdivisions: typing.SupportsInt | typing.SupportsIndex = 3) -> TriangleMesh:
+    """
+    An angular boulder, at rest on z = 0.
+    
+    Parameters
+    ----------
+    radius : float
+        Of the sphere of the same volume [m].
+    seed : int
+    roughness : float
+        Of its faces, over the radius, 0 to 0.2.
+    subdivisions : int
+        20 · 4ⁿ triangles, 1 to 6.
+    
+    Returns
+    -------
+    TriangleMesh
+        Closed, its middle over the origin.
+    
+    Examples
+    --------
+    >>> import bathyal
+    >>> bathyal.mesh_report(bathyal.make_boulder(0.5, seed=2)).closed
+    True
+    """
+def make_cable(route: numpy.typing.ArrayLike, diameter: typing.SupportsFloat | typing.SupportsIndex, terrain: Scene | None = None, *, burial: numpy.typing.ArrayLike = 0.0, sag: typing.SupportsFloat | typing.SupportsIndex = 10.0, slack: typing.SupportsFloat | typing.SupportsIndex = 0.0, slack_wavelength: typing.SupportsFloat | typing.SupportsIndex = 20.0, seed: typing.SupportsInt | typing.SupportsIndex = 0, step: typing.SupportsFloat | typing.SupportsIndex = 0.25, sides: typing.SupportsInt | typing.SupportsIndex = 8, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> Pipeline:
+    """
+    A cable along a smooth curve through a route.
+    
+    It lies as a pipeline does, but thin and heavy for its tension: over hollows it hangs in catenaries,
+    for small slopes z'' = 1/sag.
+    
+    Parameters
+    ----------
+    route : (K, 2) or (K, 3) array
+        On a terrain places seen from above, else the middle line itself [m].
+    diameter : float
+        [m]
+    terrain : Scene, optional
+        What it lies on: its uppermost surface.
+    burial : float or (K,) array
+        How far the underside lies below the bottom [m].
+    sag : float
+        Parameter of its catenaries: horizontal tension over its weight in water a metre [m].
+    slack : float
+        How much longer it is than the route, as a share, 0 to 0.3, in bends to both sides.
+    slack_wavelength : float
+        Of these bends [m].
+    seed : int
+        Of where they begin.
+    step : float
+        Between two rings of the mesh [m].
+    sides : int
+        Of the cross-section.
+    num_threads : int
+        0: all.
+    
+    Returns
+    -------
+    Pipeline
+        Stations along the line with its slack.
+    
+    Examples
+    --------
+    >>> import bathyal
+    >>> bathyal.make_cable([(0, 0, -5), (30, 0, -5)], 0.05)
+    Pipeline(121 stations, 30 m)
+    """
+def make_fish(length: typing.SupportsFloat | typing.SupportsIndex, *, sides: typing.SupportsInt | typing.SupportsIndex = 12) -> TriangleMesh:
+    """
+    A fish, nose to +x, back up, its middle at the origin.
+    
+    Parameters
+    ----------
+    length : float
+        [m]
+    sides : int
+        Of its cross-section.
+    
+    Returns
+    -------
+    TriangleMesh
+        Body and fins, each closed.
+    
+    Examples
+    --------
+    >>> import bathyal
+    >>> bathyal.make_fish(0.4)
+    TriangleMesh(144 vertices, 276 triangles)
+    """
+def make_mine(kind: str = 'cylinder', *, diameter: typing.SupportsFloat | typing.SupportsIndex | None = None, length: typing.SupportsFloat | typing.SupportsIndex | None = None, horns: typing.SupportsInt | typing.SupportsIndex = 9, sides: typing.SupportsInt | typing.SupportsIndex = 32) -> TriangleMesh:
+    """
+    A mine, at rest on z = 0, its middle over the origin.
+    
+    Parameters
+    ----------
+    kind : str
+        "cylinder", lying along x, "sphere", with horns on its upper half, or "manta", a truncated cone
+        whose top has half the diameter of its foot.
+    diameter : float, optional
+        [m]; 0.53, 1.0 or 0.98 by kind.
+    length : float, optional
+        Of the cylinder, 2.2, or height of the manta, 0.47 [m].
+    horns : int
+        Of the sphere.
+    sides : int
+        Of a circle, even.
+    
+    Returns
+    -------
+    TriangleMesh
+        Closed; horns are closed bodies that begin inside the sphere.
+    
+    Examples
+    --------
+    >>> import bathyal
+    >>> bathyal.make_mine("manta").vertices[:, 2].max()
+    np.float64(0.47)
+    """
+def make_pipeline(route: numpy.typing.ArrayLike, diameter: typing.SupportsFloat | typing.SupportsIndex, terrain: Scene | None = None, *, burial: numpy.typing.ArrayLike = 0.0, spans: numpy.typing.ArrayLike | None = None, span_gap: typing.SupportsFloat | typing.SupportsIndex = 0.0, sag: typing.SupportsFloat | typing.SupportsIndex = 150.0, anode_spacing: typing.SupportsFloat | typing.SupportsIndex = 0.0, anode_length: typing.SupportsFloat | typing.SupportsIndex = 0.6, anode_thickness: typing.SupportsFloat | typing.SupportsIndex = 0.05, joint_spacing: typing.SupportsFloat | typing.SupportsIndex = 0.0, joint_length: typing.SupportsFloat | typing.SupportsIndex = 0.5, joint_recess: typing.SupportsFloat | typing.SupportsIndex = 0.04, step: typing.SupportsFloat | typing.SupportsIndex = 0.5, sides: typing.SupportsInt | typing.SupportsIndex = 24, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> Pipeline:
+    """
+    A pipeline along a smooth curve through a route.
+    
+    On a terrain it rests where it touches, five rays across it at each station, and sags between: least
+    line over the bottom with z'' of at most 1/sag.
+    
+    Parameters
+    ----------
+    route : (K, 2) or (K, 3) array
+        On a terrain places seen from above, else the middle line itself [m].
+    diameter : float
+        [m]
+    terrain : Scene, optional
+        What it lies on: its uppermost surface.
+    burial : float or (K,) array
+        How far the underside lies below the bottom [m]: 0 on it, the diameter flush. Of a value each
+        point of the route, linear between; not within spans.
+    spans : (S, 2) array
+        Free spans, from and to along the route [m], rising: straight over what rises between the ends.
+    span_gap : float
+        How much higher than that the middle of a span is [m].
+    sag : float
+        Horizontal tension over its weight in water a metre [m]; inf bridges every hollow.
+    anode_spacing, anode_length, anode_thickness : float
+        Rings beyond the pipe's radius [m], a spacing of 0 for none.
+    joint_spacing, joint_length, joint_recess : float
+        Field joints below the pipe's radius [m], a spacing of 0 for none.
+    step : float
+        Between two rings of the mesh [m].
+    sides : int
+        Of the cross-section, its corners on the circle.
+    num_threads : int
+        0: all.
+    
+    Returns
+    -------
+    Pipeline
+    
+    Raises
+    ------
+    ValueError
+        For a route of one point, two neighbours at one place, no terrain below, bends tighter than the
+        radius (a route that crosses itself further on is not found), spans that overlap or leave the
+        route.
+    
+    Examples
+    --------
+    >>> import bathyal
+    >>> bottom = bathyal.Scene(bathyal.make_seabed(60, 0.5, relief_rms=0.0))
+    >>> pipe = bathyal.make_pipeline([(-20, 0), (20, 0)], 0.4, bottom, burial=0.1, spans=[(10, 20)])
+    >>> pipe
+    Pipeline(81 stations, 40 m)
+    >>> pipe.burial[[0, -1]].round(6)
+    array([0.1, 0.1])
+    """
+def make_seabed(size: numpy.typing.ArrayLike, spacing: typing.SupportsFloat | typing.SupportsIndex, origin: numpy.typing.ArrayLike = (0.0, 0.0), *, seed: typing.SupportsInt | typing.SupportsIndex = 0, depth: typing.SupportsFloat | typing.SupportsIndex = 0.0, slope: typing.SupportsFloat | typing.SupportsIndex = 0.0, slope_direction: typing.SupportsFloat | typing.SupportsIndex = 0.0, relief_rms: typing.SupportsFloat | typing.SupportsIndex = 0.15, relief_exponent: typing.SupportsFloat | typing.SupportsIndex = 3.25, relief_longest: typing.SupportsFloat | typing.SupportsIndex = 50.0, relief_shortest: typing.SupportsFloat | typing.SupportsIndex = 0.5, ripple_height: typing.SupportsFloat | typing.SupportsIndex = 0.0, ripple_wavelength: typing.SupportsFloat | typing.SupportsIndex = 1.0, ripple_direction: typing.SupportsFloat | typing.SupportsIndex = 0.0, ripple_asymmetry: typing.SupportsFloat | typing.SupportsIndex = 0.2, ripple_meander: typing.SupportsFloat | typing.SupportsIndex = 0.15, ripple_defects: typing.SupportsFloat | typing.SupportsIndex = 0.2, ripple_cover: typing.SupportsFloat | typing.SupportsIndex = 1.0, ripple_patch: typing.SupportsFloat | typing.SupportsIndex = 30.0, boulder_density: typing.SupportsFloat | typing.SupportsIndex = 0.0, boulder_radius: typing.SupportsFloat | typing.SupportsIndex = 0.6, boulder_scour: typing.SupportsFloat | typing.SupportsIndex = 0.18, trench_depth: typing.SupportsFloat | typing.SupportsIndex = 0.0, trench_width: typing.SupportsFloat | typing.SupportsIndex = 4.0, trench_floor: typing.SupportsFloat | typing.SupportsIndex = 1.5, trench_direction: typing.SupportsFloat | typing.SupportsIndex = 0.0, trench_point: numpy.typing.ArrayLike = (0.0, 0.0), cliff_height: typing.SupportsFloat | typing.SupportsIndex = 0.0, cliff_run: typing.SupportsFloat | typing.SupportsIndex = 2.0, cliff_direction: typing.SupportsFloat | typing.SupportsIndex = 0.0, cliff_point: numpy.typing.ArrayLike = (0.0, 0.0), edge_meander: typing.SupportsFloat | typing.SupportsIndex = 0.0, scour_points: numpy.typing.ArrayLike | None = None, scour_depth: typing.SupportsFloat | typing.SupportsIndex = 0.4, scour_radius: typing.SupportsFloat | typing.SupportsIndex = 2.0, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> TriangleMesh:
+    """
+    A mesh of a generated bottom.
+    
+    As ``SeabedModel(seed=seed, …).mesh(size, spacing, origin=origin)``: see there for the options.
+    
+    Parameters
+    ----------
+    size : float or (2,) array
+        Its sides along x and y [m].
+    spacing : float
+        Side of a square [m]: the largest that divides the mesh's side and is no larger.
+    origin : (2,) array
+        Its middle [m]: a large bottom is made tile by tile.
+    seed : int
+    relief_rms, ripple_height, boulder_density, trench_depth, cliff_height, … : float
+        As given to SeabedModel.
+    
+    Returns
+    -------
+    TriangleMesh
+        With an attribute ``material`` of the vertices: 0 silt, 1 sand, where ripples are, 2 rock.
+    
+    Examples
+    --------
+    >>> import bathyal
+    >>> bathyal.make_seabed((40, 20), 0.25, seed=3, ripple_height=0.05)
+    TriangleMesh(13041 vertices, 25600 triangles)
+    """
+def make_wreck(length: typing.SupportsFloat | typing.SupportsIndex, *, seed: typing.SupportsInt | typing.SupportsIndex = 0, beam: typing.SupportsFloat | typing.SupportsIndex = 9.0, depth: typing.SupportsFloat | typing.SupportsIndex = 5.0, thickness: typing.SupportsFloat | typing.SupportsIndex = 0.15, list: typing.SupportsFloat | typing.SupportsIndex = 0.3, broken: bool = True, holes: typing.SupportsInt | typing.SupportsIndex = 6, spacing: typing.SupportsFloat | typing.SupportsIndex = 0.5) -> TriangleMesh:
+    """
+    A sunken ship, bow to +x, at rest on z = 0.
+    
+    Plates with holes and torn edges, deck with hatches, bulkheads, superstructure, funnel and mast: each
+    part is a closed body, and parts overlap.
+    
+    Parameters
+    ----------
+    length : float
+        [m]
+    seed : int
+        Of holes, of where it broke and how the halves lie.
+    beam, depth : float
+        Breadth, and height from keel to deck [m].
+    thickness : float
+        Of plates [m].
+    list : float
+        By which it leans to starboard [rad].
+    broken : bool
+        In two, the bow turned away.
+    holes : int
+        In its sides.
+    spacing : float
+        Of its plates' triangles [m].
+    
+    Returns
+    -------
+    TriangleMesh
+    
+    Examples
+    --------
+    >>> import bathyal
+    >>> bathyal.mesh_report(bathyal.make_wreck(40, seed=1)).closed
+    True
     """
 def mesh_report(mesh: TriangleMesh, *, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> MeshReport:
     """
@@ -6495,6 +6931,27 @@ def survey_height(x: numpy.typing.ArrayLike, y: numpy.typing.ArrayLike, *, seed:
     >>> flat = dict(wave_height=0, ripple_height=0, roughness=0, boulders=0, trench_depth=0)
     >>> bathyal.survey_height([431210.0], [6172660.0], **flat)
     array([-38.])
+    """
+def triangle_material(mesh: TriangleMesh) -> numpy.ndarray:
+    """
+    Material of each triangle of a generated bottom.
+    
+    Parameters
+    ----------
+    mesh : TriangleMesh
+        With an attribute ``material`` of the vertices, as make_seabed gives.
+    
+    Returns
+    -------
+    (T,) array of int
+        Rows of ``SeabedModel.materials``: the middle of the values of the three corners.
+    
+    Examples
+    --------
+    >>> import bathyal
+    >>> mesh = bathyal.make_seabed(1, 0.5)
+    >>> bathyal.triangle_material(mesh)
+    array([0, 0, 0, 0, 0, 0, 0, 0], dtype=int16)
     """
 def triangulate(cloud: PointCloud | numpy.typing.ArrayLike, *, max_edge: typing.SupportsFloat | typing.SupportsIndex | None = None, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> tuple[TriangleMesh, SheetReport]:
     """
