@@ -16,6 +16,11 @@ PYBIND11_MODULE(_core, module) {
   bind_soundings(module);
   bind_xtf(module);
   bind_terrain(module);
+  bind_water_formulas(module);
+  bind_water_profile(module);
+  bind_water_motion(module);
+  bind_water(module);
+  bind_sound_path(module);
   bind_scene(module);
   bind_toolpath(module);
   bind_arm(module);
