@@ -180,8 +180,8 @@ Extent3 set_frames(const InstanceMeshes& shared, const std::vector<Pose>& poses,
                                  Extent3 part;
                                  for (std::size_t i = begin; i < end; ++i) {
                                    const double scale = scales.empty() ? 1.0 : scales[i];
-                                   check_instance(i, poses[i], scale);
-                                   frames[i] = frame_of(poses[i], scale, shared.number[i]);
+                                   check_scale(i, scale);
+                                   frames[i] = frame_of(i, poses[i], scale, shared.number[i]);
                                    if (shared.has_triangles(i))
                                      part += extent_in_world(frames[i], shared);
                                  }
