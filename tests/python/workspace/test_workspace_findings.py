@@ -105,3 +105,24 @@ def test_a_part_without_a_collision_shape_has_the_one_it_is_seen_by(tmp_path) ->
     )
     placed = bathyal.Workspace(bathyal.Arm.from_urdf(path)).place_capsules([0.0])
     assert sorted(placed[placed[:, 6] > 0][:, 2].round(6)) == [0.5, 2.0]
+
+
+def test_the_tip_may_be_as_deep_as_the_workspace_says() -> None:
+    bottom = bathyal.Scene(vehicles.box_mesh([0.0, -1.0, -1.0], [2.0, 1.0, -0.3]))
+    arm = bathyal.Arm.from_dh(
+        a=[0], alpha=[0], d=[0], theta=[0], joint_types=["prismatic"], lower=[0], upper=[1]
+    )
+    mount = pose(x=1.0) @ np.diag([1.0, -1.0, -1.0, 1.0])
+    rod = bathyal.Capsule((0, 0, -1), (0, 0, 0), 0.02)
+    down = bathyal.Workspace(arm, mount=mount, scene=bottom, capsules={"link_1": [rod]})
+    deep = down.with_tip_depth(0.2)
+    assert (down.tip_depth, deep.tip_depth) == (0.0, 0.2)
+    # 0.1 m deep: the tool is in the bottom over 0.1 m.
+    assert down.clearance([0.4], tip_contact=True).distance < 0
+    assert deep.clearance([0.4], tip_contact=True).distance > 0
+    assert deep.clearance([0.4]).distance < 0
+    # 0.5 m deep, more than it may.
+    assert deep.clearance([0.8], tip_contact=True).distance < 0
+    for bad in (-0.1, np.nan, np.inf):
+        with pytest.raises(ValueError, match="`tip_depth`: expected"):
+            down.with_tip_depth(bad)
