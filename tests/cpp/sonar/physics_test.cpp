@@ -291,6 +291,41 @@ TEST(Physics, ATurningBeamLosesWhatItNoLongerLooksAt) {
   EXPECT_EQ(off.power, still.power);
 }
 
+TEST(Physics, ABeamThatTurnsAwayLosesATargetThatOneTurningTowardsItKeeps) {
+  const double ahead = radians(0.2);  // within the beam of 0.6°, to the side of x
+  const WorldSnapshot world =
+      world_of({ball(200.0 * Vec3(std::sin(ahead), std::cos(ahead), 0), 0.1, 20)}, {1.0});
+  SonarOptions options = pencil(0.0, radians(0.6), 220.0);
+  options.rays_across_beam = options.rays_along_fan = 400;
+  const auto energy = [&](const SonarOptions& sonar, double rate) {
+    const VehicleMotion motion{Vec3::Zero(), Vec3(0, 0, rate)};
+    const Echo echo = Sonar(sonar).echo(world, Water(), at(0, 0, 0), 0, 0, motion);
+    return sum(echo.power, 0, echo.power.size());
+  };
+  const double still = energy(options, 0.0);
+  ASSERT_GT(still, 0.0);
+  options.motion = true;
+  const double rate = radians(0.3) / (2.0 * 200.0 / 1490.0);  // 0.3° until it is back
+  EXPECT_EQ(energy(options, rate), 0.0);                      // +z: from y towards −x
+  EXPECT_NEAR(energy(options, -rate) / still, 1.0, 1e-12);
+}
+
+TEST(Physics, AMultibeamReceivesOverAllAnglesAlongTheTrack) {
+  const WorldSnapshot world = world_of({flat(0.0)}, {1.0});
+  SonarOptions options = multibeam_sonar();
+  options.beams = 1;
+  options.beam_pattern = BeamPattern::kUniform;
+  options.motion = true;
+  const Sonar sonar(options);
+  const VehicleMotion pitching{Vec3::Zero(), Vec3(0, 0.3, 0)};  // by 2.3° until it is back
+  const Echo still = sonar.echo(world, Water(), at(0, 0, 50));
+  const Echo moved = sonar.echo(world, Water(), at(0, 0, 50), 0, 0, pitching);
+  EXPECT_NEAR(sum(moved.power, 0, 2000) / sum(still.power, 0, 2000), 1.0, 1e-3);
+  const VehicleMotion rolling{Vec3::Zero(), Vec3(0.3, 0, 0)};
+  const Echo lost = sonar.echo(world, Water(), at(0, 0, 50), 0, 0, rolling);
+  EXPECT_LT(sum(lost.power, 0, 2000) / sum(still.power, 0, 2000), 0.1);
+}
+
 TEST(Physics, MotionOfATrajectoryIsThatOfItsStretch) {
   Pose turned = at(4, 2, 0);
   turned.linear() = Eigen::AngleAxisd(0.5, Vec3::UnitZ()).toRotationMatrix();
