@@ -17,7 +17,17 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 PAGE = HERE / "README.md"
-PYTHON = ["rays", "segments", "section", "inside", "workspace", "contact", "plan", "reach_map"]
+PYTHON = [
+    "rays",
+    "instances",
+    "segments",
+    "section",
+    "inside",
+    "workspace",
+    "contact",
+    "plan",
+    "reach_map",
+]
 PYTHON += ["uvms_trim", "read_text", "whole_plan", "identify"]
 PYTHON += ["intervals", "diagnose_speed", "diagnose_real", "score_card"]
 CPP = ["bench_delaunay", "bench_greedy", "bench_arm_forward", "bench_arm_inverse"]

@@ -13,12 +13,19 @@ void bind_rigid_body(pybind11::module_& module);
 void bind_shape(pybind11::module_& module);
 void bind_trajectory(pybind11::module_& module);
 void bind_soundings(pybind11::module_& module);
-void bind_survey(pybind11::module_& module);  // the second file of soundings
+void bind_xtf(pybind11::module_& module);  // the second file of soundings
 void bind_terrain(pybind11::module_& module);
+void bind_water_formulas(pybind11::module_& module);  // of the room water, as the next four
+void bind_water_profile(pybind11::module_& module);
+void bind_water_motion(pybind11::module_& module);
+void bind_water(pybind11::module_& module);
+void bind_sound_path(pybind11::module_& module);
 void bind_scene(pybind11::module_& module);
 void bind_toolpath(pybind11::module_& module);
 void bind_arm(pybind11::module_& module);
 void bind_world(pybind11::module_& module);
+void bind_survey(pybind11::module_& module);    // of the room world, as the next one
+void bind_generate(pybind11::module_& module);
 void bind_workspace(pybind11::module_& module);
 void bind_sonar(pybind11::module_& module);
 void bind_identify(pybind11::module_& module);

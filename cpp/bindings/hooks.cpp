@@ -11,7 +11,7 @@ namespace py = pybind11;
 
 /// Never freed: the interpreter may be gone before this library is.
 py::object& stored(Hook which) {
-  static auto* hooks = new std::array<py::object, 3>;
+  static auto* hooks = new std::array<py::object, 5>;
   return (*hooks)[static_cast<std::size_t>(which)];
 }
 
@@ -30,6 +30,13 @@ void bind_hooks(py::module_& module) {
   module.def(
       "warn_of_support_with", [](const py::function& warn) { stored(Hook::kWarnOfSupport) = warn; },
       py::arg("warn"), "Hand in what warns of a call beyond the support of a corrected arm.");
+  module.def(
+      "warn_of_range_with", [](const py::function& warn) { stored(Hook::kWarnOfRange) = warn; },
+      py::arg("warn"), "Hand in what warns of a formula of the water outside its range.");
+  module.def(
+      "sound_speed_teos10_with",
+      [](const py::function& speed) { stored(Hook::kSoundSpeedTeos10) = speed; }, py::arg("speed"),
+      "Hand in the sound speed of TEOS-10.");
   module.def(
       "read_mesh_with", [](const py::function& read) { stored(Hook::kMeshVertices) = read; },
       py::arg("read"), "Hand in what reads the corners of a shape's mesh.");

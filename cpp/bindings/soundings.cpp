@@ -310,7 +310,6 @@ void bind_soundings(py::module_& module) {
   bind_text_table(module);
   bind_files(module);
   bind_clean(module);
-  bind_survey(module);
 }
 
 }  // namespace bathyal::python

@@ -4,7 +4,9 @@
 #include <pybind11/functional.h>
 #include <pybind11/stl.h>
 
+#include <array>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -36,6 +38,11 @@ Motion motion_argument(std::string_view name, const py::object& object) {
   return trajectory_argument(name, object);
 }
 
+std::vector<double> list_of(std::string_view name, const py::object& object) {
+  const Values values = values_argument(name, object);
+  return {values.data(), values.data() + values.rows()};
+}
+
 void bind_snapshot(py::module_& module) {
   py::class_<WorldSnapshot>(module, "WorldSnapshot",
                             "A world at one moment: what rays meet, and of what it is made.")
@@ -51,6 +58,7 @@ void bind_snapshot(py::module_& module) {
 
 void bind_world(py::module_& module) {
   bind_snapshot(module);
+  const CloneOptions clones;
   py::class_<World, std::shared_ptr<World>>(module, "World", world_docs::kWorld)
       .def(py::init())
       .def(
@@ -68,6 +76,49 @@ void bind_world(py::module_& module) {
             return world.at(time, num_threads);
           },
           py::arg("time") = 0.0, py::kw_only(), py::arg("num_threads") = 0, world_docs::kAt)
+      .def(
+          "add_clones",
+          [](World& world, const TriangleMesh& mesh, std::int64_t count,
+             const std::string& material, const std::string& name, std::uint64_t seed,
+             const std::optional<std::array<double, 4>>& region, const std::array<double, 2>& scale,
+             bool turned, double tilt, double sunk, double apart) {
+            const py::gil_scoped_release unlocked;
+            return world.add_clones(mesh, count, material, name,
+                                    {seed, region, scale, turned, tilt, sunk, apart});
+          },
+          py::arg("mesh"), py::arg("count"), py::arg("material") = "rock",
+          py::arg("name") = "clone", py::kw_only(), py::arg("seed") = clones.seed,
+          py::arg("region") = py::none(), py::arg("scale") = clones.scale,
+          py::arg("turned") = clones.turned, py::arg("tilt") = clones.tilt,
+          py::arg("sunk") = clones.sunk, py::arg("apart") = clones.apart, world_docs::kAddClones)
+      .def(
+          "paint",
+          [](World& world, const std::string& name, const ArrayLike& polygon,
+             const std::string& material) {
+            const auto corners = table_argument("polygon", polygon, 2);
+            std::vector<Eigen::Vector2d> points;
+            for (Index i = 0; i < corners.rows(); ++i) points.emplace_back(corners.row(i));
+            return world.paint(name, points, material);
+          },
+          py::arg("name"), py::arg("polygon"), py::arg("material"), world_docs::kPaint)
+      .def(
+          "set_material",
+          [](World& world, const std::string& name, double strength, const OptionalArray& angle,
+             const OptionalArray& backscatter) {
+            Material material;
+            material.name = name;
+            material.strength = strength;
+            if (!angle.is_none()) material.angle = list_of("angle", angle);
+            if (!backscatter.is_none()) {
+              material.backscatter = list_of("backscatter", backscatter);
+            }
+            world.set_material(std::move(material));
+          },
+          py::arg("name"), py::arg("strength") = 1.0, py::kw_only(), py::arg("angle") = py::none(),
+          py::arg("backscatter") = py::none(), world_docs::kSetMaterial)
+      .def_property(
+          "water", [](const World& world) { return world.water(); }, &World::set_water,
+          "Water: of the sonars' and the vehicle's.")
       .def_property_readonly(
           "scene",
           [](const World& world) {

@@ -10,7 +10,8 @@ import numpy.typing
 import os
 import plotly.graph_objects
 import typing
-__all__: list[str] = ['Arm', 'ArmFit', 'BEYOND_NOISE', 'Capsule', 'Cause', 'CleanReport', 'CleanResult', 'Clearances', 'CorrectedArm', 'DhTable', 'Diagnosis', 'Effect', 'EffectRange', 'EffectRows', 'Error', 'Estimate', 'FitParameter', 'FollowedPath', 'FoundEffect', 'HeldOut', 'HeldOutPart', 'Hits', 'Hull', 'HullReport', 'InverseResult', 'KeepOut', 'Link', 'MeshReport', 'MotionCheck', 'MotionPlan', 'NamedEffect', 'Nearest', 'NearestSegments', 'Outlier', 'Plane', 'PlaneFit', 'PointCloud', 'Polyline', 'ReachMap', 'RigidBody', 'SamplingPhase', 'SamplingPlan', 'Scene', 'Shape', 'SheetPatch', 'SheetReport', 'Standpoint', 'StaticTrim', 'Structure', 'Support', 'TargetChecks', 'Targets', 'TextTable', 'TipMove', 'ToolPath', 'TouchForecast', 'TouchPlan', 'Touches', 'Tracked', 'Trade', 'Trajectory', 'TriangleMesh', 'Verification', 'Voxels', 'Workspace', 'arm_from_chain', 'arm_from_parts', 'arm_parts', 'best_standpoint', 'chain_from_arm', 'check_bytes', 'clean_cloud', 'cover_polygon', 'diagnose', 'find_effect_with', 'find_sheets', 'find_targets', 'fit_plane', 'forecast_touches', 'generate_survey', 'identify_arm', 'intersect_moller_trumbore', 'library_effects', 'mesh_report', 'plan_sampling', 'plan_toolpath', 'plan_touches', 'read_mesh_with', 'read_pcd', 'read_text_table', 'set_simd_level', 'simd_level', 'survey_height', 'triangulate', 'triangulate_delaunay', 'verify_positions', 'warn_of_support_with', 'with_link_radii', 'write_xyz']
+__all__: list[str] = ['Arm', 'ArmFit', 'BEYOND_NOISE', 'Capsule', 'Cause', 'CleanReport', 'CleanResult', 'Clearances', 'CorrectedArm', 'DhTable', 'Diagnosis', 'Effect', 'EffectRange', 'EffectRows', 'Error', 'Estimate', 'FitParameter', 'FollowedPath', 'FoundEffect', 'HeldOut', 'HeldOutPart', 'Hits', 'Hull', 'HullReport', 'InverseResult', 'KeepOut', 'Link', 'MeshReport', 'MotionCheck', 'MotionPlan', 'NamedEffect', 'Nearest', 'NearestSegments', 'Outlier', 'Pipeline', 'Plane', 'PlaneFit', 'PointCloud', 'Polyline', 'ReachMap', 'RigidBody', 'SamplingPhase', 'SamplingPlan', 'Scene', 'SeabedModel', 'Shape', 'SheetPatch', 'SheetReport', 'Standpoint', 'StaticTrim', 'Structure', 'Support', 'TargetChecks', 'Targets', 'TextTable', 'TipMove', 'ToolPath', 'TouchForecast', 'TouchPlan', 'Touches', 'Tracked', 'Trade', 'Trajectory', 'TriangleMesh', 'Verification', 'Voxels', 'Workspace', 'arm_from_chain', 'arm_from_parts', 'arm_parts', 'best_standpoint', 'chain_from_arm', 'check_bytes', 'clean_cloud', 'cover_polygon', 'diagnose', 'find_effect_with', 'find_sheets', 'find_targets', 'fish_paths', 'fit_plane', 'forecast_touches', 'generate_survey', 'identify_arm', 'intersect_moller_trumbore', 'library_effects', 'make_boulder', 'make_cable', 'make_fish', 'make_mine', 'make_pipeline', 'make_seabed', 'make_wreck', 'mesh_report', 'plan_sampling', 'plan_toolpath', 'plan_touches', 'read_mesh_with', 'read_pcd', 'read_text_table', 'set_simd_level', 'simd_level', 'survey_height', 'triangle_material', 'triangulate', 'triangulate_delaunay', 'verify_positions', 'warn_of_support_with', 'with_link_radii', 'write_xyz']
+__all__: list[str] = ['Arm', 'ArmFit', 'BEYOND_NOISE', 'Capsule', 'Cause', 'CleanReport', 'CleanResult', 'Clearances', 'CorrectedArm', 'Current', 'DhTable', 'Diagnosis', 'Effect', 'EffectRange', 'EffectRows', 'Eigenray', 'Error', 'Estimate', 'FitParameter', 'FollowedPath', 'FoundEffect', 'HeldOut', 'HeldOutPart', 'Hits', 'Hull', 'HullReport', 'InverseResult', 'KeepOut', 'Link', 'MeshReport', 'MotionCheck', 'MotionPlan', 'NamedEffect', 'Nearest', 'NearestSegments', 'Outlier', 'Plane', 'PlaneFit', 'PointCloud', 'Polyline', 'Profile', 'ReachMap', 'RigidBody', 'SamplingPhase', 'SamplingPlan', 'Scene', 'Shape', 'SheetPatch', 'SheetReport', 'SoundPath', 'Standpoint', 'StaticTrim', 'Structure', 'Support', 'TargetChecks', 'Targets', 'TextTable', 'Tide', 'TipMove', 'ToolPath', 'TouchForecast', 'TouchPlan', 'Touches', 'TracedSound', 'Tracked', 'Trade', 'Trajectory', 'TriangleMesh', 'Verification', 'Voxels', 'Water', 'Waves', 'Workspace', 'absorption', 'arm_from_chain', 'arm_from_parts', 'arm_parts', 'best_standpoint', 'chain_from_arm', 'check_bytes', 'clean_cloud', 'cover_polygon', 'depth_from_pressure', 'diagnose', 'eigenrays', 'find_effect_with', 'find_sheets', 'find_targets', 'fit_plane', 'forecast_touches', 'generate_survey', 'identify_arm', 'intersect_moller_trumbore', 'library_effects', 'mesh_report', 'plan_sampling', 'plan_toolpath', 'plan_touches', 'practical_salinity', 'pressure_from_depth', 'read_mesh_with', 'read_pcd', 'read_text_table', 'seawater_density', 'set_simd_level', 'simd_level', 'sound_speed', 'sound_speed_teos10_with', 'survey_height', 'trace_sound', 'triangulate', 'triangulate_delaunay', 'verify_positions', 'warn_of_range_with', 'warn_of_support_with', 'with_link_radii', 'write_xyz']
 class Error(RuntimeError):
     """
     A broken file, a solver that failed or a part that is not installed.
@@ -820,6 +821,544 @@ class SheetReport:
         """
         √(covered area / soundings) [m].
         """
+class Profile:
+    """
+    A cast: properties of the water by depth.
+    
+    As read from a file its rows are in the file's order, the way down and the way up, with NaN where
+    the instrument gave nothing; `cleaned` makes of it what a `Water` takes. A column that was not
+    measured is None.
+    
+    Parameters
+    ----------
+    depth : (K,) array
+        Below the surface [m].
+    temperature, salinity, sound_speed, pressure : (K,) array, optional
+        [°C], practical, [m/s], above the atmosphere's [dbar].
+    position : (latitude, longitude), optional
+        North and east [deg].
+    time : float, optional
+        Since 1970-01-01 UTC [s].
+    instrument, source : str
+        What measured, and from which file it came.
+    
+    Raises
+    ------
+    ValueError
+        For no row, columns of another length, infinite numbers.
+    
+    Examples
+    --------
+    >>> import bathyal
+    >>> cast = bathyal.Profile([0, 20, 60], temperature=[18, 14, 9], salinity=[34, 34.5, 35])
+    >>> cast.with_sound_speed().sound_speed.round(1).tolist()
+    [1515.1, 1503.4, 1487.1]
+    """
+    def __getstate__(self) -> tuple[list[float], list[float], list[float], list[float], list[float], float | None, float | None, float | None, str, str]:
+        ...
+    def __init__(self, depth: numpy.typing.ArrayLike, *, temperature: numpy.typing.ArrayLike | None = None, salinity: numpy.typing.ArrayLike | None = None, sound_speed: numpy.typing.ArrayLike | None = None, pressure: numpy.typing.ArrayLike | None = None, position: tuple[typing.SupportsFloat | typing.SupportsIndex, typing.SupportsFloat | typing.SupportsIndex] | None = None, time: typing.SupportsFloat | typing.SupportsIndex | None = None, instrument: str = '', source: str = '') -> None:
+        ...
+    def __len__(self) -> int:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def __setstate__(self, arg0: tuple) -> None:
+        ...
+    def cleaned(self, *, step: typing.SupportsFloat | typing.SupportsIndex = 0.0) -> Profile:
+        """
+        The way down, fit for a `Water`.
+        
+        Rows with a number missing and those above the surface are left out, and those not deeper than one
+        before; rows of equal depth become their mean. A column without any number is left out.
+        
+        Parameters
+        ----------
+        step : float
+            Mean of the rows in each layer of this thickness [m]; 0 keeps each row.
+        
+        Returns
+        -------
+        Profile
+        
+        Raises
+        ------
+        ValueError
+            Where fewer than two rows remain.
+        """
+    def plot(self, path: PathLike | None = None) -> Figure:
+        """
+        A figure: sound speed by depth, with temperature and salinity where they are known.
+        
+        Parameters
+        ----------
+        path : path, optional
+            A picture of it, replaced as a whole: ``.png``, ``.pdf``, ``.svg``.
+        
+        Returns
+        -------
+        matplotlib.figure.Figure
+        """
+    def with_sound_speed(self, *, formula: str = 'mackenzie', latitude: typing.SupportsFloat | typing.SupportsIndex | None = None, temperature_scale: str | None = None) -> Profile:
+        """
+        The same cast with the sound speed computed.
+        
+        Parameters
+        ----------
+        formula, temperature_scale : str
+            As of `bathyal.sound_speed`. Rows with a number missing get NaN.
+        latitude : float, optional
+            [deg]; by default the cast's own, without one 45.
+        
+        Returns
+        -------
+        Profile
+        """
+    @property
+    def depth(self) -> numpy.ndarray:
+        """
+        (K,) below the surface [m].
+        """
+    @property
+    def instrument(self) -> str:
+        """
+        As the file names it.
+        """
+    @property
+    def position(self) -> tuple[float, float] | None:
+        """
+        (latitude, longitude) [deg], or None.
+        """
+    @property
+    def pressure(self) -> numpy.ndarray | None:
+        """
+        (K,) above the atmosphere's [dbar], or None.
+        """
+    @property
+    def salinity(self) -> numpy.ndarray | None:
+        """
+        (K,) practical, or None.
+        """
+    @property
+    def sound_speed(self) -> numpy.ndarray | None:
+        """
+        (K,) [m/s], or None.
+        """
+    @property
+    def source(self) -> str:
+        """
+        The file, and what was derived of it.
+        """
+    @property
+    def temperature(self) -> numpy.ndarray | None:
+        """
+        (K,) [°C], or None.
+        """
+    @property
+    def time(self) -> float | None:
+        """
+        Since 1970-01-01 UTC [s], or None.
+        """
+class Current:
+    """
+    Horizontal current by depth and time.
+    
+    Linear between depths and times, at the ends as there.
+    
+    Parameters
+    ----------
+    depth : (K,) array
+        Rising [m].
+    velocity : (K, 2) array
+        x and y of the world [m/s]; (T, K, 2) with `time`.
+    time : (T,) array, optional
+        Rising [s].
+    
+    Examples
+    --------
+    >>> import bathyal
+    >>> current = bathyal.Current([0, 30], [[0.6, 0.0], [0.1, 0.0]])
+    >>> current.at(15.0).round(3).tolist()
+    [0.35, 0.0]
+    """
+    @staticmethod
+    def uniform(x: typing.SupportsFloat | typing.SupportsIndex, y: typing.SupportsFloat | typing.SupportsIndex) -> Current:
+        """
+        The same everywhere and always: x and y of the world [m/s].
+        """
+    def __init__(self, depth: numpy.typing.ArrayLike, velocity: numpy.typing.ArrayLike, *, time: numpy.typing.ArrayLike | None = None) -> None:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def at(self, depth: numpy.typing.ArrayLike, time: numpy.typing.ArrayLike = 0.0) -> numpy.ndarray:
+        """
+        (…, 2) velocity [m/s] at depths [m] and times [s], which broadcast.
+        """
+class Waves:
+    """
+    A sea state of linear (Airy) waves.
+    
+    Components of the JONSWAP spectrum (Hasselmann and others 1973), one drawn in each of equal bands
+    between half and four times the peak's frequency. Orbits follow Wheeler's stretching (1970).
+    
+    Parameters
+    ----------
+    height : float
+        Significant [m].
+    period : float
+        Of the peak [s], 0.5 to 60.
+    peak_enhancement : float
+        γ, 1 to 20; 1 is the spectrum of Pierson and Moskowitz (1964).
+    direction : float
+        The waves travel towards, about z from x [rad].
+    spreading : float
+        s of cos²ˢ(½Δ) about it, 0 to 1 000; infinite for long crests.
+    components : int
+    depth : float
+        Of the water [m].
+    seed : int
+    
+    Examples
+    --------
+    >>> import bathyal
+    >>> sea = bathyal.Waves(height=1.5, period=7, seed=1)
+    >>> sea
+    Waves(200 components, significant height 1.5 m)
+    """
+    @staticmethod
+    def of_components(amplitude: numpy.typing.ArrayLike, period: numpy.typing.ArrayLike, direction: numpy.typing.ArrayLike = 0.0, phase: numpy.typing.ArrayLike = 0.0, *, depth: typing.SupportsFloat | typing.SupportsIndex = ...) -> Waves:
+        """
+        A sum of waves as given: (K,) amplitudes [m], periods [s], directions and phases [rad], which broadcast.
+        """
+    @staticmethod
+    def regular(height: typing.SupportsFloat | typing.SupportsIndex, period: typing.SupportsFloat | typing.SupportsIndex, *, direction: typing.SupportsFloat | typing.SupportsIndex = 0.0, depth: typing.SupportsFloat | typing.SupportsIndex = ..., phase: typing.SupportsFloat | typing.SupportsIndex = 0.0) -> Waves:
+        """
+        One wave, long-crested: height from trough to crest [m], period [s], direction it travels to about z from x [rad], depth of the water [m], phase at the origin at time 0 [rad].
+        """
+    def __init__(self, height: typing.SupportsFloat | typing.SupportsIndex = 1.0, period: typing.SupportsFloat | typing.SupportsIndex = 8.0, *, peak_enhancement: typing.SupportsFloat | typing.SupportsIndex = 3.3, direction: typing.SupportsFloat | typing.SupportsIndex = 0.0, spreading: typing.SupportsFloat | typing.SupportsIndex = 10.0, components: typing.SupportsInt | typing.SupportsIndex = 200, depth: typing.SupportsFloat | typing.SupportsIndex = ..., seed: typing.SupportsInt | typing.SupportsIndex = 0) -> None:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def acceleration(self, point: numpy.typing.ArrayLike, time: numpy.typing.ArrayLike) -> numpy.ndarray:
+        """
+        The same of its local acceleration [m/s²].
+        """
+    def elevation(self, x: numpy.typing.ArrayLike, y: numpy.typing.ArrayLike, time: numpy.typing.ArrayLike) -> float | numpy.ndarray:
+        """
+        Of the surface above its mean [m], at places [m] and times [s] that broadcast.
+        """
+    def velocity(self, point: numpy.typing.ArrayLike, time: numpy.typing.ArrayLike) -> numpy.ndarray:
+        """
+        (N, 3) or (3,) of the water in its orbits [m/s] at points whose z counts from the mean surface; 0 in the air. Wheeler's stretching.
+        """
+    @property
+    def amplitude(self) -> numpy.ndarray:
+        """
+        (K,) of each component [m].
+        """
+    @property
+    def depth(self) -> float:
+        """
+        Of the water [m].
+        """
+    @property
+    def frequency(self) -> numpy.ndarray:
+        """
+        (K,) of each component [rad/s].
+        """
+    @property
+    def wave_number(self) -> numpy.ndarray:
+        """
+        (K, 2) of each component, the way it travels [rad/m].
+        """
+class Tide:
+    """
+    Height of the sea surface above its mean by time.
+    
+    Parameters
+    ----------
+    constituents : list of (name, (amplitude, phase))
+        M2, S2, N2, K2, K1, O1, P1, Q1 or M4, its amplitude [m] and its phase at time 0 [rad]:
+        amplitude · cos(rate · time − phase). No nodal factors.
+    
+    Examples
+    --------
+    >>> import bathyal
+    >>> tide = bathyal.Tide([("M2", (1.2, 0.0)), ("S2", (0.4, 0.5))])
+    >>> round(tide.height(0.0), 3)
+    1.551
+    """
+    @staticmethod
+    def from_table(time: numpy.typing.ArrayLike, height: numpy.typing.ArrayLike) -> Tide:
+        """
+        Of (K,) rising times [s] and heights above the mean [m]: linear between, at the ends as there.
+        """
+    def __init__(self, constituents: collections.abc.Sequence[tuple[str, tuple[typing.SupportsFloat | typing.SupportsIndex, typing.SupportsFloat | typing.SupportsIndex]]]) -> None:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def height(self, time: numpy.typing.ArrayLike) -> float | numpy.ndarray:
+        """
+        Above the mean surface [m] at times [s].
+        """
+class Water:
+    """
+    The water of a world: one place that sonars and vehicles read.
+    
+    Depth counts from the mean surface; a profile moves with neither tide nor waves. Without a surface
+    the water is the same everywhere, as it is at `reference_depth`.
+    
+    Parameters
+    ----------
+    profile : Profile or list of Profile, optional
+        By depth, linear between rows, above the first and below the last as there (`covers`). A sound
+        speed that a profile does not have is computed; a temperature or salinity that it does not have
+        is the number below.
+    surface : float, optional
+        z of the mean sea surface [m]; None: out of reach.
+    time : (T,) array, optional
+        Of several profiles, rising [s]; linear between, at the ends as there.
+    reference_depth : float
+        [m]
+    temperature, salinity : float
+        Of water without a profile [°C], practical.
+    sound_speed : float, optional
+        Of water without a profile [m/s]; None: computed.
+    formula : str
+        As of `bathyal.sound_speed`.
+    ph : float
+    latitude : float, optional
+        [deg], for depth and pressure; by default the profile's, without one 45.
+    current : Current or (2,) array, optional
+        [m/s]
+    waves : Waves, optional
+    tide : Tide, optional
+        Both need a surface.
+    
+    Raises
+    ------
+    ValueError
+        For a profile of one row, unsorted or doubled depths, NaN, numbers that no water has, waves or a
+        tide without a surface.
+    
+    Examples
+    --------
+    >>> import bathyal
+    >>> cast = bathyal.Profile([0, 20, 60], temperature=[18, 14, 9], salinity=[34, 34.5, 35])
+    >>> water = bathyal.Water(cast, surface=0.0)
+    >>> round(water.sound_speed(-20.0), 1), water.covers(80)
+    (1503.4, False)
+    >>> round(water.absorption(100e3, depth=50), 1)
+    33.6
+    """
+    def __init__(self, profile: Profile | list[Profile] | None = None, *, surface: typing.SupportsFloat | typing.SupportsIndex | None = None, time: numpy.typing.ArrayLike | None = None, reference_depth: typing.SupportsFloat | typing.SupportsIndex = 50.0, temperature: typing.SupportsFloat | typing.SupportsIndex = 10.0, salinity: typing.SupportsFloat | typing.SupportsIndex = 35.0, sound_speed: typing.SupportsFloat | typing.SupportsIndex | None = None, formula: str = 'mackenzie', ph: typing.SupportsFloat | typing.SupportsIndex = 8.0, latitude: typing.SupportsFloat | typing.SupportsIndex | None = None, current: Current | numpy.typing.ArrayLike | None = None, waves: Waves | None = None, tide: Tide | None = None) -> None:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def absorption(self, frequency: numpy.typing.ArrayLike, z: numpy.typing.ArrayLike | None = None, time: numpy.typing.ArrayLike = 0.0, *, depth: numpy.typing.ArrayLike | None = None, formula: str = 'francois_garrison') -> float | numpy.ndarray:
+        """
+        One way [dB/km] of frequencies [Hz] at heights or depths: `bathyal.absorption` of the water there.
+        """
+    def acceleration(self, point: numpy.typing.ArrayLike, time: numpy.typing.ArrayLike = 0.0) -> numpy.ndarray:
+        """
+        (N, 3) or (3,) local acceleration in the waves' orbits [m/s²].
+        """
+    def covers(self, depth: typing.SupportsFloat | typing.SupportsIndex) -> bool:
+        """
+        Whether the profiles reach down to a depth [m].
+        """
+    def current(self, point: numpy.typing.ArrayLike, time: numpy.typing.ArrayLike = 0.0) -> numpy.ndarray:
+        """
+        (N, 3) or (3,) horizontal current [m/s] at points of the world, waves apart.
+        """
+    def density(self, z: numpy.typing.ArrayLike | None = None, time: numpy.typing.ArrayLike = 0.0, *, depth: numpy.typing.ArrayLike | None = None) -> float | numpy.ndarray:
+        """
+        [kg/m³] at heights or depths and times, by EOS-80.
+        """
+    def depth(self, z: numpy.typing.ArrayLike) -> float | numpy.ndarray:
+        """
+        Below the mean surface [m]; `reference_depth` without a surface. ValueError above it.
+        """
+    def pressure(self, z: numpy.typing.ArrayLike | None = None, time: numpy.typing.ArrayLike = 0.0, *, depth: numpy.typing.ArrayLike | None = None) -> float | numpy.ndarray:
+        """
+        Above the atmosphere's [dbar] at heights or depths.
+        """
+    def salinity(self, z: numpy.typing.ArrayLike | None = None, time: numpy.typing.ArrayLike = 0.0, *, depth: numpy.typing.ArrayLike | None = None) -> float | numpy.ndarray:
+        """
+        Practical salinity at heights or depths and times.
+        """
+    def sound_speed(self, z: numpy.typing.ArrayLike | None = None, time: numpy.typing.ArrayLike = 0.0, *, depth: numpy.typing.ArrayLike | None = None) -> float | numpy.ndarray:
+        """
+        [m/s] at heights z of the world, or depths below the mean surface, and times [s].
+        """
+    def surface_height(self, x: numpy.typing.ArrayLike, y: numpy.typing.ArrayLike, time: numpy.typing.ArrayLike = 0.0) -> float | numpy.ndarray:
+        """
+        z of the sea surface [m]: mean, tide and waves.
+        """
+    def temperature(self, z: numpy.typing.ArrayLike | None = None, time: numpy.typing.ArrayLike = 0.0, *, depth: numpy.typing.ArrayLike | None = None) -> float | numpy.ndarray:
+        """
+        [°C] at heights or depths and times.
+        """
+    def velocity(self, point: numpy.typing.ArrayLike, time: numpy.typing.ArrayLike = 0.0) -> numpy.ndarray:
+        """
+        (N, 3) or (3,) current and the waves' orbits together [m/s]; 0 above the surface.
+        """
+    @property
+    def deepest(self) -> float:
+        """
+        Depth to which the profiles reach [m]; infinite for uniform water.
+        """
+    @property
+    def ph(self) -> float:
+        """
+        pH.
+        """
+    @property
+    def profiles(self) -> list[Profile]:
+        """
+        Profile of each time, every column filled; empty for uniform water.
+        """
+    @property
+    def reference_depth(self) -> float:
+        """
+        Depth of the whole water where there is no surface [m].
+        """
+    @property
+    def surface(self) -> float | None:
+        """
+        z of the mean sea surface [m]; None: out of reach.
+        """
+    @property
+    def tide(self) -> Tide:
+        """
+        Tide; without any, 0.
+        """
+    @property
+    def time(self) -> numpy.ndarray:
+        """
+        (T,) of the profiles [s].
+        """
+    @property
+    def waves(self) -> Waves:
+        """
+        Waves; without any, flat.
+        """
+class SoundPath:
+    """
+    The path of sound in a profile: arcs of circles.
+    
+    Sound speed is linear between the rows of a profile; there a ray of sound is an arc of a circle, and
+    place, direction and time along it are closed forms. A path lies in a vertical plane.
+    
+    Parameters
+    ----------
+    water : Water or Profile
+    start_depth : float
+        [m]
+    launch_angle : float
+        Below the horizontal, −½π to ½π [rad].
+    max_time, max_distance : float
+        End of the path [s], horizontal [m].
+    surface : bool
+        Whether depth 0 is the sea surface, at which a path ends.
+    surface_reflects : bool
+        At which it is reflected instead.
+    time : float
+        Of the water [s].
+    
+    Examples
+    --------
+    >>> import bathyal
+    >>> cast = bathyal.Profile([0, 1000], sound_speed=[1500.0, 1517.0])
+    >>> path = bathyal.SoundPath(cast, 100.0, 0.0, max_time=0.5)
+    >>> path.at([0.5]).round(3).tolist()  # bent upwards, to less speed
+    [[0.5, 750.844, 96.815, -0.008]]
+    """
+    def __init__(self, water: Water | Profile, start_depth: typing.SupportsFloat | typing.SupportsIndex, launch_angle: typing.SupportsFloat | typing.SupportsIndex, *, max_time: typing.SupportsFloat | typing.SupportsIndex = 1.0, max_distance: typing.SupportsFloat | typing.SupportsIndex = ..., surface: bool = True, surface_reflects: bool = False, time: typing.SupportsFloat | typing.SupportsIndex = 0.0) -> None:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def at(self, time: numpy.typing.ArrayLike) -> numpy.ndarray:
+        """
+        (N, 4) time [s], horizontal distance [m], depth [m] and angle [rad] at (N,) times, on the exact arcs; beyond the path its ends.
+        """
+    def chords(self, tolerance: typing.SupportsFloat | typing.SupportsIndex) -> numpy.ndarray:
+        """
+        (M, 4) points as of `at` whose straight chords are nowhere farther from the arcs than the tolerance [m].
+        """
+    @property
+    def angle(self) -> numpy.ndarray:
+        """
+        (K,) below the horizontal, where each arc begins [rad].
+        """
+    @property
+    def depth(self) -> numpy.ndarray:
+        """
+        (K,) at the ends of the arcs [m].
+        """
+    @property
+    def distance(self) -> numpy.ndarray:
+        """
+        (K,) horizontal, at the ends of the arcs [m].
+        """
+    @property
+    def duration(self) -> float:
+        """
+        Of the whole path [s].
+        """
+    @property
+    def end(self) -> str:
+        """
+        What ended it: "time", "distance" or "surface".
+        """
+    @property
+    def time(self) -> numpy.ndarray:
+        """
+        (K,) at the ends of the arcs [s].
+        """
+class TracedSound:
+    """
+    Where beams are. Made by `trace_sound`.
+    """
+    def __iter__(self) -> collections.abc.Iterator:
+        ...
+    def __repr__(self) -> str:
+        ...
+    @property
+    def across(self) -> float | numpy.ndarray:
+        """
+        Horizontal distance from the start [m].
+        """
+    @property
+    def angle(self) -> float | numpy.ndarray:
+        """
+        Below the horizontal [rad].
+        """
+    @property
+    def depth(self) -> float | numpy.ndarray:
+        """
+        Below the surface [m].
+        """
+class Eigenray:
+    """
+    A way of sound between two points.
+    """
+    def __repr__(self) -> str:
+        ...
+    @property
+    def arrival(self) -> float:
+        """
+        Angle below the horizontal at the end [rad].
+        """
+    @property
+    def launch(self) -> float:
+        """
+        Angle below the horizontal at the start [rad].
+        """
+    @property
+    def time(self) -> float:
+        """
+        [s]
+        """
 class Hits:
     """
     What each of N rays met first.
@@ -972,25 +1511,49 @@ class Scene:
     threads; equal ranges or distances give the lowest (mesh, triangle). The meshes are shared, not
     copied. Any number of threads may query it at once.
     
+    A row of the list is an instance: ``.mesh`` in answers is that row, and a mesh that occurs several
+    times (the same object, or the same arrays) is held, and made ready, once. With poses each row is
+    where its pose puts it; everything that goes in or comes out is in the world, and ``meshes`` stay as
+    given. A ray is moved into the mesh's frame and decided there on its own vertices: at the identity
+    to the same bytes as without poses. Each instance is watertight in itself; across two that share an
+    edge that is not promised.
+    
     Parameters
     ----------
     mesh : TriangleMesh, or a sequence of them
         One at least; meshes without triangles are allowed and never hit.
+    poses : (K, 4, 4) array, optional
+        world_from_mesh of each, rigid; of a rotation that is off by less than 1e-6 the nearest one is
+        taken. Without: all meshes are in the world as they are.
+    scales : (K,) array, optional
+        Metres of the world for one of the mesh, from 1e-9 to 1e9: x in the world is
+        scale · rotation · x + translation. Without: 1.
     num_threads : int
         For the build; 0 means all.
     
+    Raises
+    ------
+    ValueError
+        For no mesh, or poses or scales of another number, not rigid or out of range: names the first.
+    
     Examples
     --------
-    >>> import bathyal
+    >>> import bathyal, numpy as np
     >>> floor = bathyal.TriangleMesh([[0, 0, 0], [4, 0, 0], [0, 4, 0]], [[0, 1, 2]])
     >>> bathyal.Scene(floor)
     Scene(1 mesh, 1 triangle)
+    >>> poses = np.array([np.eye(4), np.eye(4)])
+    >>> poses[1, 2, 3] = -10.0
+    >>> scene = bathyal.Scene([floor, floor], poses=poses, scales=[1, 3])
+    >>> hits = scene.cast((0, 0, 5), [[1, 1, -5], [8, 2, -15]])
+    >>> hits.mesh.tolist(), hits.point.tolist()
+    ([0, 1], [[1.0, 1.0, 0.0], [8.0, 2.0, -10.0]])
     """
     @typing.overload
-    def __init__(self, mesh: TriangleMesh, *, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> None:
+    def __init__(self, mesh: TriangleMesh, *, poses: numpy.typing.ArrayLike | None = None, scales: numpy.typing.ArrayLike | None = None, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> None:
         ...
     @typing.overload
-    def __init__(self, mesh: collections.abc.Sequence[TriangleMesh], *, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> None:
+    def __init__(self, mesh: collections.abc.Sequence[TriangleMesh], *, poses: numpy.typing.ArrayLike | None = None, scales: numpy.typing.ArrayLike | None = None, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> None:
         ...
     def __repr__(self) -> str:
         ...
@@ -1059,6 +1622,28 @@ class Scene:
         ...                                    [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
         >>> bathyal.Scene(tetrahedron).contains([[0.5, 0.5, 0.5], [5, 5, 5]]).tolist()
         [True, False]
+        """
+    def mesh_in_world(self, mesh: typing.SupportsInt | typing.SupportsIndex) -> TriangleMesh:
+        """
+        A row's mesh where its pose and scale put it.
+        
+        Parameters
+        ----------
+        mesh : int
+            Row of the scene.
+        
+        Returns
+        -------
+        TriangleMesh
+            The mesh itself where it is at the identity, else a moved copy of its vertices with the same
+            triangles and attributes, without its datum.
+        
+        Examples
+        --------
+        >>> import bathyal
+        >>> floor = bathyal.TriangleMesh([[0, 0, 0], [4, 0, 0], [0, 4, 0]], [[0, 1, 2]])
+        >>> bathyal.Scene(floor, scales=[2]).mesh_in_world(0).vertices.max()
+        8.0
         """
     def nearest(self, points: numpy.typing.ArrayLike, *, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> Nearest:
         """
@@ -1233,6 +1818,35 @@ class Scene:
         >>> bathyal.Scene(tetrahedron).winding_number([[0.5, 0.5, 0.5], [5, 5, 5]]).round(3) + 0.0
         array([1., 0.])
         """
+    def with_poses(self, poses: numpy.typing.ArrayLike, *, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> Scene:
+        """
+        The same meshes at other poses, as another scene.
+        
+        It shares the meshes, their scales and what was made ready of them; only the tree over the instances
+        is made anew, so that a moving fish does not rebuild the bottom. This scene stays as it is. From a
+        scene of several meshes that was made without poses, each call makes them ready one by one first.
+        
+        Parameters
+        ----------
+        poses : (K, 4, 4) array
+            world_from_mesh of each row, as of the constructor.
+        num_threads : int
+            0 means all.
+        
+        Returns
+        -------
+        Scene
+        
+        Examples
+        --------
+        >>> import bathyal, numpy as np
+        >>> floor = bathyal.TriangleMesh([[0, 0, 0], [4, 0, 0], [0, 4, 0]], [[0, 1, 2]])
+        >>> scene = bathyal.Scene(floor, poses=[np.eye(4)])
+        >>> lower = np.eye(4)
+        >>> lower[2, 3] = -2
+        >>> [s.cast((1, 1, 3), (0, 0, -1)).range[0].item() for s in (scene, scene.with_poses([lower]))]
+        [3.0, 5.0]
+        """
     @property
     def memory(self) -> int:
         """
@@ -1241,7 +1855,17 @@ class Scene:
     @property
     def meshes(self) -> list[TriangleMesh]:
         """
-        The meshes, as a list.
+        The meshes as given, as a list: each in its own frame.
+        """
+    @property
+    def poses(self) -> numpy.ndarray:
+        """
+        (K, 4, 4) world_from_mesh of each row, the identity where none were given.
+        """
+    @property
+    def scales(self) -> numpy.ndarray:
+        """
+        (K,) metres of the world for one of the mesh, 1 where none were given.
         """
 class Targets:
     """
@@ -2008,6 +2632,153 @@ class Arm:
     def velocity(self) -> numpy.ndarray:
         """
         (n,) greatest speed of the joint that leads each coordinate [rad/s] or [m/s].
+        """
+class SeabedModel:
+    """
+    A generated bottom as a function of the place, on an endless plane.
+    
+    Fractal relief, sand ripples with crests that meander and fork, boulders, a trench, a cliff, scour
+    around given points. No height depends on how a mesh of it is cut or where it begins. Angles are
+    counted from x towards y.
+    
+    Parameters
+    ----------
+    seed : int
+    depth : float
+        The mean height is −depth [m].
+    slope, slope_direction : float
+        Of the whole bottom, and in which direction it rises [rad].
+    relief_rms : float
+        Of a relief whose power spectral density goes with k^−exponent [m], 0 for none.
+    relief_exponent : float
+        Of the spectrum over the plane, 1 to 6; along a line it is one less.
+    relief_longest, relief_shortest : float
+        Wavelengths between which the spectrum goes [m].
+    ripple_height, ripple_wavelength : float
+        Trough to crest, 0 for none, and crest to crest [m].
+    ripple_direction : float
+        Of the current, across the crests [rad].
+    ripple_asymmetry : float
+        How much longer the stoss side is than the lee side, in wavelengths, 0 to 0.45.
+    ripple_meander : float
+        Rms by which crests wander, in wavelengths, 0 to 2.
+    ripple_defects : float
+        Crests that fork: pairs per 36 square wavelengths, 0 to 1.
+    ripple_cover, ripple_patch : float
+        Share of the bottom that has ripples, and the size of patches of them [m].
+    boulder_density, boulder_radius : float
+        Domes per m², 0 for none, and the radius of the largest [m]; the smallest have a fifth of it.
+    boulder_scour : float
+        Depth of the hollow around each, over its height, 0 to 1.
+    trench_depth, trench_width, trench_floor : float
+        Depth, 0 for none, width between the tops of the walls, and width of the floor [m].
+    trench_direction, trench_point : float, (2,) array
+        Along it [rad], and a place on its middle line [m].
+    cliff_height, cliff_run : float
+        Height, 0 for none, and the horizontal distance over which it falls [m].
+    cliff_direction, cliff_point : float, (2,) array
+        In which it falls [rad], and a place at half its height [m].
+    edge_meander : float
+        Rms by which trench and cliff wander off their lines [m].
+    scour_points : (K, 2) array
+        Middles of hollows [m].
+    scour_depth, scour_radius : float
+        Of each [m].
+    num_threads : int
+        0: all.
+    
+    Raises
+    ------
+    ValueError
+        For an option out of its range.
+    
+    Examples
+    --------
+    >>> import bathyal
+    >>> model = bathyal.SeabedModel(seed=1, relief_rms=0, trench_depth=2.0)
+    >>> model.height([0.0, 0.0], [0.0, 10.0])
+    array([-2.,  0.])
+    >>> model.mesh(10, 0.5)
+    TriangleMesh(441 vertices, 800 triangles)
+    """
+    materials: typing.ClassVar[list] = ['silt', 'sand', 'rock']
+    def __init__(self, *, seed: typing.SupportsInt | typing.SupportsIndex = 0, depth: typing.SupportsFloat | typing.SupportsIndex = 0.0, slope: typing.SupportsFloat | typing.SupportsIndex = 0.0, slope_direction: typing.SupportsFloat | typing.SupportsIndex = 0.0, relief_rms: typing.SupportsFloat | typing.SupportsIndex = 0.15, relief_exponent: typing.SupportsFloat | typing.SupportsIndex = 3.25, relief_longest: typing.SupportsFloat | typing.SupportsIndex = 50.0, relief_shortest: typing.SupportsFloat | typing.SupportsIndex = 0.5, ripple_height: typing.SupportsFloat | typing.SupportsIndex = 0.0, ripple_wavelength: typing.SupportsFloat | typing.SupportsIndex = 1.0, ripple_direction: typing.SupportsFloat | typing.SupportsIndex = 0.0, ripple_asymmetry: typing.SupportsFloat | typing.SupportsIndex = 0.2, ripple_meander: typing.SupportsFloat | typing.SupportsIndex = 0.15, ripple_defects: typing.SupportsFloat | typing.SupportsIndex = 0.2, ripple_cover: typing.SupportsFloat | typing.SupportsIndex = 1.0, ripple_patch: typing.SupportsFloat | typing.SupportsIndex = 30.0, boulder_density: typing.SupportsFloat | typing.SupportsIndex = 0.0, boulder_radius: typing.SupportsFloat | typing.SupportsIndex = 0.6, boulder_scour: typing.SupportsFloat | typing.SupportsIndex = 0.18, trench_depth: typing.SupportsFloat | typing.SupportsIndex = 0.0, trench_width: typing.SupportsFloat | typing.SupportsIndex = 4.0, trench_floor: typing.SupportsFloat | typing.SupportsIndex = 1.5, trench_direction: typing.SupportsFloat | typing.SupportsIndex = 0.0, trench_point: numpy.typing.ArrayLike = (0.0, 0.0), cliff_height: typing.SupportsFloat | typing.SupportsIndex = 0.0, cliff_run: typing.SupportsFloat | typing.SupportsIndex = 2.0, cliff_direction: typing.SupportsFloat | typing.SupportsIndex = 0.0, cliff_point: numpy.typing.ArrayLike = (0.0, 0.0), edge_meander: typing.SupportsFloat | typing.SupportsIndex = 0.0, scour_points: numpy.typing.ArrayLike | None = None, scour_depth: typing.SupportsFloat | typing.SupportsIndex = 0.4, scour_radius: typing.SupportsFloat | typing.SupportsIndex = 2.0, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> None:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def height(self, x: numpy.typing.ArrayLike, y: numpy.typing.ArrayLike) -> numpy.ndarray:
+        """
+        Heights z [m] at (N,) places x, y [m]: the same bytes as a mesh's vertices there.
+        """
+    def material(self, x: numpy.typing.ArrayLike, y: numpy.typing.ArrayLike) -> numpy.ndarray:
+        """
+        Rows of `materials` at (N,) places x, y [m]: boulders and the face of the cliff are rock, ripples of at least half their height are sand, all else is silt.
+        """
+    def mesh(self, size: numpy.typing.ArrayLike, spacing: typing.SupportsFloat | typing.SupportsIndex, *, origin: numpy.typing.ArrayLike = (0.0, 0.0)) -> TriangleMesh:
+        """
+        A mesh of the bottom: squares, each of two triangles, counter-clockwise from above.
+        
+        Parameters
+        ----------
+        size : float or (2,) array
+            Its sides along x and y [m].
+        spacing : float
+            Side of a square [m]: the largest that divides the mesh's side and is no larger.
+        origin : (2,) array
+            Its middle [m]. Tiles whose corners are whole numbers of half squares from zero have the same
+            bytes along their borders, and as the whole.
+        
+        Returns
+        -------
+        TriangleMesh
+            With an attribute ``material`` of the vertices, as `material` gives it.
+        
+        Raises
+        ------
+        ValueError
+            For a size or spacing that is not above 0, more than 5·10⁷ squares, or ripples shorter than two
+            spacings.
+        """
+class Pipeline:
+    """
+    A pipeline or cable as it lies; its N stations are rings of the mesh.
+    """
+    def __repr__(self) -> str:
+        ...
+    @property
+    def bottom(self) -> numpy.ndarray:
+        """
+        (N,) height of the terrain below [m], NaN without one.
+        """
+    @property
+    def burial(self) -> numpy.ndarray:
+        """
+        (N,) underside below the bottom [m], 0 or more; NaN without terrain.
+        """
+    @property
+    def center(self) -> numpy.ndarray:
+        """
+        (N, 3) middle line [m].
+        """
+    @property
+    def gap(self) -> numpy.ndarray:
+        """
+        (N,) underside above the bottom [m], 0 or more; NaN without terrain.
+        """
+    @property
+    def kp(self) -> numpy.ndarray:
+        """
+        (N,) along the route [m], horizontal where laid on a terrain.
+        """
+    @property
+    def mesh(self) -> TriangleMesh:
+        """
+        Closed TriangleMesh; a vertex attribute ``kp`` is the way along the route [m].
+        """
+    @property
+    def span(self) -> numpy.typing.NDArray[numpy.bool]:
+        """
+        (N,) in a given span, or above the bottom by more than a tenth of the diameter.
         """
 class HullReport:
     """
@@ -5436,6 +6207,45 @@ class Diagnosis:
         """
         Sentences.
         """
+def absorption(frequency: numpy.typing.ArrayLike, temperature: numpy.typing.ArrayLike, salinity: numpy.typing.ArrayLike, depth: numpy.typing.ArrayLike, ph: numpy.typing.ArrayLike = 8.0, formula: str = 'francois_garrison') -> float | numpy.ndarray:
+    """
+    Absorption of sound in seawater.
+    
+    Parameters
+    ----------
+    frequency : float or array
+        [Hz]
+    temperature : float or array
+        [°C]
+    salinity : float or array
+        Practical.
+    depth : float or array
+        [m]
+    ph : float or array
+        Of the water.
+    formula : str
+        ``"francois_garrison"`` (1982), ±5 %: −2 to 22 °C, salinity 30 to 35 and to 3 500 m below
+        500 kHz; 0 to 30 °C, 0 to 40 and to 10 000 m above.
+        ``"ainslie_mccolm"`` (1998), within 10 % of it: 100 Hz to 1 MHz, −6 to 35 °C, 5 to 50, to
+        7 000 m, pH 7.7 to 8.3.
+    
+    Returns
+    -------
+    float or array
+        One way, of the power in dB/km; outside a formula's range it extrapolates, with a
+        `RangeWarning`.
+    
+    Raises
+    ------
+    ValueError
+        For a frequency not above 0, numbers that no water has, shapes that do not broadcast.
+    
+    Examples
+    --------
+    >>> import bathyal
+    >>> bathyal.absorption([100e3, 600e3, 900e3], 10, 35, 50).round(1).tolist()
+    [33.4, 158.6, 298.6]
+    """
 def arm_from_chain(chain: dict, *, nearly_parallel: typing.SupportsFloat | typing.SupportsIndex = 0.1) -> Arm:
     """
     The Arm of joint origins, axes and links: what a URDF describes.
@@ -5618,6 +6428,31 @@ def cover_polygon(surface: Scene | Plane, polygon: numpy.typing.ArrayLike, spaci
     >>> aims[:, :3].tolist()
     [[0.0, 0.5, -4.0], [4.0, 0.5, -4.0], [4.0, 1.5, -4.0], [0.0, 1.5, -4.0]]
     """
+def depth_from_pressure(pressure: numpy.typing.ArrayLike, latitude: numpy.typing.ArrayLike = 45.0) -> float | numpy.ndarray:
+    """
+    Depth [m] at a pressure.
+    
+    TEOS-10's formula (Roquet and others 2015), what ``gsw.z_from_p`` gives: of the standard ocean,
+    salinity 35 at 0 °C.
+    
+    Parameters
+    ----------
+    pressure : float or array
+        Above the atmosphere's [dbar].
+    latitude : float or array
+        [deg]
+    
+    Returns
+    -------
+    float or array
+        [m]
+    
+    Examples
+    --------
+    >>> import bathyal
+    >>> round(bathyal.depth_from_pressure(1000.0, latitude=45), 2)
+    990.05
+    """
 def diagnose(arm: Arm, data: Touches | Tracked, *, effects: collections.abc.Iterable[Effect] | None = None, parametrization: str = 'hayati', fixed: collections.abc.Sequence[str] = [], blocks: typing.SupportsInt | typing.SupportsIndex = 10, rival_odds: typing.SupportsFloat | typing.SupportsIndex = 0.05, leftover: typing.SupportsFloat | typing.SupportsIndex = 0.25, num_next_poses: typing.SupportsInt | typing.SupportsIndex = 8, progress: collections.abc.Callable[[float, str], None] | None = None, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> Diagnosis:
     """
     Find what the best rigid model of an arm gets wrong, name the cause, measure the gain.
@@ -5683,6 +6518,32 @@ def diagnose(arm: Arm, data: Touches | Tracked, *, effects: collections.abc.Iter
     Diagnosis(named, joint_harmonic[1])
     >>> round(float(report.effects[0].parameters["order"]))
     2
+    """
+def eigenrays(water: Water | Profile, from_depth: typing.SupportsFloat | typing.SupportsIndex, to_depth: typing.SupportsFloat | typing.SupportsIndex, distance: typing.SupportsFloat | typing.SupportsIndex, *, angles: typing.SupportsInt | typing.SupportsIndex = 2000, steepest: typing.SupportsFloat | typing.SupportsIndex = 1.5, surface_reflects: bool = False, time: typing.SupportsFloat | typing.SupportsIndex = 0.0) -> list[Eigenray]:
+    """
+    All ways of sound from a depth to another at a distance.
+    
+    By a fan of launch angles, and bisection between those that pass the point on different sides.
+    
+    Parameters
+    ----------
+    water : Water or Profile
+    from_depth, to_depth : float
+        [m]
+    distance : float
+        Horizontal [m].
+    angles : int
+        Of the fan: two ways closer than its spacing may be missed.
+    steepest : float
+        Of the fan [rad]; the straight line to the point is always within it.
+    surface_reflects : bool
+    time : float
+        Of the water [s].
+    
+    Returns
+    -------
+    list of Eigenray
+        The quickest first; empty in a shadow.
     """
 def find_effect_with(find: collections.abc.Callable) -> None:
     """
@@ -5774,6 +6635,55 @@ def find_targets(surface: Scene | Plane, aims: numpy.typing.ArrayLike, *, world_
     >>> targets = bathyal.find_targets(bathyal.Plane((0, 0, 1), -5.0), [[0, 0, 0, 3, 0, -4]])
     >>> targets.point[0].tolist(), float(targets.range[0]), str(targets.status[0])
     ([3.75, 0.0, -5.0], 6.25, 'hit')
+    """
+def fish_paths(scene: Scene, count: typing.SupportsInt | typing.SupportsIndex, duration: typing.SupportsFloat | typing.SupportsIndex, *, seed: typing.SupportsInt | typing.SupportsIndex = 0, region: numpy.typing.ArrayLike | None = None, clearance: typing.SupportsFloat | typing.SupportsIndex = 0.5, altitude: typing.SupportsFloat | typing.SupportsIndex = 4.0, ceiling: typing.SupportsFloat | typing.SupportsIndex = ..., speed: typing.SupportsFloat | typing.SupportsIndex = 0.6, turn_rate: typing.SupportsFloat | typing.SupportsIndex = 0.4, step: typing.SupportsFloat | typing.SupportsIndex = 0.25, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> list[Trajectory]:
+    """
+    Random smooth paths over a terrain, for fish or what drifts.
+    
+    Each path, straight between its poses as a Trajectory is, is checked against the scene. The same
+    bytes for any number of threads; more fish leave the first ones' paths alone.
+    
+    Parameters
+    ----------
+    scene : Scene
+    count : int
+    duration : float
+        [s]
+    seed : int
+    region : (2, 2) array, optional
+        Low and high corner of the place in which they swim, seen from above [m]; else the scene's box.
+    clearance : float
+        No path comes nearer to the scene [m].
+    altitude : float
+        Up to so much higher than that they swim [m].
+    ceiling : float
+        z below which they stay [m].
+    speed : float
+        Horizontal [m/s].
+    turn_rate : float
+        Typical rate at which they change course [rad/s].
+    step : float
+        Between two poses [s].
+    num_threads : int
+        0: all.
+    
+    Returns
+    -------
+    list of Trajectory
+        world_from_fish: x ahead, back up.
+    
+    Raises
+    ------
+    ValueError
+        For an option out of its range, and where no path was found: a region too small to turn in, a
+        ceiling too low.
+    
+    Examples
+    --------
+    >>> import bathyal
+    >>> bottom = bathyal.Scene(bathyal.make_seabed(40, 0.5))
+    >>> bathyal.fish_paths(bottom, 2, 60.0, seed=1)[0]
+    Trajectory(241 poses, 0 to 60 s)
     """
 def fit_plane(cloud: PointCloud | numpy.typing.ArrayLike, *, tolerance: typing.SupportsFloat | typing.SupportsIndex = 0.05, patch_points: typing.SupportsInt | typing.SupportsIndex = 50, flat_share: typing.SupportsFloat | typing.SupportsIndex = 0.99, trials: typing.SupportsInt | typing.SupportsIndex = 500, seed: typing.SupportsInt | typing.SupportsIndex = 1, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> PlaneFit:
     """
@@ -6050,6 +6960,246 @@ def intersect_moller_trumbore(mesh: TriangleMesh, origins: numpy.typing.ArrayLik
 def library_effects() -> list[Effect]:
     """
     The effects of the library, in a fixed order (bathyal.effects.list).
+    """
+def make_boulder(radius: typing.SupportsFloat | typing.SupportsIndex, *, seed: typing.SupportsInt | typing.SupportsIndex = 0, roughness: typing.SupportsFloat | typing.SupportsIndex = 0.04, subdivisions: typing.SupportsInt | typing.SupportsIndex = 3) -> TriangleMesh:
+    """
+    An angular boulder, at rest on z = 0.
+    
+    Parameters
+    ----------
+    radius : float
+        Of the sphere of the same volume [m].
+    seed : int
+    roughness : float
+        Of its faces, over the radius, 0 to 0.2.
+    subdivisions : int
+        20 · 4ⁿ triangles, 1 to 6.
+    
+    Returns
+    -------
+    TriangleMesh
+        Closed, its middle over the origin.
+    
+    Examples
+    --------
+    >>> import bathyal
+    >>> bathyal.mesh_report(bathyal.make_boulder(0.5, seed=2)).closed
+    True
+    """
+def make_cable(route: numpy.typing.ArrayLike, diameter: typing.SupportsFloat | typing.SupportsIndex, terrain: Scene | None = None, *, burial: numpy.typing.ArrayLike = 0.0, sag: typing.SupportsFloat | typing.SupportsIndex = 10.0, slack: typing.SupportsFloat | typing.SupportsIndex = 0.0, slack_wavelength: typing.SupportsFloat | typing.SupportsIndex = 20.0, seed: typing.SupportsInt | typing.SupportsIndex = 0, step: typing.SupportsFloat | typing.SupportsIndex = 0.25, sides: typing.SupportsInt | typing.SupportsIndex = 8, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> Pipeline:
+    """
+    A cable along a smooth curve through a route.
+    
+    It lies as a pipeline does, but thin and heavy for its tension: over hollows it hangs in catenaries,
+    for small slopes z'' = 1/sag.
+    
+    Parameters
+    ----------
+    route : (K, 2) or (K, 3) array
+        On a terrain places seen from above, else the middle line itself [m].
+    diameter : float
+        [m]
+    terrain : Scene, optional
+        What it lies on: its uppermost surface.
+    burial : float or (K,) array
+        How far the underside lies below the bottom [m].
+    sag : float
+        Parameter of its catenaries: horizontal tension over its weight in water a metre [m].
+    slack : float
+        How much longer it is than the route, as a share, 0 to 0.3, in bends to both sides.
+    slack_wavelength : float
+        Of these bends [m].
+    seed : int
+        Of where they begin.
+    step : float
+        Between two rings of the mesh [m].
+    sides : int
+        Of the cross-section.
+    num_threads : int
+        0: all.
+    
+    Returns
+    -------
+    Pipeline
+        Stations along the line with its slack.
+    
+    Examples
+    --------
+    >>> import bathyal
+    >>> bathyal.make_cable([(0, 0, -5), (30, 0, -5)], 0.05)
+    Pipeline(121 stations, 30 m)
+    """
+def make_fish(length: typing.SupportsFloat | typing.SupportsIndex, *, sides: typing.SupportsInt | typing.SupportsIndex = 12) -> TriangleMesh:
+    """
+    A fish, nose to +x, back up, its middle at the origin.
+    
+    Parameters
+    ----------
+    length : float
+        [m]
+    sides : int
+        Of its cross-section.
+    
+    Returns
+    -------
+    TriangleMesh
+        Body and fins, each closed.
+    
+    Examples
+    --------
+    >>> import bathyal
+    >>> bathyal.make_fish(0.4)
+    TriangleMesh(144 vertices, 276 triangles)
+    """
+def make_mine(kind: str = 'cylinder', *, diameter: typing.SupportsFloat | typing.SupportsIndex | None = None, length: typing.SupportsFloat | typing.SupportsIndex | None = None, horns: typing.SupportsInt | typing.SupportsIndex = 9, sides: typing.SupportsInt | typing.SupportsIndex = 32) -> TriangleMesh:
+    """
+    A mine, at rest on z = 0, its middle over the origin.
+    
+    Parameters
+    ----------
+    kind : str
+        "cylinder", lying along x, "sphere", with horns on its upper half, or "manta", a truncated cone
+        whose top has half the diameter of its foot.
+    diameter : float, optional
+        [m]; 0.53, 1.0 or 0.98 by kind.
+    length : float, optional
+        Of the cylinder, 2.2, or height of the manta, 0.47 [m].
+    horns : int
+        Of the sphere.
+    sides : int
+        Of a circle, even.
+    
+    Returns
+    -------
+    TriangleMesh
+        Closed; horns are closed bodies that begin inside the sphere.
+    
+    Examples
+    --------
+    >>> import bathyal
+    >>> bathyal.make_mine("manta").vertices[:, 2].max()
+    np.float64(0.47)
+    """
+def make_pipeline(route: numpy.typing.ArrayLike, diameter: typing.SupportsFloat | typing.SupportsIndex, terrain: Scene | None = None, *, burial: numpy.typing.ArrayLike = 0.0, spans: numpy.typing.ArrayLike | None = None, span_gap: typing.SupportsFloat | typing.SupportsIndex = 0.0, sag: typing.SupportsFloat | typing.SupportsIndex = 150.0, anode_spacing: typing.SupportsFloat | typing.SupportsIndex = 0.0, anode_length: typing.SupportsFloat | typing.SupportsIndex = 0.6, anode_thickness: typing.SupportsFloat | typing.SupportsIndex = 0.05, joint_spacing: typing.SupportsFloat | typing.SupportsIndex = 0.0, joint_length: typing.SupportsFloat | typing.SupportsIndex = 0.5, joint_recess: typing.SupportsFloat | typing.SupportsIndex = 0.04, step: typing.SupportsFloat | typing.SupportsIndex = 0.5, sides: typing.SupportsInt | typing.SupportsIndex = 24, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> Pipeline:
+    """
+    A pipeline along a smooth curve through a route.
+    
+    On a terrain it rests where it touches, five rays across it at each station, and sags between: least
+    line over the bottom with z'' of at most 1/sag.
+    
+    Parameters
+    ----------
+    route : (K, 2) or (K, 3) array
+        On a terrain places seen from above, else the middle line itself [m].
+    diameter : float
+        [m]
+    terrain : Scene, optional
+        What it lies on: its uppermost surface.
+    burial : float or (K,) array
+        How far the underside lies below the bottom [m]: 0 on it, the diameter flush. Of a value each
+        point of the route, linear between; not within spans.
+    spans : (S, 2) array
+        Free spans, from and to along the route [m], rising: straight over what rises between the ends.
+    span_gap : float
+        How much higher than that the middle of a span is [m].
+    sag : float
+        Horizontal tension over its weight in water a metre [m]; inf bridges every hollow.
+    anode_spacing, anode_length, anode_thickness : float
+        Rings beyond the pipe's radius [m], a spacing of 0 for none.
+    joint_spacing, joint_length, joint_recess : float
+        Field joints below the pipe's radius [m], a spacing of 0 for none.
+    step : float
+        Between two rings of the mesh [m].
+    sides : int
+        Of the cross-section, its corners on the circle.
+    num_threads : int
+        0: all.
+    
+    Returns
+    -------
+    Pipeline
+    
+    Raises
+    ------
+    ValueError
+        For a route of one point, two neighbours at one place, no terrain below, bends tighter than the
+        radius (a route that crosses itself further on is not found), spans that overlap or leave the
+        route.
+    
+    Examples
+    --------
+    >>> import bathyal
+    >>> bottom = bathyal.Scene(bathyal.make_seabed(60, 0.5, relief_rms=0.0))
+    >>> pipe = bathyal.make_pipeline([(-20, 0), (20, 0)], 0.4, bottom, burial=0.1, spans=[(10, 20)])
+    >>> pipe
+    Pipeline(81 stations, 40 m)
+    >>> pipe.burial[[0, -1]].round(6)
+    array([0.1, 0.1])
+    """
+def make_seabed(size: numpy.typing.ArrayLike, spacing: typing.SupportsFloat | typing.SupportsIndex, origin: numpy.typing.ArrayLike = (0.0, 0.0), *, seed: typing.SupportsInt | typing.SupportsIndex = 0, depth: typing.SupportsFloat | typing.SupportsIndex = 0.0, slope: typing.SupportsFloat | typing.SupportsIndex = 0.0, slope_direction: typing.SupportsFloat | typing.SupportsIndex = 0.0, relief_rms: typing.SupportsFloat | typing.SupportsIndex = 0.15, relief_exponent: typing.SupportsFloat | typing.SupportsIndex = 3.25, relief_longest: typing.SupportsFloat | typing.SupportsIndex = 50.0, relief_shortest: typing.SupportsFloat | typing.SupportsIndex = 0.5, ripple_height: typing.SupportsFloat | typing.SupportsIndex = 0.0, ripple_wavelength: typing.SupportsFloat | typing.SupportsIndex = 1.0, ripple_direction: typing.SupportsFloat | typing.SupportsIndex = 0.0, ripple_asymmetry: typing.SupportsFloat | typing.SupportsIndex = 0.2, ripple_meander: typing.SupportsFloat | typing.SupportsIndex = 0.15, ripple_defects: typing.SupportsFloat | typing.SupportsIndex = 0.2, ripple_cover: typing.SupportsFloat | typing.SupportsIndex = 1.0, ripple_patch: typing.SupportsFloat | typing.SupportsIndex = 30.0, boulder_density: typing.SupportsFloat | typing.SupportsIndex = 0.0, boulder_radius: typing.SupportsFloat | typing.SupportsIndex = 0.6, boulder_scour: typing.SupportsFloat | typing.SupportsIndex = 0.18, trench_depth: typing.SupportsFloat | typing.SupportsIndex = 0.0, trench_width: typing.SupportsFloat | typing.SupportsIndex = 4.0, trench_floor: typing.SupportsFloat | typing.SupportsIndex = 1.5, trench_direction: typing.SupportsFloat | typing.SupportsIndex = 0.0, trench_point: numpy.typing.ArrayLike = (0.0, 0.0), cliff_height: typing.SupportsFloat | typing.SupportsIndex = 0.0, cliff_run: typing.SupportsFloat | typing.SupportsIndex = 2.0, cliff_direction: typing.SupportsFloat | typing.SupportsIndex = 0.0, cliff_point: numpy.typing.ArrayLike = (0.0, 0.0), edge_meander: typing.SupportsFloat | typing.SupportsIndex = 0.0, scour_points: numpy.typing.ArrayLike | None = None, scour_depth: typing.SupportsFloat | typing.SupportsIndex = 0.4, scour_radius: typing.SupportsFloat | typing.SupportsIndex = 2.0, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> TriangleMesh:
+    """
+    A mesh of a generated bottom.
+    
+    As ``SeabedModel(seed=seed, …).mesh(size, spacing, origin=origin)``: see there for the options.
+    
+    Parameters
+    ----------
+    size : float or (2,) array
+        Its sides along x and y [m].
+    spacing : float
+        Side of a square [m]: the largest that divides the mesh's side and is no larger.
+    origin : (2,) array
+        Its middle [m]: a large bottom is made tile by tile.
+    seed : int
+    relief_rms, ripple_height, boulder_density, trench_depth, cliff_height, … : float
+        As given to SeabedModel.
+    
+    Returns
+    -------
+    TriangleMesh
+        With an attribute ``material`` of the vertices: 0 silt, 1 sand, where ripples are, 2 rock.
+    
+    Examples
+    --------
+    >>> import bathyal
+    >>> bathyal.make_seabed((40, 20), 0.25, seed=3, ripple_height=0.05)
+    TriangleMesh(13041 vertices, 25600 triangles)
+    """
+def make_wreck(length: typing.SupportsFloat | typing.SupportsIndex, *, seed: typing.SupportsInt | typing.SupportsIndex = 0, beam: typing.SupportsFloat | typing.SupportsIndex = 9.0, depth: typing.SupportsFloat | typing.SupportsIndex = 5.0, thickness: typing.SupportsFloat | typing.SupportsIndex = 0.15, list: typing.SupportsFloat | typing.SupportsIndex = 0.3, broken: bool = True, holes: typing.SupportsInt | typing.SupportsIndex = 6, spacing: typing.SupportsFloat | typing.SupportsIndex = 0.5) -> TriangleMesh:
+    """
+    A sunken ship, bow to +x, at rest on z = 0.
+    
+    Plates with holes and torn edges, deck with hatches, bulkheads, superstructure, funnel and mast: each
+    part is a closed body, and parts overlap.
+    
+    Parameters
+    ----------
+    length : float
+        [m]
+    seed : int
+        Of holes, of where it broke and how the halves lie.
+    beam, depth : float
+        Breadth, and height from keel to deck [m].
+    thickness : float
+        Of plates [m].
+    list : float
+        By which it leans to starboard [rad].
+    broken : bool
+        In two, the bow turned away.
+    holes : int
+        In its sides.
+    spacing : float
+        Of its plates' triangles [m].
+    
+    Returns
+    -------
+    TriangleMesh
+    
+    Examples
+    --------
+    >>> import bathyal
+    >>> bathyal.mesh_report(bathyal.make_wreck(40, seed=1)).closed
+    True
     """
 def mesh_report(mesh: TriangleMesh, *, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> MeshReport:
     """
@@ -6335,6 +7485,48 @@ def plan_touches(arm: Arm, count: typing.SupportsInt | typing.SupportsIndex, *, 
     >>> bool(plan.worst_tip_std < 0.001)
     True
     """
+def practical_salinity(conductivity: numpy.typing.ArrayLike, temperature: numpy.typing.ArrayLike, pressure: numpy.typing.ArrayLike) -> float | numpy.ndarray:
+    """
+    Practical salinity from conductivity, PSS-78.
+    
+    Parameters
+    ----------
+    conductivity : float or array
+        [S/m]; 0 or less, as of air, gives 0, and NaN stays NaN.
+    temperature : float or array
+        On ITS-90 [°C].
+    pressure : float or array
+        Above the atmosphere's [dbar].
+    
+    Returns
+    -------
+    float or array
+        Practical salinity. It was fitted to salinities of 2 to 42.
+    
+    Examples
+    --------
+    >>> import bathyal
+    >>> round(bathyal.practical_salinity(4.2914, 14.9964, 0.0), 4)
+    35.0
+    """
+def pressure_from_depth(depth: numpy.typing.ArrayLike, latitude: numpy.typing.ArrayLike = 45.0) -> float | numpy.ndarray:
+    """
+    Pressure [dbar] at a depth.
+    
+    The inverse of `depth_from_pressure`, to rounding.
+    
+    Parameters
+    ----------
+    depth : float or array
+        [m]
+    latitude : float or array
+        [deg]
+    
+    Returns
+    -------
+    float or array
+        Above the atmosphere's [dbar].
+    """
 def read_mesh_with(read: collections.abc.Callable) -> None:
     """
     Hand in what reads the corners of a shape's mesh.
@@ -6380,6 +7572,27 @@ def read_text_table(path: os.PathLike | str | bytes, *, separator: str | None = 
     Error
         With file and line: not readable, no text, no rows, no number, rows of different lengths.
     """
+def seawater_density(temperature: numpy.typing.ArrayLike, salinity: numpy.typing.ArrayLike, pressure: numpy.typing.ArrayLike) -> float | numpy.ndarray:
+    """
+    Density of seawater by EOS-80.
+    
+    UNESCO (1981), fitted to −2 to 40 °C, salinity 0 to 42 and 10 000 dbar; the standard error is
+    0.009 kg/m³.
+    
+    Parameters
+    ----------
+    temperature : float or array
+        On ITS-90 [°C].
+    salinity : float or array
+        Practical.
+    pressure : float or array
+        Above the atmosphere's [dbar].
+    
+    Returns
+    -------
+    float or array
+        [kg/m³]
+    """
 def set_simd_level(level: str) -> None:
     """
     Choose a lower instruction set, for tests and benchmarks: results are the same bytes.
@@ -6387,6 +7600,61 @@ def set_simd_level(level: str) -> None:
 def simd_level() -> str:
     """
     The instruction set in use: "baseline" (x86-64-v2), "avx2" or "avx512".
+    """
+def sound_speed(temperature: numpy.typing.ArrayLike, salinity: numpy.typing.ArrayLike, depth: numpy.typing.ArrayLike | None = None, *, pressure: numpy.typing.ArrayLike | None = None, latitude: numpy.typing.ArrayLike = 45.0, longitude: numpy.typing.ArrayLike | None = None, formula: str = 'mackenzie', temperature_scale: str | None = None) -> float | numpy.ndarray:
+    """
+    Speed of sound in seawater.
+    
+    The formulas are as printed, each on the temperature scale of its authors, and numbers broadcast.
+    
+    Parameters
+    ----------
+    temperature : float or array
+        [°C]
+    salinity : float or array
+        Practical.
+    depth : float or array
+        Below the surface [m]; or `pressure`, one of the two.
+    pressure : float or array
+        Above the atmosphere's [dbar]. Where a formula takes the other one, it is converted by TEOS-10
+        at `latitude`, as gsw does.
+    latitude, longitude : float or array
+        North and east [deg]. The longitude only counts for ``"teos10"``: without it absolute salinity
+        is the reference salinity, which is within 0.02 g/kg of it but in the Baltic.
+    formula : str
+        ``"mackenzie"``: Mackenzie (1981), 2 to 30 °C, salinity 25 to 40, to 8 000 m.
+        ``"chen_millero"``: Chen, Millero (1977) in UNESCO 44, 0 to 40 °C, 0 to 40, to 10 000 dbar.
+        ``"del_grosso"``: Del Grosso (1974), 0 to 30 °C, 30 to 40, to 9 807 dbar.
+        ``"teos10"``: of gsw, which has to be installed (``pip install 'bathyal[water]'``).
+    temperature_scale : str, optional
+        ``"ITS-90"`` or ``"IPTS-68"``: what `temperature` is on, to be converted to the formula's scale
+        (T68 = 1.00024 T90). None: it is on the formula's own, IPTS-68 but for TEOS-10. The difference
+        is below 0.02 m/s.
+    
+    Returns
+    -------
+    float or array
+        [m/s]; outside a formula's range it extrapolates, with a `RangeWarning`.
+    
+    Raises
+    ------
+    ValueError
+        For neither or both of depth and pressure, shapes that do not broadcast, and numbers that no
+        water has: NaN, a temperature not from −10 to 60 °C, a salinity not from 0 to 100.
+    Error
+        For ``"teos10"`` without gsw.
+    
+    Examples
+    --------
+    >>> import bathyal
+    >>> round(bathyal.sound_speed(25, 35, 1000), 3)
+    1550.744
+    >>> round(bathyal.sound_speed(40, 40, pressure=10000, formula="chen_millero"), 3)
+    1731.995
+    """
+def sound_speed_teos10_with(speed: collections.abc.Callable) -> None:
+    """
+    Hand in the sound speed of TEOS-10.
     """
 def survey_height(x: numpy.typing.ArrayLike, y: numpy.typing.ArrayLike, *, seed: typing.SupportsInt | typing.SupportsIndex = 0, origin: numpy.typing.ArrayLike = (431200.0, 6172650.0, -38.0), length: typing.SupportsFloat | typing.SupportsIndex = 60.0, width: typing.SupportsFloat | typing.SupportsIndex = 40.0, wave_height: typing.SupportsFloat | typing.SupportsIndex = 0.5, wave_length: typing.SupportsFloat | typing.SupportsIndex = 9.0, ripple_height: typing.SupportsFloat | typing.SupportsIndex = 0.04, roughness: typing.SupportsFloat | typing.SupportsIndex = 0.15, boulders: typing.SupportsInt | typing.SupportsIndex = 30, boulder_radius: typing.SupportsFloat | typing.SupportsIndex = 1.3, trench_depth: typing.SupportsFloat | typing.SupportsIndex = 1.1, trench_width: typing.SupportsFloat | typing.SupportsIndex = 3.5, lines: typing.SupportsInt | typing.SupportsIndex = 2, altitude: typing.SupportsFloat | typing.SupportsIndex = 8.0, opening: typing.SupportsFloat | typing.SupportsIndex = 2.0943951, beams: typing.SupportsInt | typing.SupportsIndex = 256, ping_spacing: typing.SupportsFloat | typing.SupportsIndex = 0.12, lost_width: typing.SupportsFloat | typing.SupportsIndex = 2.0, range_noise: typing.SupportsFloat | typing.SupportsIndex = 0.006, range_noise_rate: typing.SupportsFloat | typing.SupportsIndex = 0.0008, angle_noise: typing.SupportsFloat | typing.SupportsIndex = 0.0006, spike_fraction: typing.SupportsFloat | typing.SupportsIndex = 0.0, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> numpy.ndarray:
     """
@@ -6411,6 +7679,54 @@ def survey_height(x: numpy.typing.ArrayLike, y: numpy.typing.ArrayLike, *, seed:
     >>> bathyal.survey_height([431210.0], [6172660.0], **flat)
     array([-38.])
     """
+def triangle_material(mesh: TriangleMesh) -> numpy.ndarray:
+    """
+    Material of each triangle of a generated bottom.
+    
+    Parameters
+    ----------
+    mesh : TriangleMesh
+        With an attribute ``material`` of the vertices, as make_seabed gives.
+    
+    Returns
+    -------
+    (T,) array of int
+        Rows of ``SeabedModel.materials``: the middle of the values of the three corners.
+def trace_sound(water: Water | Profile, launch_angle: numpy.typing.ArrayLike, travel_time: numpy.typing.ArrayLike, start_depth: numpy.typing.ArrayLike, *, time: typing.SupportsFloat | typing.SupportsIndex = 0.0) -> TracedSound:
+    """
+    Where beams are after their travel times.
+    
+    What reduces a sounding of a multibeam sonar: along the path of sound in a profile. Arguments
+    broadcast.
+    
+    Parameters
+    ----------
+    water : Water or Profile
+    launch_angle : float or array
+        Below the horizontal, −½π to ½π [rad]: ½π minus the angle from the vertical.
+    travel_time : float or array
+        One way [s]: half of what the sonar measures.
+    start_depth : float or array
+        Of the sonar [m].
+    time : float
+        Of the water [s].
+    
+    Returns
+    -------
+    TracedSound
+        ``.across`` and ``.depth`` [m], ``.angle`` [rad]; NaN where the path has met the surface.
+    
+    Examples
+    --------
+    >>> import bathyal
+    >>> mesh = bathyal.make_seabed(1, 0.5)
+    >>> bathyal.triangle_material(mesh)
+    array([0, 0, 0, 0, 0, 0, 0, 0], dtype=int16)
+    >>> cast = bathyal.Profile([0, 10, 100], sound_speed=[1520.0, 1500.0, 1490.0])
+    >>> found = bathyal.trace_sound(cast, [0.5, 1.0], 0.04, 2.0)
+    >>> found.across.round(2).tolist(), found.depth.round(2).tolist()
+    ([52.17, 31.86], [31.56, 52.68])
+    """
 def triangulate(cloud: PointCloud | numpy.typing.ArrayLike, *, max_edge: typing.SupportsFloat | typing.SupportsIndex | None = None, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> tuple[TriangleMesh, SheetReport]:
     """
     The TriangleMesh of a cloud as a height field, and its SheetReport.
@@ -6422,6 +7738,10 @@ def triangulate_delaunay(points: numpy.typing.ArrayLike, *, max_edge: typing.Sup
 def verify_positions(predicted: numpy.typing.ArrayLike, positions: numpy.typing.ArrayLike, *, pairs: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex] = []) -> Verification:
     """
     The comparison behind `verify_arm`, of positions (N, 3) [m].
+    """
+def warn_of_range_with(warn: collections.abc.Callable) -> None:
+    """
+    Hand in what warns of a formula of the water outside its range.
     """
 def warn_of_support_with(warn: collections.abc.Callable) -> None:
     """

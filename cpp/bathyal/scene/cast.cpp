@@ -27,6 +27,20 @@ CastKernels kernels() {
   return baseline_kernels();
 }
 
+InstanceKernels instance_kernels() {
+#if defined(BATHYAL_X86_KERNELS)
+  switch (simd_level()) {
+    case SimdLevel::kAvx512:
+      return avx512_instance_kernels();
+    case SimdLevel::kAvx2:
+      return avx2_instance_kernels();
+    case SimdLevel::kBaseline:
+      break;
+  }
+#endif
+  return baseline_instance_kernels();
+}
+
 RayBatch batch_of(PointView first, PointView second, std::size_t begin, std::size_t end) {
   return {first.data(), first.rows() == 1 && second.rows() != 1 ? 0 : 3, second.data(), begin, end};
 }
@@ -82,7 +96,7 @@ void Scene::cast(PointView origins, PointView directions, std::span<RayHit> hits
                  });
   };
   if (instances_) {
-    cast_all(instances_->view(), scene::kernels().cast_instances);
+    cast_all(instances_->view(), scene::instance_kernels().cast);
   } else {
     cast_all(scene::cast_view(*hierarchy_), scene::kernels().cast);
   }
@@ -103,7 +117,7 @@ std::vector<bool> Scene::occluded(PointView from, PointView to, int num_threads)
                  });
   };
   if (instances_) {
-    look_at_all(instances_->view(), scene::kernels().occluded_instances);
+    look_at_all(instances_->view(), scene::instance_kernels().occluded);
   } else {
     look_at_all(scene::cast_view(*hierarchy_), scene::kernels().occluded);
   }

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "bathyal/base/check.hpp"
 #include "bathyal/base/error.hpp"
@@ -114,6 +115,20 @@ Waves Waves::regular(double height, double period, double direction, double dept
                                .frequency = frequency,
                                .number = {k * std::cos(direction), k * std::sin(direction)},
                                .phase = phase});
+  return waves;
+}
+
+Waves Waves::of(std::vector<WaveComponent> components, double depth) {
+  check_depth_below(depth);
+  for (const WaveComponent& c : components) {
+    check_not_negative("amplitude", c.amplitude);
+    check_positive("frequency", c.frequency);
+    check_positive("number", c.number.norm());
+    check_finite("phase", c.phase);
+  }
+  Waves waves;
+  waves.components_ = std::move(components);
+  waves.depth_ = depth;
   return waves;
 }
 

@@ -50,6 +50,11 @@ class Waves {
   static Waves regular(double height, double period, double direction = 0.0,
                        double depth = std::numeric_limits<double>::infinity(), double phase = 0.0);
 
+  /// Components as given, all of one depth. \throw std::invalid_argument for numbers that are not
+  /// finite, a negative amplitude, or a frequency or wave number that is not above 0.
+  static Waves of(std::vector<WaveComponent> components,
+                  double depth = std::numeric_limits<double>::infinity());
+
   bool flat() const { return components_.empty(); }
   double depth() const { return depth_; }  ///< [m]
   const std::vector<WaveComponent>& components() const { return components_; }

@@ -29,6 +29,18 @@ std::vector<Pose> poses_at(const std::vector<WorldObject>& objects, double time)
   return poses;
 }
 
+/// By the rule of even and odd crossings.
+bool contains(const std::vector<Eigen::Vector2d>& polygon, const Eigen::Vector2d& point) {
+  bool inside = false;
+  for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++) {
+    const Eigen::Vector2d &a = polygon[i], &b = polygon[j];
+    if ((a.y() > point.y()) == (b.y() > point.y())) continue;
+    const double x = a.x() + (point.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x());
+    if (point.x() < x) inside = !inside;
+  }
+  return inside;
+}
+
 bool at_identity(const WorldObject& object) {
   return !object.pose.moves() && object.scale == 1.0 &&
          object.pose.at(0.0).matrix() == Pose::Identity().matrix();
@@ -53,11 +65,14 @@ Scene scene_of(const std::vector<WorldObject>& objects, double time, int num_thr
 World::World() : materials_(std::make_shared<const std::vector<Material>>(material_library())) {}
 
 World::World(const World& other)
-    : objects_(other.objects_), materials_(other.materials_), water_(other.water_) {}
+    : objects_(other.objects_),
+      rows_(other.rows_),
+      materials_(other.materials_), water_(other.water_) {}
 
 World& World::operator=(const World& other) {
   if (this == &other) return *this;
   objects_ = other.objects_;
+  rows_ = other.rows_;
   materials_ = other.materials_;
   water_ = other.water_;
   built_.reset();
@@ -71,12 +86,53 @@ Index World::add(TriangleMesh mesh, Motion pose, const std::string& material, st
   check_positive("scale", scale);
   const std::int32_t row = material_row(material);
   if (name.empty()) name = "object_" + std::to_string(objects_.size());
-  for (const WorldObject& object : objects_) {
-    if (object.name == name) throw_argument("name", "a name that is not taken", quoted(name));
-  }
+  if (rows_.count(name) != 0) throw_argument("name", "a name that is not taken", quoted(name));
+  const auto at = static_cast<Index>(objects_.size());
+  rows_.emplace(name, at);
   objects_.push_back({std::move(name), mesh.snapshot(), std::move(pose), scale, {row, nullptr}});
   built_.reset();
-  return static_cast<Index>(objects_.size()) - 1;
+  return at;
+}
+
+Index World::add_clones(const TriangleMesh& mesh, std::int64_t count, const std::string& material,
+                        const std::string& name, const CloneOptions& options) {
+  const TriangleMesh shared = mesh.snapshot();
+  const auto first = static_cast<Index>(objects_.size());
+  const std::vector<ClonePlace> places = clone_places(shared, count, at(0.0).scene, options);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    std::string one = name;
+    add(shared, places[i].world_from_object, material, one.append("_").append(std::to_string(i)),
+        places[i].scale);
+  }
+  return first;
+}
+
+Index World::paint(const std::string& object, const std::vector<Eigen::Vector2d>& polygon,
+                   const std::string& material) {
+  if (polygon.size() < 3) {
+    throw_argument("polygon", "three corners or more", std::to_string(polygon.size()));
+  }
+  WorldObject& painted = objects_[static_cast<std::size_t>(row_of(object))];
+  const auto colour = static_cast<std::int16_t>(material_row(material));
+  const auto triangles = static_cast<std::size_t>(painted.mesh.triangle_count());
+  auto materials = painted.surface.of_triangle
+                       ? std::make_shared<std::vector<std::int16_t>>(*painted.surface.of_triangle)
+                       : std::make_shared<std::vector<std::int16_t>>(
+                             triangles, static_cast<std::int16_t>(painted.surface.whole));
+  const Pose pose = painted.pose.at(0.0);
+  Index count = 0;
+  for (std::size_t i = 0; i < triangles; ++i) {
+    const auto row = static_cast<Index>(i);
+    const Vec3 sum =
+        painted.mesh.corner(row, 0) + painted.mesh.corner(row, 1) + painted.mesh.corner(row, 2);
+    const Vec3 middle = pose * Vec3(painted.scale / 3.0 * sum);
+    if (!contains(polygon, middle.head<2>())) continue;
+    (*materials)[i] = colour;
+    ++count;
+  }
+  painted.surface.of_triangle = std::move(materials);
+  built_.reset();
+  return count;
 }
 
 void World::set_material(Material material) {
@@ -104,9 +160,8 @@ std::int32_t World::material_row(const std::string& name) const {
 }
 
 Index World::row_of(const std::string& name) const {
-  for (std::size_t i = 0; i < objects_.size(); ++i) {
-    if (objects_[i].name == name) return static_cast<Index>(i);
-  }
+  const auto found = rows_.find(name);
+  if (found != rows_.end()) return found->second;
   throw_argument("object", "the name of an object", quoted(name));
 }
 

@@ -5,9 +5,11 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "bathyal/water/water.hpp"
+#include "bathyal/world/clones.hpp"
 #include "bathyal/world/motion.hpp"
 #include "bathyal/world/snapshot.hpp"
 
@@ -39,6 +41,19 @@ class World {
   Index add(TriangleMesh mesh, Motion pose = {}, const std::string& material = "sand",
             std::string name = {}, double scale = 1.0);
 
+  /// Scatters copies of a mesh over what is there at time 0: rows that share the mesh, named
+  /// name_0, name_1 …
+  /// \return The first of their rows.
+  /// \throw std::invalid_argument as add and clone_places.
+  Index add_clones(const TriangleMesh& mesh, std::int64_t count, const std::string& material,
+                   const std::string& name, const CloneOptions& options = {});
+
+  /// Gives those triangles of an object another material whose middle lies within a polygon, seen
+  /// from above at time 0. \param polygon (K, 2), K ≥ 3, in the world [m]
+  /// \return How many.
+  Index paint(const std::string& object, const std::vector<Eigen::Vector2d>& polygon,
+              const std::string& material);
+
   /// Adds a material, or replaces the one of that name.
   void set_material(Material material);
 
@@ -65,6 +80,7 @@ class World {
   std::shared_ptr<const Built> built(double time, int num_threads) const;
 
   std::vector<WorldObject> objects_;
+  std::unordered_map<std::string, Index> rows_;  ///< by name
   std::shared_ptr<const std::vector<Material>> materials_;
   Water water_;
   mutable std::mutex mutex_;

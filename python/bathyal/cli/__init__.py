@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The command line: bathyal plan · triangulate · info · survey · identify · diagnose · touches ·
-check · reach · sample · scenario."""
+check · reach · sample · scenario · profile."""
 
 from __future__ import annotations
 
@@ -15,6 +15,7 @@ from bathyal.cli.groups import spread
 from bathyal.cli.identify import identify
 from bathyal.cli.info import info
 from bathyal.cli.plan import plan
+from bathyal.cli.profile import profile
 from bathyal.cli.reach import reach
 from bathyal.cli.sample import sample
 from bathyal.cli.scenario_example import example as example_scenario
@@ -38,7 +39,7 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     epilog=_EXIT_CODES,
 )
-for command in (plan, triangulate, info, survey, identify, diagnose, check, reach, sample):
+for command in (plan, triangulate, info, survey, identify, diagnose, check, reach, sample, profile):
     app.command(epilog=_EXIT_CODES)(spread(command))
 
 touches = typer.Typer(rich_markup_mode="rich", no_args_is_help=True)

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import os
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -50,6 +51,20 @@ class SonarRecord:
     """Date and time of time 0 (UTC), where known."""
     warnings: tuple[str, ...] = field(default=())
     """Of the survey or the reader."""
+    sound_speed: float = 1500.0
+    """By which ranges were counted [m/s]."""
 
     def __len__(self) -> int:
         return len(self.time)
+
+    def write(self, path: str | os.PathLike[str]) -> None:
+        """Writes the record: `.xtf`, a side-scan's rows in 16 bits of amplitude.
+
+        Raises
+        ------
+        ValueError
+            For another suffix, or a sonar that the format does not hold.
+        """
+        from bathyal.sonar.files import write_sonar
+
+        write_sonar(self, path)

@@ -30,6 +30,7 @@ class _Collector:
                 np.zeros((*shape, 3)), self.pose,
             )  # fmt: skip
         self.warnings: list[str] = []
+        self.sound_speed = 1500.0
         self._done = 0
         self._progress = progress
 
@@ -40,6 +41,7 @@ class _Collector:
         if self.truth is not None:
             for name in ("range", "incidence", "material", "point"):
                 getattr(self.truth, name)[row] = getattr(ping.truth, name)
+        self.sound_speed = ping.sound_speed
         self.warnings += [f"ping {number}: {text}" for text in ping.warnings]
         self._done += 1
         return self._progress is None or self._progress(self._done, len(self.time)) is not False
@@ -65,4 +67,5 @@ def survey(
     return SonarRecord(
         kept.time[:done], kept.intensity[:done], middles, tuple(sonar.beam_names), navigation,
         kept.truth, sonar, None, tuple(kept.warnings),
+        kept.sound_speed,
     )  # fmt: skip

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bathyal/scene/scene.hpp"
@@ -113,6 +115,36 @@ TEST(Instances, AtTheIdentityTheBytesAreThoseWithoutPoses) {
         });
       }
     }
+  }
+}
+
+TEST(Instances, OfEqualRangesTheLowestRowIsMetAtTheIdentityToo) {
+  // The second row is most of the scene, the third all of it again. The first is a part of it, its
+  // triangles otherwise wound, with a spike that lets rays from above enter its box first.
+  const TriangleMesh all = test::seabed(60, 50);
+  const Index count = all.triangle_count() / 3;
+  PointMatrix vertices(all.vertex_count() + 3, 3);
+  vertices << all.vertices(), 0, 0, 0, 0.01, 0, 0, 0, 0, 20;
+  TriangleMatrix part(count + 1, 3);
+  part.topRows(count).col(0) = all.triangles().topRows(count).col(1);
+  part.topRows(count).col(1) = all.triangles().topRows(count).col(2);
+  part.topRows(count).col(2) = all.triangles().topRows(count).col(0);
+  const auto last = static_cast<std::int32_t>(all.vertex_count());
+  part.row(count) << last, last + 1, last + 2;
+  const std::vector<TriangleMesh> meshes = {
+      {Points(std::move(vertices)), Triangles(std::move(part))}, all, all};
+  const Scene plain(meshes), scene = plain.with_poses(std::vector<Pose>(3, Pose::Identity()));
+  for (const Rays& rays : {random_rays(6000, Vec3(30, 25, 2), Vec3(32, 27, 6), 7),
+                           fans(Vec3(30, 2, 12), Vec3(0, 2.3, 0))}) {
+    const auto truth = plain.cast(view(rays.origins), view(rays.directions), 1);
+    int met[3] = {0, 0, 0};
+    for (const RayHit& hit : truth) {
+      if (hit.mesh >= 0) ++met[hit.mesh];
+    }
+    EXPECT_GT(std::min(met[0], met[1]), 100);
+    EveryLevel().run([&](const std::string& level) {
+      expect_same_bytes(scene.cast(view(rays.origins), view(rays.directions), 2), truth, level);
+    });
   }
 }
 

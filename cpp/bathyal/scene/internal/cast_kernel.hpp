@@ -34,6 +34,7 @@ struct InstancedScene {
   CastScene top;                ///< over the instances' boxes in the world; no blocks and no meshes
   const CastScene* meshes;      ///< the distinct ones, each in its own frame
   const InstanceFrame* frames;  ///< of each row
+  std::int32_t home;            ///< row at the identity with the tree's own origin, −1 for none
 };
 
 /// Rays begin … end − 1 of a batch. `origins` steps by `origin_step` doubles from ray to ray: 3, or
@@ -65,14 +66,22 @@ using OccludedInstancesKernel = std::size_t (*)(const InstancedScene&, const Ray
 struct CastKernels {
   CastKernel cast;
   OccludedKernel occluded;
-  CastInstancesKernel cast_instances;
-  OccludedInstancesKernel occluded_instances;
 };
 
+struct InstanceKernels {
+  CastInstancesKernel cast;
+  OccludedInstancesKernel occluded;
+};
+
+// Those for instances are compiled apart: the compiler then inlines the walk down a hierarchy into
+// the kernels for one as it did without them.
 CastKernels baseline_kernels();
+InstanceKernels baseline_instance_kernels();
 #if defined(BATHYAL_X86_KERNELS)
 CastKernels avx2_kernels();
 CastKernels avx512_kernels();
+InstanceKernels avx2_instance_kernels();
+InstanceKernels avx512_instance_kernels();
 #endif
 
 }  // namespace bathyal::scene

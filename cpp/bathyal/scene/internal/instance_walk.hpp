@@ -37,33 +37,43 @@ inline D bound_of(D t, double length, D start) {
   return padded < 3e38 ? padded : D{} + 3e38;
 }
 
+/// Unit directions of the world's packet and their inverses: what each instance begins with.
+template <class Simd>
+struct Directions {
+  double unit[3][Simd::kRays];
+  double inverse[3][Simd::kRays];
+};
+
 /// The lanes of the world's packet in the frame of an instance.
 template <class Simd>
-inline void turn_rays(const InstanceFrame& frame, const Packet<Simd>& world, int first,
-                      Packet<Simd>& local) {
+inline void turn_rays(const InstanceFrame& frame, const Packet<Simd>& world,
+                      const Directions<Simd>& directions, int first, Packet<Simd>& local,
+                      RayRegister<typename Simd::D>& turned) {
   using D = typename Simd::D;
   RayRegister<D> ray;
   for (int axis = 0; axis < 3; ++axis) {
     ray.o[axis] = load_as<D>(world.o[axis] + first);
     ray.d[axis] = load_as<D>(world.d[axis] + first);
-    ray.unit[axis] = load_as<D>(world.unit[axis] + first);
+    ray.unit[axis] = load_as<D>(directions.unit[axis] + first);
   }
-  RayRegister<D> turned;
   move_back(frame, ray.o, turned.o);
   turn_back(frame, ray.d, turned.d);
   turn_back(frame, ray.unit, turned.unit);
+  set_inverse(turned);
   for (int axis = 0; axis < 3; ++axis) store_as(local.o[axis] + first, turned.o[axis]);
-  shear_rays(local, first, turned);
+  shear_rays(local, first, turned, frame.per_metre);
 }
 
 /// The same at the identity: what turn_rays comes to, without its divisions.
 template <class Simd>
-inline void copy_rays(const Packet<Simd>& world, int first, Packet<Simd>& local) {
+inline void copy_rays(const Packet<Simd>& world, const Directions<Simd>& directions, int first,
+                      Packet<Simd>& local, RayRegister<typename Simd::D>& copied) {
   using D = typename Simd::D;
   for (int axis = 0; axis < 3; ++axis) {
-    store_as(local.o[axis] + first, load_as<D>(world.o[axis] + first));
-    store_as(local.unit[axis] + first, load_as<D>(world.unit[axis] + first));
-    store_as(local.inverse_unit[axis] + first, load_as<D>(world.inverse_unit[axis] + first));
+    copied.o[axis] = load_as<D>(world.o[axis] + first);
+    copied.unit[axis] = load_as<D>(directions.unit[axis] + first);
+    copied.inverse[axis] = load_as<D>(directions.inverse[axis] + first);
+    store_as(local.o[axis] + first, copied.o[axis]);
   }
   store_as(local.sx + first, load_as<D>(world.sx + first));
   store_as(local.sy + first, load_as<D>(world.sy + first));
@@ -75,7 +85,8 @@ inline void copy_rays(const Packet<Simd>& world, int first, Packet<Simd>& local)
 /// mesh's box before they end.
 template <class Simd>
 inline unsigned set_up_instance(const CastScene& mesh, const InstanceFrame& frame,
-                                const Packet<Simd>& world, unsigned rays, Packet<Simd>& local) {
+                                const Packet<Simd>& world, const Directions<Simd>& directions,
+                                unsigned rays, Packet<Simd>& local) {
   using D = typename Simd::D;
   using I = typename Simd::I;
   constexpr unsigned kRegister = (1U << Simd::kDoubles) - 1U;
@@ -84,12 +95,13 @@ inline unsigned set_up_instance(const CastScene& mesh, const InstanceFrame& fram
   for (int first = 0; first < Simd::kRays; first += Simd::kDoubles) {
     const unsigned part = rays >> first & kRegister;
     if (part == 0) continue;
+    RayRegister<D> ray;
     if (frame.at_identity) {
-      copy_rays(world, first, local);
+      copy_rays(world, directions, first, local, ray);
     } else {
-      turn_rays(frame, world, first, local);
+      turn_rays(frame, world, directions, first, local, ray);
     }
-    const unsigned placed = enter_rays(mesh, local, first, Simd::lanes(part));
+    const unsigned placed = enter_rays(mesh, local, first, ray, Simd::lanes(part));
     if (placed == 0) continue;
     const D t = load_as<D>(world.t + first);
     const D bound = bound_of(t, frame.per_metre, load_as<D>(local.start + first));
@@ -133,26 +145,65 @@ inline void keep_nearer(const Packet<Simd>& local, unsigned rays, std::int32_t r
 template <class Simd>
 struct InstancePackets {
   Packet<Simd> world;
+  Directions<Simd> directions;
   Packet<Simd> local;
   Walkers<Simd> walkers;
 };
 
 template <class Simd>
+inline void walk_mesh(const CastScene& mesh, Packet<Simd>& packet, unsigned rays,
+                      Walkers<Simd>& walkers) {
+  if (packet.mixed) {
+    walk_packet<Simd, true>(mesh, packet, rays, walkers);
+  } else {
+    walk_packet<Simd, false>(mesh, packet, rays, walkers);
+  }
+  walkers.walk_all(mesh, packet);
+}
+
+/// The instance whose frame the tree is in: the world's packet walks its mesh as it is. There
+/// primitives are triangles, so what was met in other rows is put away: 0 where it has the lower
+/// row, which no tie beats, else none, which all do.
+template <class Simd>
+inline void visit_home(const InstancedScene& scene, unsigned rays, InstancePackets<Simd>& packets) {
+  using D = typename Simd::D;
+  using I = typename Simd::I;
+  constexpr auto kNone = static_cast<std::int64_t>(kNoPrimitive);
+  const InstanceKey first_key = key_of(scene.home, 0);
+  Packet<Simd>& world = packets.world;
+  alignas(64) double t[Simd::kRays];
+  alignas(64) std::int64_t keys[Simd::kRays];
+  for (int first = 0; first < Simd::kRays; first += Simd::kDoubles) {
+    const I key = load_as<I>(world.primitive + first);
+    store_as(keys + first, key);
+    store_as(t + first, load_as<D>(world.t + first));
+    store_as(world.primitive + first, key < first_key ? I{} : I{} + kNone);
+  }
+  walk_mesh(scene.meshes[scene.frames[scene.home].mesh], world, rays, packets.walkers);
+  for (int first = 0; first < Simd::kRays; first += Simd::kDoubles) {
+    const D before = load_as<D>(t + first);
+    const D now = load_as<D>(world.t + first);
+    const I key = load_as<I>(keys + first);
+    const I triangle = load_as<I>(world.primitive + first);
+    const I tie = (now == before) & (key >= first_key) & (triangle != kNone);
+    const I is_new = (now < before) | tie;
+    store_as(world.primitive + first, is_new ? triangle + first_key : key);
+  }
+}
+
+template <class Simd>
 inline void visit_instance(const InstancedScene& scene, std::int32_t row, unsigned rays,
                            InstancePackets<Simd>& packets) {
+  if (row == scene.home) return visit_home(scene, rays, packets);
   const InstanceFrame& frame = scene.frames[row];
   const CastScene& mesh = scene.meshes[frame.mesh];
   Packet<Simd>& local = packets.local;
-  const unsigned enter = set_up_instance(mesh, frame, packets.world, rays, local);
+  const unsigned enter =
+      set_up_instance(mesh, frame, packets.world, packets.directions, rays, local);
   if (enter == 0) return;
   set_up_cull<Simd>(local);
   find_common<Simd>(local, enter);
-  if (local.mixed) {
-    walk_packet<Simd, true>(mesh, local, enter, packets.walkers);
-  } else {
-    walk_packet<Simd, false>(mesh, local, enter, packets.walkers);
-  }
-  packets.walkers.walk_all(mesh, local);
+  walk_mesh(mesh, local, enter, packets.walkers);
   keep_nearer(local, enter, row, packets.world);
 }
 
@@ -300,10 +351,16 @@ std::size_t cast_instances(const InstancedScene& scene, const RayBatch& batch, R
   InstancePackets<Simd> packets;
   __builtin_memset(&packets.local, 0, sizeof packets.local);
   Packet<Simd>& world = packets.world;
+  const auto keep = [&packets](int first, const RayRegister<typename Simd::D>& ray) {
+    for (int axis = 0; axis < 3; ++axis) {
+      store_as(packets.directions.unit[axis] + first, ray.unit[axis]);
+      store_as(packets.directions.inverse[axis] + first, ray.inverse[axis]);
+    }
+  };
   for (std::size_t row = batch.begin; row < batch.end; row += Simd::kRays) {
     const std::size_t left = batch.end - row;
     const int count = left < Simd::kRays ? static_cast<int>(left) : Simd::kRays;
-    const SetUp lanes = set_up<Simd>(scene.top, batch, row, count, world);
+    const SetUp lanes = set_up<Simd>(scene.top, batch, row, count, world, keep);
     if (scene.top.nodes != nullptr && lanes.enter != 0) {
       if (world.mixed) {
         walk_instances<Simd, true>(scene, lanes.enter, packets);

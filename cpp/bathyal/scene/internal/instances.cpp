@@ -52,22 +52,33 @@ double radius_of(const Scene::Hierarchy& hierarchy, int num_threads) {
   return std::sqrt(largest.squared);
 }
 
-/// The rotation itself where it is one to a few digits of double's last, else the nearest one: rays
-/// are turned into the mesh's frame by its transpose, which must be its inverse.
-Eigen::Matrix3d nearest_rotation(const Eigen::Matrix3d& given) {
+/// Largest deviation of rotationᵀ · rotation from the identity.
+double skewness(const Eigen::Matrix3d& rotation, Eigen::Matrix3d& product) {
+  product.noalias() = rotation.transpose() * rotation;
+  return (product - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
+}
+
+/// The pose's rotation itself where it is one to a few digits of double's last, else the nearest
+/// one: rays are turned into the mesh's frame by its transpose, which must be its inverse.
+/// \throw std::invalid_argument for a pose that is not rigid.
+Eigen::Matrix3d checked_rotation(std::size_t row, const Pose& pose) {
   constexpr double kExact = 1e-14;
-  Eigen::Matrix3d rotation = given;
-  for (int i = 0; i < 4; ++i) {  // Newton; what is off by 1e-6 converges in two steps
-    const Eigen::Matrix3d product = rotation.transpose() * rotation;
-    if ((product - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() <= kExact) break;
+  Eigen::Matrix3d rotation = pose.linear(), product;
+  const bool is_exact = skewness(rotation, product) <= kExact;
+  if (!is_exact || !(rotation.determinant() > 0.0) || !pose.translation().allFinite() ||
+      pose.matrix().row(3) != Eigen::RowVector4d(0, 0, 0, 1)) {
+    check_rigid("poses[" + std::to_string(row) + "]", pose);
+  }
+  if (is_exact) return rotation;
+  for (int i = 0; i < 4 && skewness(rotation, product) > kExact; ++i) {  // Newton: two steps do
     rotation = rotation * (1.5 * Eigen::Matrix3d::Identity() - 0.5 * product);
   }
   return rotation;
 }
 
-InstanceFrame frame_of(const Pose& pose, double scale, std::int32_t mesh) {
+InstanceFrame frame_of(std::size_t row, const Pose& pose, double scale, std::int32_t mesh) {
   InstanceFrame frame;
-  Eigen::Map<RowMajor3>(&frame.rotation[0][0]) = nearest_rotation(pose.linear());
+  Eigen::Map<RowMajor3>(&frame.rotation[0][0]) = checked_rotation(row, pose);
   Eigen::Map<Vec3>(frame.position) = pose.translation();
   frame.scale = scale;
   frame.per_metre = 1.0 / scale;
@@ -154,12 +165,7 @@ void check_counts(std::size_t rows, const std::vector<Pose>& poses,
   }
 }
 
-void check_instance(std::size_t row, const Pose& pose, double scale) {
-  const Eigen::Matrix3d r = pose.linear();
-  const bool surely = pose.matrix().allFinite() && (r.transpose() * r).isIdentity(1e-9) &&
-                      pose.matrix().row(3) == Eigen::RowVector4d(0, 0, 0, 1) &&
-                      r.determinant() > 0.0;
-  if (!surely) check_rigid("poses[" + std::to_string(row) + "]", pose);
+void check_scale(std::size_t row, double scale) {
   if (scale >= kLeastScale && scale <= kLargestScale) return;
   throw_argument("scales[" + std::to_string(row) + "]", "a number above 0, from 1e-9 to 1e9",
                  to_text(scale));
@@ -174,13 +180,27 @@ Extent3 set_frames(const InstanceMeshes& shared, const std::vector<Pose>& poses,
                                  Extent3 part;
                                  for (std::size_t i = begin; i < end; ++i) {
                                    const double scale = scales.empty() ? 1.0 : scales[i];
-                                   check_instance(i, poses[i], scale);
-                                   frames[i] = frame_of(poses[i], scale, shared.number[i]);
+                                   check_scale(i, scale);
+                                   frames[i] = frame_of(i, poses[i], scale, shared.number[i]);
                                    if (shared.has_triangles(i))
                                      part += extent_in_world(frames[i], shared);
                                  }
                                  return part;
                                });
+}
+
+/// The row at the identity with the most triangles, the first of several; −1 where none is.
+std::int32_t find_home(const InstanceMeshes& shared, const PageArray<InstanceFrame>& frames) {
+  std::int32_t home = -1;
+  std::uint32_t most = 0;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const std::uint32_t count =
+        shared.hierarchies[static_cast<std::size_t>(frames[i].mesh)]->primitive_count;
+    if (!frames[i].at_identity || count <= most) continue;
+    home = static_cast<std::int32_t>(i);
+    most = count;
+  }
+  return home;
 }
 
 /// Boxes in `local` of the rows with triangles.
@@ -273,7 +293,11 @@ Scene::Instances::Instances(std::shared_ptr<const scene::InstanceMeshes> given,
   if (!(half <= scene::kLargestReach)) {
     throw_argument("poses", "triangles within 1e12 m of their middle", to_text(half) + " m");
   }
-  origin = (0.5 * world.low + 0.5 * world.high).array().round();
+  constexpr double kMostOfIt = 0.25;
+  home = scene::find_home(*shared, frames);
+  if (home >= 0 && hierarchy(home).reach() < kMostOfIt * half) home = -1;
+  origin = home >= 0 ? hierarchy(home).origin
+                     : Vec3((0.5 * world.low + 0.5 * world.high).array().round());
   const double room = scene::kInstancePad * origin.lpNorm<1>();
   low = (world.low - origin).array() - room;
   high = (world.high - origin).array() + room;
@@ -290,6 +314,7 @@ scene::InstancedScene Scene::Instances::view() const {
   view.top.far_pad = scene::kInstancePad;
   view.meshes = shared->views.data();
   view.frames = frames.data();
+  view.home = home;
   return view;
 }
 

@@ -73,6 +73,11 @@ struct Scene::Instances : scene::LocalFrame {
 
   std::shared_ptr<const scene::InstanceMeshes> shared;
   PageArray<scene::InstanceFrame> frames;  ///< of each row
+
+  /// A row at the identity that is most of the scene (a bottom), or −1. The tree counts from the
+  /// origin of its hierarchy, so that a packet of rays set up for the tree serves for both.
+  std::int32_t home = -1;
+
   PageArray<scene::WideNode> nodes;
 };
 

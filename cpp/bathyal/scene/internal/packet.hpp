@@ -16,8 +16,6 @@ struct alignas(64) Packet {
 
   double o[3][kRays];
   double d[3][kRays];  ///< as given
-  double unit[3][kRays];
-  double inverse_unit[3][kRays];
   double sx[kRays];
   double sy[kRays];
   double slope[kRays];
@@ -73,12 +71,14 @@ struct RayRegister {
   D o[3];
   D d[3];
   D unit[3];
+  D inverse[3];  ///< 1 / unit, finite
 };
 
 /// What the double decision takes of the lanes' directions, where one unit of t is `length` [m] of
 /// way in the packet's frame.
 template <class Simd>
-inline void shear_rays(Packet<Simd>& packet, int first, const RayRegister<typename Simd::D>& ray) {
+inline void shear_rays(Packet<Simd>& packet, int first, const RayRegister<typename Simd::D>& ray,
+                       double length) {
   using D = typename Simd::D;
   using I = typename Simd::I;
   const D x = absolute_of(ray.d[0]);
@@ -92,13 +92,15 @@ inline void shear_rays(Packet<Simd>& packet, int first, const RayRegister<typena
   store_as(packet.sx + first, (along_x ? ray.d[1] : along_y ? ray.d[2] : ray.d[0]) / major);
   store_as(packet.sy + first, (along_x ? ray.d[2] : along_y ? ray.d[0] : ray.d[1]) / major);
   const D slope = along_x ? ray.unit[0] : along_y ? ray.unit[1] : ray.unit[2];
-  store_as(packet.slope + first, slope * packet.length);
+  store_as(packet.slope + first, slope * length);
   store_as(packet.kz + first, along_x ? I{} : along_y ? I{} + 1 : I{} + 2);
+}
+
+template <class D>
+inline void set_inverse(RayRegister<D>& ray) {
   for (int axis = 0; axis < 3; ++axis) {
     const D unit = ray.unit[axis];
-    store_as(packet.unit[axis] + first, unit);
-    store_as(packet.inverse_unit[axis] + first,
-             1.0 / (absolute_of(unit) > 1e-200 ? unit : D{} + 1e-200));
+    ray.inverse[axis] = 1.0 / (absolute_of(unit) > 1e-200 ? unit : D{} + 1e-200);
   }
 }
 
@@ -106,12 +108,12 @@ inline void shear_rays(Packet<Simd>& packet, int first, const RayRegister<typena
 /// for each of those that are `fine`.
 template <class Simd>
 inline unsigned enter_rays(const CastScene& scene, Packet<Simd>& packet, int first,
-                           typename Simd::I fine) {
+                           const RayRegister<typename Simd::D>& ray, typename Simd::I fine) {
   using D = typename Simd::D;
   D o[3];
   D distance = D{};
   for (int axis = 0; axis < 3; ++axis) {
-    o[axis] = load_as<D>(packet.o[axis] + first) - scene.origin[axis];
+    o[axis] = ray.o[axis] - scene.origin[axis];
     distance = distance + absolute_of(o[axis]);
   }
   const D far = scene.far_pad * distance;
@@ -119,9 +121,8 @@ inline unsigned enter_rays(const CastScene& scene, Packet<Simd>& packet, int fir
   D start = D{};
   D end = D{} + __builtin_inf();
   for (int axis = 0; axis < 3; ++axis) {
-    const D inverse = load_as<D>(packet.inverse_unit[axis] + first);
-    const D a = (scene.low[axis] - 2.0 * pad - o[axis]) * inverse;
-    const D b = (scene.high[axis] + 2.0 * pad - o[axis]) * inverse;
+    const D a = (scene.low[axis] - 2.0 * pad - o[axis]) * ray.inverse[axis];
+    const D b = (scene.high[axis] + 2.0 * pad - o[axis]) * ray.inverse[axis];
     const D least = a < b ? a : b;
     const D most = a < b ? b : a;
     start = start > least ? start : least;
@@ -129,18 +130,19 @@ inline unsigned enter_rays(const CastScene& scene, Packet<Simd>& packet, int fir
   }
   store_as(packet.start + first, start);
   for (int axis = 0; axis < 3; ++axis) {
-    const D unit = load_as<D>(packet.unit[axis] + first);
-    Simd::store_narrow(packet.cull_o[axis] + first, o[axis] + start * unit);
-    Simd::store_narrow(packet.cull_d[axis] + first, unit);
+    Simd::store_narrow(packet.cull_o[axis] + first, o[axis] + start * ray.unit[axis]);
+    Simd::store_narrow(packet.cull_d[axis] + first, ray.unit[axis]);
   }
   Simd::store_narrow(packet.box_pad + first, pad);
   Simd::store_narrow(packet.triangle_pad + first, kTrianglePad * scene.reach + 4.0 * far);
   return Simd::bits(fine & (start <= end) & (distance < kFarthest));
 }
 
-/// The double half of setting up, for the lanes from `first` on that fill a register.
-template <class Simd>
-inline SetUp set_up_exact(const CastScene& scene, Packet<Simd>& packet, int first) {
+/// The double half of setting up, for the lanes from `first` on that fill a register, of which
+/// `keep(first, ray)` may take what it wants.
+template <class Simd, class Keep>
+inline SetUp set_up_exact(const CastScene& scene, Packet<Simd>& packet, int first,
+                          const Keep& keep) {
   using D = typename Simd::D;
   using I = typename Simd::I;
   RayRegister<D> ray;
@@ -154,8 +156,10 @@ inline SetUp set_up_exact(const CastScene& scene, Packet<Simd>& packet, int firs
   const I fine = (square > 1e-200) & (square < 1e200) & (sum - sum == 0.0);
   const D length = Simd::root(square);
   for (int axis = 0; axis < 3; ++axis) ray.unit[axis] = ray.d[axis] / length;
-  shear_rays(packet, first, ray);
-  return {enter_rays(scene, packet, first, fine), Simd::bits(~fine)};
+  set_inverse(ray);
+  keep(first, ray);
+  shear_rays(packet, first, ray, 1.0);
+  return {enter_rays(scene, packet, first, ray, fine), Simd::bits(~fine)};
 }
 
 /// The float half, for all lanes.
@@ -187,16 +191,19 @@ inline void find_common(Packet<Simd>& packet, unsigned enter) {
     packet.backward[axis] = forward == 0;
     packet.mixed = packet.mixed || (forward != 0 && forward != enter);
   }
-  packet.common_kz = static_cast<int>(packet.kz[__builtin_ctz(enter)]);
-  for (unsigned rest = enter; rest != 0; rest &= rest - 1) {
-    if (packet.kz[__builtin_ctz(rest)] != packet.common_kz) packet.common_kz = -1;
+  using I = typename Simd::I;
+  const std::int64_t kz = packet.kz[__builtin_ctz(enter)];
+  unsigned others = 0;
+  for (int first = 0; first < Simd::kRays; first += Simd::kDoubles) {
+    others |= Simd::bits(load_as<I>(packet.kz + first) != kz) << first;
   }
+  packet.common_kz = (others & enter) == 0 ? static_cast<int>(kz) : -1;
 }
 
 /// Sets up rays row … row + count − 1; lanes beyond `count` repeat the last.
-template <class Simd>
+template <class Simd, class Keep>
 inline SetUp set_up(const CastScene& scene, const RayBatch& batch, std::size_t row, int count,
-                    Packet<Simd>& packet) {
+                    Packet<Simd>& packet, const Keep& keep) {
   constexpr int kRays = Simd::kRays;
   const double* origin = batch.origins + static_cast<std::ptrdiff_t>(row) * batch.origin_step;
   const double* direction = batch.directions + 3 * row;
@@ -213,7 +220,7 @@ inline SetUp set_up(const CastScene& scene, const RayBatch& batch, std::size_t r
   packet.length = 1.0;
   SetUp lanes;
   for (int first = 0; first < kRays; first += Simd::kDoubles) {
-    const SetUp part = set_up_exact<Simd>(scene, packet, first);
+    const SetUp part = set_up_exact<Simd>(scene, packet, first, keep);
     lanes.enter |= part.enter << first;
     lanes.suspect |= part.suspect << first;
   }

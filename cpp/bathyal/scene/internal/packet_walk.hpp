@@ -245,7 +245,8 @@ std::size_t cast(const CastScene& scene, const RayBatch& batch, RayHit* hits) {
   for (std::size_t row = batch.begin; row < batch.end; row += Simd::kRays) {
     const std::size_t left = batch.end - row;
     const int count = left < Simd::kRays ? static_cast<int>(left) : Simd::kRays;
-    const SetUp lanes = set_up<Simd>(scene, batch, row, count, packet);
+    const SetUp lanes = set_up<Simd>(scene, batch, row, count, packet,
+                                     [](int, const RayRegister<typename Simd::D>&) {});
     if (scene.nodes != nullptr && lanes.enter != 0) {
       if (packet.mixed) {
         walk_packet<Simd, true>(scene, packet, lanes.enter, walkers);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "bathyal/scene/world/survey.hpp"
+#include "bathyal/world/survey/survey.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "bathyal/base/random.hpp"
-#include "bathyal/scene/world/survey.hpp"
+#include "bathyal/world/survey/survey.hpp"
 
 namespace bathyal {
 namespace {

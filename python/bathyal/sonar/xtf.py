@@ -1,0 +1,98 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Records from XTF files, and XTF files of records."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from bathyal._core import XtfFile, make_xtf, parse_xtf
+from bathyal.errors import argument_error
+from bathyal.sonar.navigation import Navigation
+from bathyal.sonar.record import SonarRecord
+
+_EPOCH = np.datetime64("1970-01-01T00:00:00.000")
+
+
+def is_xtf(head: bytes) -> bool:
+    """Whether a file may be an XTF by its first bytes."""
+    return head[:1] == b"{" and len(head) >= 2 and head[1] in range(0, 10)
+
+
+def record_of_xtf(data: bytes) -> SonarRecord:
+    """The side-scan pings of an XTF file: intensity is the square of the stored amplitude.
+
+    Raises
+    ------
+    bathyal.Error
+        For what is no XTF file, or one without side-scan channels.
+    """
+    file = parse_xtf(data)
+    pings = file.sidescan()
+    column = {name: np.asarray(values) for name, values in pings.column.items()}
+    time = column["time"]
+    known = time[np.isfinite(time)]
+    start = np.floor(known.min()) if len(known) else 0.0
+    nowhere = np.full((len(time), 3), np.nan)
+    position = np.column_stack([column["x"], column["y"], -column["depth"]])
+    navigation = Navigation(
+        time - start,
+        nowhere if pings.geographic else position,
+        column["heading"], column["pitch"], column["roll"], column["depth"], column["altitude"],
+        column["speed"],
+        column["y"] if pings.geographic else None,
+        column["x"] if pings.geographic else None,
+    )  # fmt: skip
+    samples = pings.amplitude.shape[2]
+    reach = np.asarray(pings.slant_range)
+    range_end = float(np.nanmax(reach)) if np.isfinite(reach).any() else float(samples)
+    return SonarRecord(
+        time - start, np.square(pings.amplitude), (np.arange(samples) + 0.5) * range_end / samples,
+        tuple(pings.beam_names), navigation, None, None,
+        _EPOCH + np.timedelta64(round(1000 * start), "ms"), tuple(_warnings(file, reach)),
+    )  # fmt: skip
+
+
+def _warnings(file: XtfFile, reach: np.ndarray) -> list[str]:
+    found = []
+    if file.damaged or file.lost_bytes:
+        found.append(f"{file.damaged} damaged packets, {file.lost_bytes} bytes left out")
+    if file.other_packets:
+        counts = ", ".join(f"{n} of type {kind}" for kind, n in file.other_packets.items())
+        found.append(f"packets that are no sonar pings: {counts}")
+    known = reach[np.isfinite(reach)]
+    if len(known) and np.ptp(known) > 1e-3 * known.max():
+        found.append(f"slant range varies from {known.min():g} to {known.max():g} m")
+    return found
+
+
+def xtf_of_record(record: SonarRecord) -> bytes:
+    """An XTF file of a side-scan record, 16 bits a sample.
+
+    Raises
+    ------
+    ValueError
+        For a record that is no side-scan's.
+    """
+    if not set(record.beam_names) <= {"port", "starboard"}:
+        raise argument_error("path", "a format for this sonar: XTF holds side-scan rows", ".xtf")
+    nav = record.navigation
+    start = record.start if record.start is not None else _EPOCH
+    origin = float((start - _EPOCH) / np.timedelta64(1, "s"))
+    geographic = nav.latitude is not None and nav.longitude is not None
+    sound_speed = np.full(len(record.time), record.sound_speed)
+    columns = {
+        "time": record.time + origin,
+        "x": nav.longitude if geographic else nav.position[:, 0],
+        "y": nav.latitude if geographic else nav.position[:, 1],
+        "depth": nav.depth, "altitude": nav.altitude, "heading": nav.heading, "pitch": nav.pitch,
+        "roll": nav.roll, "speed": nav.speed, "sound_speed": sound_speed,
+    }  # fmt: skip
+    spacing = 2 * record.range[0]
+    file = make_xtf(
+        np.sqrt(record.intensity), list(record.beam_names), columns,
+        slant_range=spacing * len(record.range),
+        frequency=record.sonar.frequency if record.sonar else 0.0,
+        geographic=geographic,
+        sonar_name=record.sonar.name if record.sonar else "bathyal",
+    )  # fmt: skip
+    return file.to_bytes()
