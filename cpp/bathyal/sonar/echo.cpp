@@ -3,148 +3,30 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <utility>
 
 #include "bathyal/base/error.hpp"
 #include "bathyal/base/parallel.hpp"
+#include "bathyal/sonar/backscatter.hpp"
+#include "bathyal/sonar/internal/bent_paths.hpp"
 #include "bathyal/sonar/internal/echo_rows.hpp"
-#include "bathyal/sonar/internal/facets.hpp"
 #include "bathyal/sonar/internal/ray_fan.hpp"
+#include "bathyal/sonar/internal/scatter_tables.hpp"
 #include "bathyal/sonar/internal/surroundings.hpp"
+#include "bathyal/sonar/internal/tracer.hpp"
 
 namespace bathyal {
 
 struct Sonar::State {
   SonarOptions options;
   std::vector<sonar::BeamRays> fans;
+  mutable sonar::ScatterCache scatter = {};
 };
 
 namespace sonar {
 namespace {
-
-constexpr std::size_t kRaysOfTask = 32768;  ///< whole columns, about as many
-constexpr std::size_t kRaysOfCast = 2048;   ///< their hits stay in the cache
-constexpr double kLeastCosine = 1e-4;       ///< at which a surface is seen along its edge
-
-/// Columns of one beam that are traced as one.
-struct Task {
-  std::size_t beam;
-  std::size_t first_column, last_column;
-};
-
-std::vector<Task> tasks_of(const std::vector<BeamRays>& fans) {
-  std::vector<Task> tasks;
-  for (std::size_t beam = 0; beam < fans.size(); ++beam) {
-    const std::vector<std::size_t>& columns = fans[beam].columns;
-    std::size_t first = 0;
-    for (std::size_t column = 1; column < columns.size(); ++column) {
-      if (columns[column] - columns[first] < kRaysOfTask && column + 1 < columns.size()) continue;
-      tasks.push_back({beam, first, column});
-      first = column;
-    }
-  }
-  return tasks;
-}
-
-/// What a thread works with from task to task.
-struct Scratch {
-  EchoRow row;
-  std::vector<double> directions = std::vector<double>(3 * kRaysOfCast);
-  std::vector<RayHit> hits = std::vector<RayHit>(kRaysOfCast);
-};
-
-/// Traces rays of a sonar that rests in the world.
-class Tracer {
- public:
-  Tracer(const SonarOptions& options, const WorldSnapshot& world, const Pose& world_from_head)
-      : options_(options), world_(world), facets_(world.scene), world_from_head_(world_from_head) {}
-
-  EchoPart trace(const BeamRays& fan, const Task& task) const {
-    thread_local Scratch scratch;
-    auto& [row, directions, hits] = scratch;
-    row.reset(static_cast<std::size_t>(options_.samples), options_.sample_length());
-    const Vec3 array = world_from_head_.linear() * fan.beam.array;
-    for (std::size_t column = task.first_column; column < task.last_column; ++column) {
-      double farthest = 0.0;  // of what lies lower in the column
-      for (std::size_t first = fan.columns[column]; first < fan.columns[column + 1];
-           first += kRaysOfCast) {
-        const std::size_t count = std::min(kRaysOfCast, fan.columns[column + 1] - first);
-        cast(fan, first, count, directions, hits);
-        for (std::size_t i = 0; i < count; ++i) {
-          if (hits[i].mesh < 0 || hits[i].range > options_.range * 1.5) continue;
-          if (!options_.layover) {
-            if (hits[i].range < farthest - options_.sample_length()) continue;
-            farthest = std::max(farthest, hits[i].range);
-          }
-          const Eigen::Map<const Vec3> direction(directions.data() + 3 * i);
-          row.add(returned(fan, array, direction, fan.weight[first + i], hits[i]));
-        }
-      }
-    }
-    return row.take();
-  }
-
- private:
-  void cast(const BeamRays& fan, std::size_t first, std::size_t count,
-            std::vector<double>& directions, std::vector<RayHit>& hits) const {
-    const Eigen::Matrix3d turn = world_from_head_.linear();
-    for (std::size_t i = 0; i < count; ++i) {
-      Eigen::Map<Vec3>(directions.data() + 3 * i) =
-          turn * Eigen::Map<const Vec3>(fan.direction.data() + 3 * (first + i));
-    }
-    const Vec3 origin = world_from_head_.translation();
-    world_.scene.cast(PointView(origin.data(), 1, 3),
-                      PointView(directions.data(), static_cast<Index>(count), 3),
-                      std::span<RayHit>(hits.data(), count), 1);
-  }
-
-  Return returned(const BeamRays& fan, const Vec3& array, const Vec3& direction, double weight,
-                  const RayHit& hit) const {
-    const Vec3 normal = facets_.normal(hit);
-    const double against = normal.dot(direction);
-    const double cosine = std::max(std::abs(against), kLeastCosine);
-    Return back;
-    back.range = hit.range;
-    back.incidence_cosine = std::min(cosine, 1.0);
-    back.material = world_.material(hit);
-    back.point = world_from_head_.translation() + hit.range * direction;
-    const Material& material = (*world_.materials)[static_cast<std::size_t>(back.material)];
-    back.weight = weight * power(material.strength * cosine, hit.range);
-    if (fan.half_psi > 0.0) spread(fan, array, direction, normal, against, back);
-    return back;
-  }
-
-  /// Of σ₀ / cos θ. Pixels carry no range of their own; angles cover R² of it.
-  double power(double scattered, double range) const {
-    const double square = range * range;
-    if (options_.spreading) return scattered / square;
-    return options_.rays == RayModel::kCamera ? scattered : scattered * square;
-  }
-
-  /// The ranges that the ray's cell covers on the plane of the facet.
-  void spread(const BeamRays& fan, const Vec3& array, const Vec3& direction, const Vec3& normal,
-              double against, Return& back) const {
-    const double facing = std::copysign(std::max(std::abs(against), kLeastCosine), against);
-    const Vec3 by_psi = fan.beam.sense * array.cross(direction);
-    const double sine = direction.dot(array);
-    const double steep_psi = -normal.dot(by_psi) / facing;
-    const double steep_phi =
-        -(normal.dot(array) - sine * against) / (facing * std::max(1.0 - sine * sine, 1e-6));
-    const double half_psi = std::abs(steep_psi) * fan.half_psi;
-    const double half_phi = std::abs(steep_phi) * fan.half_phi;
-    back.half = back.range * std::max(half_psi, half_phi);
-    if (half_psi >= half_phi && steep_psi != 0.0)
-      back.slide = direction + by_psi / steep_psi;
-    else if (steep_phi != 0.0)
-      back.slide = direction + (array - sine * direction) / steep_phi;
-  }
-
-  const SonarOptions& options_;
-  const WorldSnapshot& world_;
-  Facets facets_;
-  Pose world_from_head_;
-};
 
 void write_row(const EchoPart& row, std::size_t beam, Echo& echo) {
   for (std::size_t i = 0; i < row.power.size(); ++i) {
@@ -169,6 +51,26 @@ void absorb(const SonarOptions& options, double decibels_per_km, Echo& echo) {
   }
 }
 
+/// What is worth knowing of a ping.
+void add_notes(const SonarOptions& options, const Water& water, double z,
+               const ScatterTables& scatter, Echo& echo) {
+  if (echo.altitude > options.range) {
+    echo.warnings.push_back("the range of " + to_text(options.range) +
+                            " m ends above the bottom, " + to_text(echo.altitude) +
+                            " m straight below");
+  }
+  const double bottom =
+      water.depth(z) + (std::isnan(echo.altitude) ? options.range : echo.altitude);
+  if (options.refraction && water.varies() && !water.covers(bottom)) {
+    echo.warnings.push_back("the profile of the water ends at " + to_text(water.deepest()) +
+                            " m, above the bottom; below it sound runs straight");
+  }
+  if (scatter.uses_sediment()) {
+    std::string note = extrapolated(options.frequency);
+    if (!note.empty()) echo.notes.push_back(std::move(note));
+  }
+}
+
 Echo empty_echo(const SonarOptions& options) {
   Echo echo;
   echo.beams = options.beams;
@@ -187,7 +89,7 @@ Echo empty_echo(const SonarOptions& options) {
 Sonar::Sonar(SonarOptions options) {
   options.check();
   std::vector<sonar::BeamRays> fans = sonar::ray_fans(options);
-  state_ = std::make_shared<const State>(State{std::move(options), std::move(fans)});
+  state_ = std::make_shared<const State>(std::move(options), std::move(fans));
 }
 
 const SonarOptions& Sonar::options() const { return state_->options; }
@@ -201,23 +103,36 @@ std::int64_t Sonar::ray_count() const {
 }
 
 Echo Sonar::echo(const WorldSnapshot& world, const Water& water, const Pose& world_from_vehicle,
-                 std::int64_t ping, int num_threads) const {
+                 std::int64_t ping, int num_threads, const VehicleMotion& motion) const {
   const SonarOptions& options = state_->options;
   check_rigid("world_from_vehicle", world_from_vehicle);
+  motion.check();
   resolve_threads(num_threads);
   const Pose world_from_head =
       world_from_vehicle * options.vehicle_from_sonar * head_pose(options, ping);
+  const Vec3 head = world_from_head.translation();
 
   Echo echo = sonar::empty_echo(options);
-  echo.altitude = sonar::checked_altitude(world, water, world_from_head.translation());
-  echo.sound_speed = water.sound_speed(world_from_head.translation().z(), world.time);
-  if (echo.altitude > options.range) {
-    echo.warnings.push_back("the range of " + to_text(options.range) +
-                            " m ends above the bottom, " + to_text(echo.altitude) +
-                            " m straight below");
+  echo.altitude = sonar::checked_altitude(world, water, head);
+  echo.sound_speed = water.sound_speed(head.z(), world.time);
+  const auto scatter = state_->scatter.tables(options, world.materials);
+  sonar::add_notes(options, water, head.z(), *scatter, echo);
+
+  sonar::Setting setting{options, world, *scatter, world_from_head};
+  setting.sound_speed = echo.sound_speed;
+  setting.sonar_depth = water.depth(head.z());
+  if (water.surface()) setting.surface = water.surface_height(head.x(), head.y(), world.time);
+  std::optional<sonar::BentPaths> bent;
+  if (options.refraction && water.varies()) {
+    bent.emplace(water.speed_profile(world.time), setting.sonar_depth, options.range, num_threads);
+    setting.bent = &*bent;
+  }
+  if (options.motion) {
+    const Vec3 arm = head - world_from_vehicle.translation();
+    setting.motion = {motion.velocity + motion.rate.cross(arm), motion.rate};
   }
 
-  const sonar::Tracer tracer(options, world, world_from_head);
+  const sonar::Tracer tracer(setting);
   const std::vector<sonar::Task> tasks = sonar::tasks_of(state_->fans);
   std::vector<sonar::EchoPart> parts(tasks.size());
   parallel_for(tasks.size(), 1, num_threads, [&](std::size_t begin, std::size_t end) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "bathyal/sonar/sonar.hpp"
+#include "bathyal/sonar/vehicle_motion.hpp"
 #include "bathyal/water/water.hpp"
 #include "bathyal/world/snapshot.hpp"
 
@@ -17,7 +18,7 @@ namespace bathyal {
 struct EchoTruth {
   std::vector<double> range;           ///< one-way from the sonar [m]
   std::vector<double> incidence;       ///< from the surface's normal [rad]
-  std::vector<std::int32_t> material;  ///< row of the world's materials
+  std::vector<std::int32_t> material;  ///< row of the world's materials; −2 the sea surface
   std::vector<double> point;           ///< (…, 3) in the world [m]
 };
 
@@ -30,6 +31,7 @@ struct Echo {
   double sound_speed = 0.0;  ///< at the sonar, by which ranges are counted [m/s]
   double altitude = std::numeric_limits<double>::quiet_NaN();  ///< straight down; NaN: nothing [m]
   std::vector<std::string> warnings;
+  std::vector<std::string> notes;  ///< of what a result rests on, "extrapolated: …"
 };
 
 /// A sonar made ready: its rays are computed once. Immutable, cheap to copy; any number of threads
@@ -45,8 +47,12 @@ struct Echo {
 ///
 /// The power of a ray belongs to the ranges that its cell covers on the plane of what it met, R ±
 /// ½ R |n·∂u/∂ψ| / |n·u| Δψ, and is spread over their samples; what lies beyond the last sample is
-/// not heard. With RayModel::kCamera (Bobkov and others 2014) every pixel counts the same,
-/// I = K_d cos θ, and all of it falls into one sample, E_s = Σ I; spreading divides by R².
+/// not heard. Ranges count by time: R = ½ c₀ t, with c₀ the sound speed at the sonar. Where sound
+/// is bent, R² in w is the area that a tube of rays has spread to over its solid angle (within 0.1
+/// to 10 of the straight one's, near caustics); after reflections R is the whole way, and w has
+/// |Γ|⁴ of each, there and back. What lies above a sea surface is not seen. With RayModel::kCamera
+/// (Bobkov and others 2014) every pixel counts the same, I = K_d cos θ, and all of it falls into
+/// one sample, E_s = Σ I; spreading divides by R².
 class Sonar {
  public:
   /// \throw std::invalid_argument as SonarOptions::check, or for more than 3·10⁸ rays a ping.
@@ -54,12 +60,12 @@ class Sonar {
 
   const SonarOptions& options() const;
 
-  /// The echo of one ping. `ping` counts the pings of a scanning head. The same bytes for any
-  /// number of threads.
+  /// The echo of one ping. `ping` counts the pings of a scanning head. `motion` counts where
+  /// SonarOptions::motion is on. The same bytes for any number of threads.
   /// \throw std::invalid_argument for a pose that is not rigid, a sonar above the surface, below
   ///        the bottom or inside a body.
   Echo echo(const WorldSnapshot& world, const Water& water, const Pose& world_from_vehicle,
-            std::int64_t ping = 0, int num_threads = 0) const;
+            std::int64_t ping = 0, int num_threads = 0, const VehicleMotion& motion = {}) const;
 
   /// Rays of a ping.
   std::int64_t ray_count() const;

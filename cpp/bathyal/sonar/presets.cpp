@@ -146,6 +146,9 @@ SonarOptions with_real_physics(SonarOptions options) {
   options.backscatter = BackscatterModel::kMaterial;
   options.beam_pattern = BeamPattern::kUniform;
   options.pixel_solid_angle = true;
+  options.refraction = true;
+  options.multiples = 2;
+  options.motion = true;
   options.pulse = PulseModel::kRectangle;
   options.speckle = SpeckleModel::kRayleigh;
   options.noise = true;

@@ -54,6 +54,8 @@ void check_signal(const SonarOptions& options) {
   check_range("ping_rate", options.ping_rate, 1e-4, 1e4);
   check_range("range", options.range, 1e-3, 1e6);
   check_range("samples", options.samples, 1, 1000000);
+  check_range("multiples", options.multiples, 0, 8);
+  check_range("wind_speed", options.wind_speed, 0.0, 50.0);
 }
 
 void check_beams(const SonarOptions& options) {

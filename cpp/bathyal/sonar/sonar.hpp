@@ -78,8 +78,13 @@ struct SonarOptions : ReceiverOptions {
   BackscatterModel backscatter = BackscatterModel::kLambert;
   BeamPattern beam_pattern = BeamPattern::kNone;
   bool pixel_solid_angle =
-      false;            ///< pixels count by their solid angle, cos³ of the angle off axis
-  bool layover = true;  ///< what is nearer than a lower part of its fan is heard as well
+      false;                ///< pixels count by their solid angle, cos³ of the angle off axis
+  bool refraction = false;  ///< by the water's profile: sound runs along arcs
+  int multiples = 0;        ///< reflections after which a ray is still followed, 0 to 8; with a
+                            ///< surface, that one reflects and scatters as well
+  double wind_speed = 5.0;  ///< at 10 m, by which the sea surface scatters [m/s], 0 to 50
+  bool motion = false;      ///< of the vehicle, between transmission and reception
+  bool layover = true;      ///< what is nearer than a lower part of its fan is heard as well
 
   /// \throw std::invalid_argument that names the field.
   void check() const;

@@ -44,8 +44,9 @@ void survey(const Sonar& sonar, const World& world, const Trajectory& world_from
     ping.time = times[static_cast<std::size_t>(k)];
     ping.world_from_vehicle = world_from_vehicle.at(ping.time);
     try {
-      ping.echo = sonar.echo(world.at(ping.time, num_threads), world.water(),
-                             ping.world_from_vehicle, k, num_threads);
+      ping.echo =
+          sonar.echo(world.at(ping.time, num_threads), world.water(), ping.world_from_vehicle, k,
+                     num_threads, motion_at(world_from_vehicle, ping.time));
     } catch (const std::invalid_argument& error) {
       throw std::invalid_argument("ping " + std::to_string(k) + " at " + to_text(ping.time) +
                                   " s: " + error.what());

@@ -101,6 +101,25 @@ BeamRays camera_rays(const SonarOptions& options, const Beam& beam) {
 
 }  // namespace
 
+double receive_power(const SonarOptions& options, const Beam& beam, const Vec3& direction) {
+  if (options.kind == SonarKind::kEchoSounder) {
+    const double off = std::acos(std::clamp(direction.dot(beam.axis), -1.0, 1.0));
+    if (options.beam_pattern == BeamPattern::kNone) return off <= 0.5 * options.beam_width;
+    return pattern(options.beam_pattern, off, options.beam_width);
+  }
+  const double phi = std::asin(std::clamp(direction.dot(beam.array), -1.0, 1.0));
+  const double psi = std::atan2(direction.dot(beam.up()), direction.dot(beam.axis));
+  const bool swath = options.kind == SonarKind::kMultibeam;  // received over all of ψ
+  if (options.beam_pattern == BeamPattern::kNone) {
+    return std::abs(phi - beam.steered) <= 0.5 * options.beam_width &&
+           (swath || std::abs(psi) <= 0.5 * options.fan_span);
+  }
+  const double across =
+      pattern(options.beam_pattern, phi - beam.steered, options.beam_width, beam.steered);
+  const double off_axis = psi - (options.tilt - options.axis_tilt);
+  return swath ? across : across * pattern(options.beam_pattern, off_axis, options.fan_width);
+}
+
 std::vector<BeamRays> ray_fans(const SonarOptions& options) {
   std::vector<BeamRays> fans;
   for (const Beam& beam : beams_of(options)) {

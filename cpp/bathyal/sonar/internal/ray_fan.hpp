@@ -19,6 +19,9 @@ struct BeamRays {
   std::vector<std::size_t> columns;  ///< first ray of each, then N
 };
 
+/// One-way power by which a beam receives from a direction of the head's frame.
+double receive_power(const SonarOptions& options, const Beam& beam, const Vec3& direction);
+
 /// All beams of a sonar. Rays without weight are left out.
 std::vector<BeamRays> ray_fans(const SonarOptions& options);
 
