@@ -227,7 +227,7 @@ void bind_sonar(py::module_& module) {
            py::kw_only(), py::arg("velocity") = py::none(),
            py::arg("angular_velocity") = py::none(), py::arg("seed") = 0, py::arg("ping") = 0,
            py::arg("num_threads") = 0, sonar_docs::kPingCall)
-      .def("backscatter", &backscatter_of, py::arg("world"), py::arg("material"),
+      .def("scattering_strength", &backscatter_of, py::arg("world"), py::arg("material"),
            py::arg("incidence"), sonar_docs::kBackscatter)
       .def("hear", &hear, py::arg("world"), py::arg("trajectory"), py::arg("keep"), py::kw_only(),
            py::arg("seed") = 0, py::arg("first") = 0, py::arg("count") = -1,

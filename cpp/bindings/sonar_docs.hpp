@@ -120,7 +120,7 @@ Examples
 --------
 >>> import bathyal, numpy as np
 >>> sonar = bathyal.sonars.side_scan_100khz().replace(backscatter="material")
->>> sigma = sonar.backscatter(bathyal.World(), "sand", np.radians([0.0, 30.0, 60.0]))
+>>> sigma = sonar.scattering_strength(bathyal.World(), "sand", np.radians([0.0, 30.0, 60.0]))
 >>> np.round(10 * np.log10(sigma), 1).tolist()
 [-9.3, -18.5, -21.6]
 )";

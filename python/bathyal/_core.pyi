@@ -5038,6 +5038,31 @@ class Sonar:
         ValueError
             For a name that is no field, or a value out of its range.
         """
+    def scattering_strength(self, world: World, material: str, incidence: numpy.typing.ArrayLike) -> numpy.ndarray:
+        """
+        Backscatter of a material, by this sonar's law and frequency.
+        
+        Parameters
+        ----------
+        world : World
+        material : str
+            One of its materials.
+        incidence : (N,) array
+            From the surface's normal, 0 to π/2 [rad].
+        
+        Returns
+        -------
+        (N,) array
+            σ₀: power per unit area and solid angle at 1 m.
+        
+        Examples
+        --------
+        >>> import bathyal, numpy as np
+        >>> sonar = bathyal.sonars.side_scan_100khz().replace(backscatter="material")
+        >>> sigma = sonar.scattering_strength(bathyal.World(), "sand", np.radians([0.0, 30.0, 60.0]))
+        >>> np.round(10 * np.log10(sigma), 1).tolist()
+        [-9.3, -18.5, -21.6]
+        """
     def survey(self, world: World, trajectory: Trajectory, *, seed: int = 0, truth: bool = False, progress: bathyal.sonar.survey.Progress | None = None, num_threads: int = 0) -> bathyal.sonar.record.SonarRecord:
         """
         Hears a world along a trajectory.
