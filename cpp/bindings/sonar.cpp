@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pybind11/stl.h>
 
+#include <algorithm>
+#include <cmath>
 #include <memory>
+#include <numbers>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <variant>
 
 #include "arrays.hpp"
-#include "bathyal/base/error.hpp"
+#include "bathyal/base/check.hpp"
+#include "bathyal/sonar/backscatter.hpp"
 #include "bathyal/sonar/echo.hpp"
 #include "bathyal/sonar/presets.hpp"
 #include "bathyal/sonar/survey.hpp"
@@ -24,7 +29,7 @@ namespace {
 /// One ping, after the receiver.
 struct Ping {
   py::array intensity, range, truth_range, incidence, material, point;
-  std::vector<std::string> beam_names, warnings;
+  std::vector<std::string> beam_names, warnings, notes;
   double time = 0.0, altitude = 0.0, sound_speed = 0.0;
   std::int64_t clipped = 0;
   bool dropped = false;
@@ -75,6 +80,7 @@ Ping made_ping(const Sonar& sonar, double time, Echo echo, Received received) {
   made.point = in_rows(std::move(echo.truth.point), echo, {3});
   made.beam_names = beam_names(sonar.options());
   made.warnings = std::move(echo.warnings);
+  made.notes = std::move(echo.notes);
   made.clipped = received.clipped;
   made.dropped = received.dropped;
   made.time = time;
@@ -83,15 +89,41 @@ Ping made_ping(const Sonar& sonar, double time, Echo echo, Received received) {
   return made;
 }
 
+Vec3 rate_argument(std::string_view name, const py::object& object) {
+  return object.is_none() ? Vec3(Vec3::Zero()) : vector_argument(name, object);
+}
+
+/// σ₀ of a material at angles, by the law that a sonar takes.
+py::array backscatter_of(const Sonar& sonar, const World& world, const std::string& material,
+                         const ArrayLike& incidence) {
+  Material law = world.materials()[static_cast<std::size_t>(world.material_row(material))];
+  if (sonar.options().backscatter == BackscatterModel::kLambert) {
+    law.angle.clear();
+    law.backscatter.clear();
+    law.sediment.reset();
+  }
+  const Values angles = values_argument("incidence", incidence);
+  std::vector<double> values;
+  for (Index i = 0; i < angles.rows(); ++i) {
+    const double angle = angles.data()[i];
+    check_range("incidence", angle, 0.0, 0.5 * std::numbers::pi);
+    values.push_back(backscatter(law, std::max(std::cos(angle), 0.0), sonar.options().frequency));
+  }
+  return to_numpy(std::move(values));
+}
+
 Ping ping_of(const Sonar& sonar, const std::shared_ptr<World>& world, const ArrayLike& pose,
-             double time, std::uint64_t seed, std::int64_t ping, int num_threads) {
+             double time, const OptionalArray& velocity, const OptionalArray& angular_velocity,
+             std::uint64_t seed, std::int64_t ping, int num_threads) {
   const Pose world_from_vehicle = pose_argument("world_from_vehicle", pose);
+  const VehicleMotion motion{rate_argument("velocity", velocity),
+                             rate_argument("angular_velocity", angular_velocity)};
   Echo echo;
   Received received;
   {
     const py::gil_scoped_release unlocked;
     echo = sonar.echo(world->at(time, num_threads), world->water(), world_from_vehicle, ping,
-                      num_threads);
+                      num_threads, motion);
     const SonarOptions& options = sonar.options();
     const Pose world_from_sonar =
         world_from_vehicle * options.vehicle_from_sonar * head_pose(options, ping);
@@ -124,8 +156,10 @@ void bind_ping(py::module_& module) {
       .def_readonly("range", &PingTruth::range, "(beams, samples) one-way from the sonar [m].")
       .def_readonly("incidence", &PingTruth::incidence,
                     "(beams, samples) from the surface's normal [rad].")
-      .def_readonly("material", &PingTruth::material,
-                    "(beams, samples) row of `World.materials`, −1 where nothing was hit.")
+      .def_readonly(
+          "material", &PingTruth::material,
+          "(beams, samples) row of `World.materials`, −1 where nothing was hit, −2 of the sea "
+          "surface.")
       .def_readonly("point", &PingTruth::point, "(beams, samples, 3) in the world [m].");
   py::class_<Ping>(module, "Ping", sonar_docs::kPing)
       .def_readonly("intensity", &Ping::intensity,
@@ -145,6 +179,7 @@ void bind_ping(py::module_& module) {
       .def_readonly("clipped", &Ping::clipped, "Samples at full scale.")
       .def_readonly("dropped", &Ping::dropped, "Whether the ping brought nothing.")
       .def_readonly("warnings", &Ping::warnings, "As text.")
+      .def_readonly("notes", &Ping::notes, "What it rests on, as \"extrapolated: …\".")
       .def("__repr__", [](const Ping& p) {
         return "Ping(" + std::to_string(p.intensity.shape(0)) + " beams, " +
                std::to_string(p.intensity.shape(1)) + " samples)";
@@ -189,8 +224,11 @@ void bind_sonar(py::module_& module) {
           },
           py::arg("fields"), "The sonar that `to_dict` describes.")
       .def("ping", &ping_of, py::arg("world"), py::arg("world_from_vehicle"), py::arg("time") = 0.0,
-           py::kw_only(), py::arg("seed") = 0, py::arg("ping") = 0, py::arg("num_threads") = 0,
-           sonar_docs::kPingCall)
+           py::kw_only(), py::arg("velocity") = py::none(),
+           py::arg("angular_velocity") = py::none(), py::arg("seed") = 0, py::arg("ping") = 0,
+           py::arg("num_threads") = 0, sonar_docs::kPingCall)
+      .def("scattering_strength", &backscatter_of, py::arg("world"), py::arg("material"),
+           py::arg("incidence"), sonar_docs::kBackscatter)
       .def("hear", &hear, py::arg("world"), py::arg("trajectory"), py::arg("keep"), py::kw_only(),
            py::arg("seed") = 0, py::arg("first") = 0, py::arg("count") = -1,
            py::arg("num_threads") = 0, sonar_docs::kHear)

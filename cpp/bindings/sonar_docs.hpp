@@ -81,6 +81,8 @@ world_from_vehicle : (4, 4) array
     x forward, y port, z up.
 time : float
     At which the world is looked at [s].
+velocity, angular_velocity : (3,) array, optional
+    Of the vehicle in the world [m/s, rad/s], at rest unless given; they count where `motion` is on.
 seed : int
     Of speckle, noise and dropouts. Speckle belongs to the place, noise and dropouts to the time.
 ping : int
@@ -96,6 +98,31 @@ Raises
 ------
 ValueError
     For a pose that is not rigid, a sonar above the surface, below the bottom or inside a body.
+)";
+
+inline constexpr const char* kBackscatter =
+    R"(Backscatter of a material, by this sonar's law and frequency.
+
+Parameters
+----------
+world : World
+material : str
+    One of its materials.
+incidence : (N,) array
+    From the surface's normal, 0 to π/2 [rad].
+
+Returns
+-------
+(N,) array
+    σ₀: power per unit area and solid angle at 1 m.
+
+Examples
+--------
+>>> import bathyal, numpy as np
+>>> sonar = bathyal.sonars.side_scan_100khz().replace(backscatter="material")
+>>> sigma = sonar.scattering_strength(bathyal.World(), "sand", np.radians([0.0, 30.0, 60.0]))
+>>> np.round(10 * np.log10(sigma), 1).tolist()
+[-9.3, -18.5, -21.6]
 )";
 
 inline constexpr const char* kHear = R"(A survey, ping after ping; `survey` keeps it as a record.
@@ -152,6 +179,13 @@ inline const std::vector<std::pair<std::string, std::string>>& fields() {
       {"beam_pattern", "None, \"uniform\" (sinc² with side lobes) or \"gaussian\"."},
       {"pixel_solid_angle",
        "Whether pixels count by their solid angle, cos³ of the angle off axis."},
+      {"refraction", "Whether sound runs along arcs, by the profile of the water."},
+      {"multiples",
+       "Reflections after which a ray is still followed, 0 to 8; under a surface, that one "
+       "reflects "
+       "and scatters as well."},
+      {"wind_speed", "At 10 m, by which the sea surface scatters [m/s]."},
+      {"motion", "Whether the vehicle moves between transmission and reception."},
       {"layover", "Whether what is nearer than a lower part of its fan is heard as well."},
       {"pulse", "None, \"rectangle\" (its length) or \"chirp\" (compressed to c / 2B)."},
       {"speckle", "None, \"rayleigh\" or \"k\"."},

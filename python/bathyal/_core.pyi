@@ -2,6 +2,8 @@
 The engine. Its public names are those of the package bathyal.
 """
 from __future__ import annotations
+import bathyal.sonar.record
+import bathyal.sonar.survey
 import bathyal.view.motion_page
 import collections.abc
 import matplotlib.figure
@@ -10,8 +12,7 @@ import numpy.typing
 import os
 import plotly.graph_objects
 import typing
-__all__: list[str] = ['Arm', 'ArmFit', 'BEYOND_NOISE', 'Capsule', 'Cause', 'CleanReport', 'CleanResult', 'Clearances', 'CorrectedArm', 'DhTable', 'Diagnosis', 'Effect', 'EffectRange', 'EffectRows', 'Error', 'Estimate', 'FitParameter', 'FollowedPath', 'FoundEffect', 'HeldOut', 'HeldOutPart', 'Hits', 'Hull', 'HullReport', 'InverseResult', 'KeepOut', 'Link', 'MeshReport', 'MotionCheck', 'MotionPlan', 'NamedEffect', 'Nearest', 'NearestSegments', 'Outlier', 'Pipeline', 'Plane', 'PlaneFit', 'PointCloud', 'Polyline', 'ReachMap', 'RigidBody', 'SamplingPhase', 'SamplingPlan', 'Scene', 'SeabedModel', 'Shape', 'SheetPatch', 'SheetReport', 'Standpoint', 'StaticTrim', 'Structure', 'Support', 'TargetChecks', 'Targets', 'TextTable', 'TipMove', 'ToolPath', 'TouchForecast', 'TouchPlan', 'Touches', 'Tracked', 'Trade', 'Trajectory', 'TriangleMesh', 'Verification', 'Voxels', 'Workspace', 'arm_from_chain', 'arm_from_parts', 'arm_parts', 'best_standpoint', 'chain_from_arm', 'check_bytes', 'clean_cloud', 'cover_polygon', 'diagnose', 'find_effect_with', 'find_sheets', 'find_targets', 'fish_paths', 'fit_plane', 'forecast_touches', 'generate_survey', 'identify_arm', 'intersect_moller_trumbore', 'library_effects', 'make_boulder', 'make_cable', 'make_fish', 'make_mine', 'make_pipeline', 'make_seabed', 'make_wreck', 'mesh_report', 'plan_sampling', 'plan_toolpath', 'plan_touches', 'read_mesh_with', 'read_pcd', 'read_text_table', 'set_simd_level', 'simd_level', 'survey_height', 'triangle_material', 'triangulate', 'triangulate_delaunay', 'verify_positions', 'warn_of_support_with', 'with_link_radii', 'write_xyz']
-__all__: list[str] = ['Arm', 'ArmFit', 'BEYOND_NOISE', 'Capsule', 'Cause', 'CleanReport', 'CleanResult', 'Clearances', 'CorrectedArm', 'Current', 'DhTable', 'Diagnosis', 'Effect', 'EffectRange', 'EffectRows', 'Eigenray', 'Error', 'Estimate', 'FitParameter', 'FollowedPath', 'FoundEffect', 'HeldOut', 'HeldOutPart', 'Hits', 'Hull', 'HullReport', 'InverseResult', 'KeepOut', 'Link', 'MeshReport', 'MotionCheck', 'MotionPlan', 'NamedEffect', 'Nearest', 'NearestSegments', 'Outlier', 'Plane', 'PlaneFit', 'PointCloud', 'Polyline', 'Profile', 'ReachMap', 'RigidBody', 'SamplingPhase', 'SamplingPlan', 'Scene', 'Shape', 'SheetPatch', 'SheetReport', 'SoundPath', 'Standpoint', 'StaticTrim', 'Structure', 'Support', 'TargetChecks', 'Targets', 'TextTable', 'Tide', 'TipMove', 'ToolPath', 'TouchForecast', 'TouchPlan', 'Touches', 'TracedSound', 'Tracked', 'Trade', 'Trajectory', 'TriangleMesh', 'Verification', 'Voxels', 'Water', 'Waves', 'Workspace', 'absorption', 'arm_from_chain', 'arm_from_parts', 'arm_parts', 'best_standpoint', 'chain_from_arm', 'check_bytes', 'clean_cloud', 'cover_polygon', 'depth_from_pressure', 'diagnose', 'eigenrays', 'find_effect_with', 'find_sheets', 'find_targets', 'fit_plane', 'forecast_touches', 'generate_survey', 'identify_arm', 'intersect_moller_trumbore', 'library_effects', 'mesh_report', 'plan_sampling', 'plan_toolpath', 'plan_touches', 'practical_salinity', 'pressure_from_depth', 'read_mesh_with', 'read_pcd', 'read_text_table', 'seawater_density', 'set_simd_level', 'simd_level', 'sound_speed', 'sound_speed_teos10_with', 'survey_height', 'trace_sound', 'triangulate', 'triangulate_delaunay', 'verify_positions', 'warn_of_range_with', 'warn_of_support_with', 'with_link_radii', 'write_xyz']
+__all__: list[str] = ['Arm', 'ArmFit', 'BEYOND_NOISE', 'Capsule', 'Cause', 'CleanReport', 'CleanResult', 'Clearances', 'CorrectedArm', 'Current', 'DhTable', 'Diagnosis', 'Effect', 'EffectRange', 'EffectRows', 'Eigenray', 'Error', 'Estimate', 'FitParameter', 'FollowedPath', 'FoundEffect', 'HeldOut', 'HeldOutPart', 'Hits', 'Hull', 'HullReport', 'InverseResult', 'KeepOut', 'Link', 'MeshReport', 'MotionCheck', 'MotionPlan', 'NamedEffect', 'Nearest', 'NearestSegments', 'Outlier', 'Ping', 'PingTruth', 'Pipeline', 'Plane', 'PlaneFit', 'PointCloud', 'Polyline', 'Profile', 'ReachMap', 'RigidBody', 'SamplingPhase', 'SamplingPlan', 'Scene', 'SeabedModel', 'Shape', 'SheetPatch', 'SheetReport', 'SidescanPings', 'Sonar', 'SoundPath', 'Standpoint', 'StaticTrim', 'Structure', 'Support', 'TargetChecks', 'Targets', 'TextTable', 'Tide', 'TipMove', 'ToolPath', 'TouchForecast', 'TouchPlan', 'Touches', 'TracedSound', 'Tracked', 'Trade', 'Trajectory', 'TriangleMesh', 'Verification', 'Voxels', 'Water', 'Waves', 'Workspace', 'World', 'WorldSnapshot', 'XtfFile', 'absorption', 'arm_from_chain', 'arm_from_parts', 'arm_parts', 'best_standpoint', 'chain_from_arm', 'check_bytes', 'clean_cloud', 'cover_polygon', 'depth_from_pressure', 'diagnose', 'eigenrays', 'find_effect_with', 'find_sheets', 'find_targets', 'fish_paths', 'fit_plane', 'forecast_touches', 'generate_survey', 'identify_arm', 'intersect_moller_trumbore', 'library_effects', 'make_boulder', 'make_cable', 'make_fish', 'make_mine', 'make_pipeline', 'make_seabed', 'make_wreck', 'make_xtf', 'mesh_report', 'parse_xtf', 'plan_sampling', 'plan_toolpath', 'plan_touches', 'practical_salinity', 'pressure_from_depth', 'read_mesh_with', 'read_pcd', 'read_text_table', 'seawater_density', 'set_simd_level', 'simd_level', 'sound_speed', 'sound_speed_teos10_with', 'survey_height', 'trace_sound', 'triangle_material', 'triangulate', 'triangulate_delaunay', 'verify_positions', 'warn_of_range_with', 'warn_of_support_with', 'with_link_radii', 'write_xyz']
 class Error(RuntimeError):
     """
     A broken file, a solver that failed or a part that is not installed.
@@ -662,6 +663,89 @@ class CleanResult:
     def rows(self) -> numpy.ndarray:
         """
         (N,) int32: which row of the given cloud each sounding was.
+        """
+class SidescanPings:
+    """
+    Side-scan pings of an XTF file, NaN where it says nothing.
+    """
+    @property
+    def amplitude(self) -> numpy.ndarray:
+        """
+        (pings, beams, samples) near to far; shorter rows end in NaN.
+        """
+    @property
+    def amplitude_step(self) -> float:
+        """
+        What a step of the file's samples means.
+        """
+    @property
+    def beam_names(self) -> list[str]:
+        """
+        "port", "starboard".
+        """
+    @property
+    def column(self) -> dict[str, numpy.ndarray]:
+        """
+        (pings,) arrays by name: time since 1970 [s], x, y, depth, altitude [m], heading, pitch, roll [rad], speed, sound_speed [m/s].
+        """
+    @property
+    def frequency(self) -> float:
+        """
+        [Hz]
+        """
+    @property
+    def geographic(self) -> bool:
+        """
+        Whether x is longitude and y latitude [rad].
+        """
+    @property
+    def slant_range(self) -> numpy.ndarray:
+        """
+        (pings, beams) [m].
+        """
+    @property
+    def sonar_name(self) -> str:
+        """
+        As the file has it.
+        """
+class XtfFile:
+    """
+    An XTF file as it is: packets, channels, what was broken.
+    
+    `bathyal.read_sonar` gives its side-scan pings as a record.
+    """
+    def sidescan(self) -> SidescanPings:
+        """
+        Its side-scan pings.
+        """
+    def to_bytes(self) -> bytes:
+        """
+        The file again.
+        """
+    @property
+    def channels(self) -> list[tuple]:
+        """
+        (number, type, name, frequency [Hz], bytes a sample) of each; type 1 is port, 2 starboard.
+        """
+    @property
+    def damaged(self) -> int:
+        """
+        Packets whose sizes contradict each other.
+        """
+    @property
+    def lost_bytes(self) -> int:
+        """
+        Outside of any packet, or in a damaged one.
+        """
+    @property
+    def other_packets(self) -> dict[int, int]:
+        """
+        How many of each type that is no sonar ping.
+        """
+    @property
+    def ping_count(self) -> int:
+        """
+        Sonar pings.
         """
 class PlaneFit:
     """
@@ -2633,6 +2717,179 @@ class Arm:
         """
         (n,) greatest speed of the joint that leads each coordinate [rad/s] or [m/s].
         """
+class WorldSnapshot:
+    """
+    A world at one moment: what rays meet, and of what it is made.
+    """
+    def __repr__(self) -> str:
+        ...
+    @property
+    def scene(self) -> Scene:
+        """
+        Scene: a row for each object.
+        """
+    @property
+    def time(self) -> float:
+        """
+        [s]
+        """
+class World:
+    """
+    Seabed, things on it and in the water, what they are made of, and the water.
+    
+    Frames: z up, [m]. Objects are rows of what rays see, in the order in which they were added.
+    
+    Examples
+    --------
+    >>> import bathyal
+    >>> world = bathyal.World()
+    >>> corners = [[-9, -9, 0], [9, -9, 0], [9, 9, 0], [-9, 9, 0]]
+    >>> bottom = bathyal.TriangleMesh(corners, [[0, 1, 2], [0, 2, 3]])
+    >>> world.add(bottom, material="sand", name="bottom")
+    0
+    >>> world.scene.cast([[0, 0, 5]], [[0, 0, -1]]).range
+    array([5.])
+    """
+    def __init__(self) -> None:
+        ...
+    def __len__(self) -> int:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def add(self, mesh: TriangleMesh, pose: Trajectory | numpy.typing.ArrayLike | collections.abc.Callable[[float], numpy.typing.ArrayLike] | None = None, material: str = 'sand', name: str = '', *, scale: typing.SupportsFloat | typing.SupportsIndex = 1.0) -> int:
+        """
+        Adds an object.
+        
+        Parameters
+        ----------
+        mesh : TriangleMesh
+            In its own frame; meshes given several times are held once.
+        pose : (4, 4) array, Trajectory or function, optional
+            world_from_object; a function of the time in seconds is called whenever the world is looked at.
+        material : str
+            One of `materials`.
+        name : str
+            Not yet taken; "object_3" or the like unless given.
+        scale : float
+            Of the mesh, above 0.
+        
+        Returns
+        -------
+        int
+            Its row in `scene`.
+        
+        Raises
+        ------
+        ValueError
+            For a name that is taken, an unknown material, a pose that is not rigid.
+        """
+    def add_clones(self, mesh: TriangleMesh, count: typing.SupportsInt | typing.SupportsIndex, material: str = 'rock', name: str = 'clone', *, seed: typing.SupportsInt | typing.SupportsIndex = 0, region: typing.Annotated[collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(4)"] | None = None, scale: typing.Annotated[collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(2)"] = [0.7, 1.4], turned: bool = True, tilt: typing.SupportsFloat | typing.SupportsIndex = 0.2, sunk: typing.SupportsFloat | typing.SupportsIndex = 0.15, apart: typing.SupportsFloat | typing.SupportsIndex = 0.0) -> int:
+        """
+        Scatters copies of a mesh over what is there at time 0.
+        
+        Rows that share the mesh, named name_0, name_1 and so on.
+        
+        Parameters
+        ----------
+        mesh : TriangleMesh
+        count : int
+        material : str
+        name : str
+        seed : int
+            Of places, sizes and turns; clone i is drawn from a stream of its own.
+        region : (4,) floats, optional
+            Low x, low y, high x, high y [m]; all that is there unless given.
+        scale : (2,) floats
+            Least and largest.
+        turned : bool
+            By any angle about the vertical.
+        tilt : float
+            At most, about a horizontal axis [rad].
+        sunk : float
+            Part of its height that lies below the ground.
+        apart : float
+            Least distance of two of them, seen from above [m].
+        
+        Returns
+        -------
+        int
+            The first of their rows.
+        
+        Raises
+        ------
+        ValueError
+            Where there is no ground or no room left for one.
+        """
+    def at(self, time: typing.SupportsFloat | typing.SupportsIndex = 0.0, *, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> WorldSnapshot:
+        """
+        What there is at a time.
+        
+        Only the tree over moving objects is made anew from moment to moment; meshes and their hierarchies
+        are shared.
+        
+        Parameters
+        ----------
+        time : float
+            [s]
+        num_threads : int
+            0 means all.
+        
+        Returns
+        -------
+        WorldSnapshot
+        """
+    def paint(self, name: str, polygon: numpy.typing.ArrayLike, material: str) -> int:
+        """
+        Gives those triangles of an object another material whose middle lies within a polygon.
+        
+        Parameters
+        ----------
+        name : str
+            Of the object.
+        polygon : (K, 2) array
+            Its corners seen from above [m], at time 0.
+        material : str
+        
+        Returns
+        -------
+        int
+            How many triangles.
+        """
+    def set_material(self, name: str, strength: typing.SupportsFloat | typing.SupportsIndex = 1.0, *, angle: numpy.typing.ArrayLike | None = None, backscatter: numpy.typing.ArrayLike | None = None) -> None:
+        """
+        Adds a material, or replaces the one of that name.
+        
+        Parameters
+        ----------
+        name : str
+        strength : float
+            μ of Lambert's law σ₀ = μ cos²θ, linear; the paper's K_d.
+        angle, backscatter : (K,) arrays, optional
+            A measured law: σ₀ [dB] by the angle of incidence [rad], rising.
+        """
+    @property
+    def materials(self) -> list[str]:
+        """
+        Names of the materials, in the order of the numbers in a ping's truth.
+        """
+    @property
+    def names(self) -> list[str]:
+        """
+        Names of the objects, in the order of the scene's rows.
+        """
+    @property
+    def scene(self) -> Scene:
+        """
+        Scene: what rays see at time 0; row i is the object that was added as the ith.
+        """
+    @property
+    def water(self) -> Water:
+        """
+        Water: of the sonars' and the vehicle's.
+        """
+    @water.setter
+    def water(self, arg1: Water) -> None:
+        ...
 class SeabedModel:
     """
     A generated bottom as a function of the place, on an endless plane.
@@ -4563,6 +4820,504 @@ class SamplingPlan:
     def wrench(self) -> numpy.ndarray:
         """
         (T, 6) force and moment on the vehicle by arm, what it holds and bottom, in the vehicle's frame about its origin [N, N m]; in the last row of the grab without the sample.
+        """
+class PingTruth:
+    """
+    What each sample came from: of all rays in it, the one that contributed most. NaN and −1 where nothing was hit.
+    """
+    @property
+    def incidence(self) -> numpy.ndarray:
+        """
+        (beams, samples) from the surface's normal [rad].
+        """
+    @property
+    def material(self) -> numpy.ndarray:
+        """
+        (beams, samples) row of `World.materials`, −1 where nothing was hit, −2 of the sea surface.
+        """
+    @property
+    def point(self) -> numpy.ndarray:
+        """
+        (beams, samples, 3) in the world [m].
+        """
+    @property
+    def range(self) -> numpy.ndarray:
+        """
+        (beams, samples) one-way from the sonar [m].
+        """
+class Ping:
+    """
+    What a sonar heard of one ping.
+    """
+    def __repr__(self) -> str:
+        ...
+    @property
+    def altitude(self) -> float:
+        """
+        Of the sonar over what lies straight below [m]; NaN where nothing does.
+        """
+    @property
+    def beam_names(self) -> list[str]:
+        """
+        Of the rows.
+        """
+    @property
+    def clipped(self) -> int:
+        """
+        Samples at full scale.
+        """
+    @property
+    def dropped(self) -> bool:
+        """
+        Whether the ping brought nothing.
+        """
+    @property
+    def intensity(self) -> numpy.ndarray:
+        """
+        (beams, samples) received power over transmitted at 1 m.
+        """
+    @property
+    def notes(self) -> list[str]:
+        """
+        What it rests on, as "extrapolated: …".
+        """
+    @property
+    def range(self) -> numpy.ndarray:
+        """
+        (samples,) slant range of their middles [m].
+        """
+    @property
+    def sound_speed(self) -> float:
+        """
+        At the sonar [m/s].
+        """
+    @property
+    def time(self) -> float:
+        """
+        [s]
+        """
+    @property
+    def truth(self) -> PingTruth:
+        """
+        PingTruth: of each sample, what contributed most.
+        """
+    @property
+    def warnings(self) -> list[str]:
+        """
+        As text.
+        """
+class Sonar:
+    """
+    The description of a sonar, and what it hears.
+    
+    Made by `bathyal.sonars`, changed by `replace`. A beam is made narrow by a line array: φ is the angle
+    from the plane across the array, ψ turns about it. Of a side-scan the array lies along x (φ along
+    track, ψ from the bottom to the horizon); of a multibeam, imaging or scanning sonar along y. A ray
+    that meets a surface at range R under the angle θ from its normal brings
+    
+        w = σ₀(θ) · b² · exp(−4 α R) · ΔΩ / (R² cos θ),
+    
+    α in Np/m, b² the two-way beam pattern, ΔΩ its solid angle; without `spreading` R⁻⁴ is left out.
+    Every physical effect is a switch, and off.
+    
+    Examples
+    --------
+    >>> import bathyal, numpy as np
+    >>> world = bathyal.World()
+    >>> corners = [[-99, -99, 0], [99, -99, 0], [99, 99, 0], [-99, 99, 0]]
+    >>> _ = world.add(bathyal.TriangleMesh(corners, [[0, 1, 2], [0, 2, 3]]), material="sand")
+    >>> sonar = bathyal.sonars.side_scan().replace(range=50.0, spreading=True)
+    >>> pose = np.eye(4)
+    >>> pose[2, 3] = 10.0
+    >>> ping = sonar.ping(world, pose)
+    >>> ping.intensity.shape, float(ping.range[ping.intensity[0] > 0][0])
+    ((2, 1500), 10.016666666666667)
+    """
+    __hash__: typing.ClassVar[None] = None
+    @staticmethod
+    def from_dict(fields: dict[str, typing.Any]) -> Sonar:
+        """
+        The sonar that `to_dict` describes.
+        """
+    @staticmethod
+    def preset(name: str, physics: str = 'off') -> Sonar:
+        """
+        A sonar by the name of its class; see `bathyal.sonars`.
+        
+        Parameters
+        ----------
+        name : str
+            "side_scan", "side_scan_100khz", "paper_side_scan", "multibeam", "echo_sounder",
+            "paper_forward_sounders", "imaging" or "scanning".
+        physics : str
+            "off", or "real": every switch on.
+        
+        Returns
+        -------
+        Sonar
+        """
+    def __eq__(self, arg0: typing.Any) -> bool:
+        ...
+    def __getstate__(self) -> dict[str, typing.Any]:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def __setstate__(self, arg0: dict) -> None:
+        ...
+    def hear(self, world: World, trajectory: Trajectory, keep: collections.abc.Callable[[Ping, int, numpy.ndarray], bool], *, seed: typing.SupportsInt | typing.SupportsIndex = 0, first: typing.SupportsInt | typing.SupportsIndex = 0, count: typing.SupportsInt | typing.SupportsIndex = -1, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> None:
+        """
+        A survey, ping after ping; `survey` keeps it as a record.
+        
+        Parameters
+        ----------
+        world : World
+        trajectory : Trajectory
+            world_from_vehicle.
+        keep : function
+            Called with the ping, its number and world_from_vehicle; the survey ends where it returns False.
+        seed : int
+            Of all random numbers.
+        first, count : int
+            Which of the pings at `ping_times`; −1 is to the end. Parts join to the bytes of the whole.
+        num_threads : int
+            0 means all.
+        
+        Raises
+        ------
+        ValueError
+            As `ping`, with the ping's number.
+        """
+    def ping(self, world: World, world_from_vehicle: numpy.typing.ArrayLike, time: typing.SupportsFloat | typing.SupportsIndex = 0.0, *, velocity: numpy.typing.ArrayLike | None = None, angular_velocity: numpy.typing.ArrayLike | None = None, seed: typing.SupportsInt | typing.SupportsIndex = 0, ping: typing.SupportsInt | typing.SupportsIndex = 0, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> Ping:
+        """
+        One ping.
+        
+        Parameters
+        ----------
+        world : World
+        world_from_vehicle : (4, 4) array
+            x forward, y port, z up.
+        time : float
+            At which the world is looked at [s].
+        velocity, angular_velocity : (3,) array, optional
+            Of the vehicle in the world [m/s, rad/s], at rest unless given; they count where `motion` is on.
+        seed : int
+            Of speckle, noise and dropouts. Speckle belongs to the place, noise and dropouts to the time.
+        ping : int
+            Counts the pings of a scanning head.
+        num_threads : int
+            0 means all; any number gives the same bytes.
+        
+        Returns
+        -------
+        Ping
+        
+        Raises
+        ------
+        ValueError
+            For a pose that is not rigid, a sonar above the surface, below the bottom or inside a body.
+        """
+    def ping_times(self, trajectory: Trajectory) -> numpy.ndarray:
+        """
+        Times of a survey's pings along a trajectory [s].
+        """
+    def replace(self, **kwargs) -> Sonar:
+        """
+        Another sonar with the given fields changed.
+        
+        Parameters
+        ----------
+        **fields
+            Any of the properties.
+        
+        Returns
+        -------
+        Sonar
+        
+        Raises
+        ------
+        ValueError
+            For a name that is no field, or a value out of its range.
+        """
+    def scattering_strength(self, world: World, material: str, incidence: numpy.typing.ArrayLike) -> numpy.ndarray:
+        """
+        Backscatter of a material, by this sonar's law and frequency.
+        
+        Parameters
+        ----------
+        world : World
+        material : str
+            One of its materials.
+        incidence : (N,) array
+            From the surface's normal, 0 to π/2 [rad].
+        
+        Returns
+        -------
+        (N,) array
+            σ₀: power per unit area and solid angle at 1 m.
+        
+        Examples
+        --------
+        >>> import bathyal, numpy as np
+        >>> sonar = bathyal.sonars.side_scan_100khz().replace(backscatter="material")
+        >>> sigma = sonar.scattering_strength(bathyal.World(), "sand", np.radians([0.0, 30.0, 60.0]))
+        >>> np.round(10 * np.log10(sigma), 1).tolist()
+        [-9.3, -18.5, -21.6]
+        """
+    def survey(self, world: World, trajectory: Trajectory, *, seed: int = 0, truth: bool = False, progress: bathyal.sonar.survey.Progress | None = None, num_threads: int = 0) -> bathyal.sonar.record.SonarRecord:
+        """
+        Hears a world along a trajectory.
+        
+        Parameters
+        ----------
+        world : World
+        trajectory : Trajectory
+            world_from_vehicle; a ping every 1 / `ping_rate`, from its first time to its last.
+        seed : int
+            Of all random numbers; the same seed gives the same bytes.
+        truth : bool
+            Whether what each sample came from is kept: seven times the memory.
+        progress : function, optional
+            Called with the pings done and all of them; the survey ends where it returns False.
+        num_threads : int
+            0 means all; any number gives the same bytes.
+        
+        Returns
+        -------
+        SonarRecord
+        
+        Raises
+        ------
+        ValueError
+            As `Sonar.ping`, with the ping's number.
+        """
+    def to_dict(self) -> dict[str, typing.Any]:
+        """
+        Every field's value by its name.
+        """
+    @property
+    def absorption(self) -> typing.Any:
+        """
+        None, "francois_garrison" or "ainslie_mccolm".
+        """
+    @property
+    def axis_tilt(self) -> typing.Any:
+        """
+        Of the beam's axis below the horizontal, where its pattern counts [rad].
+        """
+    @property
+    def backscatter(self) -> typing.Any:
+        """
+        "lambert", or "material": its table or sediment where it has one.
+        """
+    @property
+    def bandwidth(self) -> typing.Any:
+        """
+        [Hz]
+        """
+    @property
+    def beam_names(self) -> list[str]:
+        """
+        Of the rows.
+        """
+    @property
+    def beam_pattern(self) -> typing.Any:
+        """
+        None, "uniform" (sinc² with side lobes) or "gaussian".
+        """
+    @property
+    def beam_width(self) -> typing.Any:
+        """
+        In φ, where one-way power is half [rad].
+        """
+    @property
+    def beams(self) -> typing.Any:
+        """
+        Rows of a ping; of a side-scan port, or port and starboard.
+        """
+    @property
+    def bits(self) -> typing.Any:
+        """
+        Of the samples' amplitude; 0 is not quantised.
+        """
+    @property
+    def dropout_rate(self) -> typing.Any:
+        """
+        Part of the pings that bring nothing.
+        """
+    @property
+    def fan_span(self) -> typing.Any:
+        """
+        Of ψ that rays cover [rad].
+        """
+    @property
+    def fan_width(self) -> typing.Any:
+        """
+        In ψ, where one-way power is half [rad].
+        """
+    @property
+    def frequency(self) -> typing.Any:
+        """
+        [Hz]
+        """
+    @property
+    def full_scale(self) -> typing.Any:
+        """
+        Intensity at which samples clip [dB].
+        """
+    @property
+    def head_start(self) -> typing.Any:
+        """
+        Angle of a scanning head at ping 0, to port [rad].
+        """
+    @property
+    def head_step(self) -> typing.Any:
+        """
+        And from ping to ping [rad].
+        """
+    @property
+    def kind(self) -> typing.Any:
+        """
+        "echo_sounder", "side_scan", "multibeam", "imaging" or "scanning".
+        """
+    @property
+    def layover(self) -> typing.Any:
+        """
+        Whether what is nearer than a lower part of its fan is heard as well.
+        """
+    @property
+    def motion(self) -> typing.Any:
+        """
+        Whether the vehicle moves between transmission and reception.
+        """
+    @property
+    def multiples(self) -> typing.Any:
+        """
+        Reflections after which a ray is still followed, 0 to 8; under a surface, that one reflects and scatters as well.
+        """
+    @property
+    def name(self) -> typing.Any:
+        """
+        What it is called.
+        """
+    @property
+    def noise(self) -> typing.Any:
+        """
+        Whether the sea's noise is heard.
+        """
+    @property
+    def noise_level(self) -> typing.Any:
+        """
+        Its spectral level [dB re 1 µPa²/Hz].
+        """
+    @property
+    def ping_rate(self) -> typing.Any:
+        """
+        [Hz]
+        """
+    @property
+    def pixel_solid_angle(self) -> typing.Any:
+        """
+        Whether pixels count by their solid angle, cos³ of the angle off axis.
+        """
+    @property
+    def pulse(self) -> typing.Any:
+        """
+        None, "rectangle" (its length) or "chirp" (compressed to c / 2B).
+        """
+    @property
+    def pulse_length(self) -> typing.Any:
+        """
+        [s]
+        """
+    @property
+    def range(self) -> typing.Any:
+        """
+        Slant range of the end of the last sample [m].
+        """
+    @property
+    def ray_count(self) -> int:
+        """
+        Rays of a ping.
+        """
+    @property
+    def rays(self) -> typing.Any:
+        """
+        "angles": equal angles with their solid angles; "camera": pixels that count equally.
+        """
+    @property
+    def rays_across_beam(self) -> typing.Any:
+        """
+        Over φ, of each beam.
+        """
+    @property
+    def rays_along_fan(self) -> typing.Any:
+        """
+        Over ψ, of each beam.
+        """
+    @property
+    def refraction(self) -> typing.Any:
+        """
+        Whether sound runs along arcs, by the profile of the water.
+        """
+    @property
+    def samples(self) -> typing.Any:
+        """
+        Of a row.
+        """
+    @property
+    def sector(self) -> typing.Any:
+        """
+        Between the axes of the outer beams [rad].
+        """
+    @property
+    def source_level(self) -> typing.Any:
+        """
+        [dB re 1 µPa at 1 m]
+        """
+    @property
+    def speckle(self) -> typing.Any:
+        """
+        None, "rayleigh" or "k".
+        """
+    @property
+    def speckle_shape(self) -> typing.Any:
+        """
+        ν of the K distribution.
+        """
+    @property
+    def spreading(self) -> typing.Any:
+        """
+        Whether power falls with R⁻⁴.
+        """
+    @property
+    def tilt(self) -> typing.Any:
+        """
+        Of the fan's middle below the horizontal [rad].
+        """
+    @property
+    def tvg(self) -> typing.Any:
+        """
+        Whether a gain over range is applied.
+        """
+    @property
+    def tvg_absorption(self) -> typing.Any:
+        """
+        Its part with the way there and back [dB/m].
+        """
+    @property
+    def tvg_spreading(self) -> typing.Any:
+        """
+        Its part with range [dB a decade].
+        """
+    @property
+    def vehicle_from_sonar(self) -> typing.Any:
+        """
+        (4, 4), its mount.
+        """
+    @property
+    def wind_speed(self) -> typing.Any:
+        """
+        At 10 m, by which the sea surface scatters [m/s].
         """
 class Touches:
     """
@@ -7201,6 +7956,10 @@ def make_wreck(length: typing.SupportsFloat | typing.SupportsIndex, *, seed: typ
     >>> bathyal.mesh_report(bathyal.make_wreck(40, seed=1)).closed
     True
     """
+def make_xtf(amplitude: numpy.typing.ArrayLike, beam_names: collections.abc.Sequence[str], columns: dict[str, numpy.typing.ArrayLike], *, slant_range: typing.SupportsFloat | typing.SupportsIndex, frequency: typing.SupportsFloat | typing.SupportsIndex, geographic: bool = False, amplitude_step: typing.SupportsFloat | typing.SupportsIndex = 0.0, sonar_name: str = 'bathyal') -> XtfFile:
+    """
+    An XTF file of side-scan pings, 16 bits a sample; `columns` as `SidescanPings.column`, `amplitude_step` 0 finds one so that the largest amplitude has the highest step.
+    """
 def mesh_report(mesh: TriangleMesh, *, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> MeshReport:
     """
     Measure a mesh: area, rims, pieces, defects, slopes, rugosity.
@@ -7227,6 +7986,24 @@ def mesh_report(mesh: TriangleMesh, *, num_threads: typing.SupportsInt | typing.
     >>> report = bathyal.mesh_report(ramp)
     >>> round(report.rugosity, 6), report.inverted_triangles, len(report.boundary_loops)
     (1.414214, 0, 1)
+    """
+def parse_xtf(data: bytes) -> XtfFile:
+    """
+    Reads the bytes of an XTF file.
+    
+    Parameters
+    ----------
+    data : bytes
+    
+    Returns
+    -------
+    XtfFile
+        All whole packets; what is broken is left out and counted.
+    
+    Raises
+    ------
+    bathyal.Error
+        For what does not begin as an XTF file.
     """
 def plan_sampling(ws: Workspace, target: numpy.typing.ArrayLike, *, q_start: numpy.typing.ArrayLike | None = None, q_transport: numpy.typing.ArrayLike | None = None, tool: RigidBody | None = None, tool_capsules: collections.abc.Sequence[Capsule] = [], tool_pose: numpy.typing.ArrayLike | None = None, sample: RigidBody | None = None, sample_capsules: collections.abc.Sequence[Capsule] = [], direction: numpy.typing.ArrayLike | None = None, align: bool | None = None, tool_axis: numpy.typing.ArrayLike = (0.0, 0.0, 1.0), standoff: typing.SupportsFloat | typing.SupportsIndex = 0.1, depth: typing.SupportsFloat | typing.SupportsIndex = 0.02, stiffness: typing.SupportsFloat | typing.SupportsIndex = 5000.0, force_limit: typing.SupportsFloat | typing.SupportsIndex = 100.0, grab_time: typing.SupportsFloat | typing.SupportsIndex = 3.0, press_speed: typing.SupportsFloat | typing.SupportsIndex = 0.02, line_tolerance: typing.SupportsFloat | typing.SupportsIndex = 0.001, velocity: numpy.typing.ArrayLike | None = None, acceleration: numpy.typing.ArrayLike | None = None, jerk: numpy.typing.ArrayLike | None = None, step: typing.SupportsFloat | typing.SupportsIndex = 0.02, time: typing.SupportsFloat | typing.SupportsIndex = 0.0, max_checks: typing.SupportsInt | typing.SupportsIndex = 20000, seed: typing.SupportsInt | typing.SupportsIndex = 0, inertia: bool = False, gravity: numpy.typing.ArrayLike = (0.0, 0.0, -9.80665), water_density: typing.SupportsFloat | typing.SupportsIndex = 1025.0, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> SamplingPlan:
     """
@@ -7679,19 +8456,6 @@ def survey_height(x: numpy.typing.ArrayLike, y: numpy.typing.ArrayLike, *, seed:
     >>> bathyal.survey_height([431210.0], [6172660.0], **flat)
     array([-38.])
     """
-def triangle_material(mesh: TriangleMesh) -> numpy.ndarray:
-    """
-    Material of each triangle of a generated bottom.
-    
-    Parameters
-    ----------
-    mesh : TriangleMesh
-        With an attribute ``material`` of the vertices, as make_seabed gives.
-    
-    Returns
-    -------
-    (T,) array of int
-        Rows of ``SeabedModel.materials``: the middle of the values of the three corners.
 def trace_sound(water: Water | Profile, launch_angle: numpy.typing.ArrayLike, travel_time: numpy.typing.ArrayLike, start_depth: numpy.typing.ArrayLike, *, time: typing.SupportsFloat | typing.SupportsIndex = 0.0) -> TracedSound:
     """
     Where beams are after their travel times.
@@ -7719,13 +8483,31 @@ def trace_sound(water: Water | Profile, launch_angle: numpy.typing.ArrayLike, tr
     Examples
     --------
     >>> import bathyal
-    >>> mesh = bathyal.make_seabed(1, 0.5)
-    >>> bathyal.triangle_material(mesh)
-    array([0, 0, 0, 0, 0, 0, 0, 0], dtype=int16)
     >>> cast = bathyal.Profile([0, 10, 100], sound_speed=[1520.0, 1500.0, 1490.0])
     >>> found = bathyal.trace_sound(cast, [0.5, 1.0], 0.04, 2.0)
     >>> found.across.round(2).tolist(), found.depth.round(2).tolist()
     ([52.19, 32.04], [31.7, 52.69])
+    """
+def triangle_material(mesh: TriangleMesh) -> numpy.ndarray:
+    """
+    Material of each triangle of a generated bottom.
+    
+    Parameters
+    ----------
+    mesh : TriangleMesh
+        With an attribute ``material`` of the vertices, as make_seabed gives.
+    
+    Returns
+    -------
+    (T,) array of int
+        Rows of ``SeabedModel.materials``: the middle of the values of the three corners.
+    
+    Examples
+    --------
+    >>> import bathyal
+    >>> mesh = bathyal.make_seabed(1, 0.5)
+    >>> bathyal.triangle_material(mesh)
+    array([0, 0, 0, 0, 0, 0, 0, 0], dtype=int16)
     """
 def triangulate(cloud: PointCloud | numpy.typing.ArrayLike, *, max_edge: typing.SupportsFloat | typing.SupportsIndex | None = None, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> tuple[TriangleMesh, SheetReport]:
     """
