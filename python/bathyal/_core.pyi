@@ -2867,6 +2867,19 @@ class World:
         angle, backscatter : (K,) arrays, optional
             A measured law: σ₀ [dB] by the angle of incidence [rad], rising.
         """
+    def show(self, time: float = 0.0) -> Figure:
+        """
+        The world from above, shaded: in a notebook a picture, else `.savefig(path)`.
+        
+        Parameters
+        ----------
+        time : float
+            At which it is drawn [s].
+        
+        Returns
+        -------
+        matplotlib.figure.Figure
+        """
     @property
     def materials(self) -> list[str]:
         """
