@@ -65,7 +65,7 @@ TEST(Physics, ConstantGradientBendsRaysToCircles) {
   const Water water = water_of({0.0, 2000.0}, {surface_speed, surface_speed + 2000.0 * g});
   const WorldSnapshot world = world_of({flat(-bottom, 5000.0)}, {1.0});
   for (const double degrees : {35.0, 50.0, 70.0, 90.0}) {
-    SonarOptions options = pencil(radians(degrees), 1e-5, 1000.0);
+    SonarOptions options = pencil(radians(degrees), 1e-6, 1000.0);
     options.refraction = true;
     const Echo echo = Sonar(options).echo(world, water, at(0, 0, -start));
     const double c0 = surface_speed + g * start, c1 = surface_speed + g * bottom;
@@ -74,7 +74,7 @@ TEST(Physics, ConstantGradientBendsRaysToCircles) {
     const double sine_1 = std::sqrt(1.0 - std::pow(cosine * c1 / c0, 2));
     const double time = std::log(c1 / c0 * (1.0 + sine) / (1.0 + sine_1)) / g;
     const std::size_t best = strongest(echo);
-    EXPECT_NEAR(echo.truth.range[best], c0 * time, 5e-3) << degrees;
+    EXPECT_NEAR(echo.truth.range[best], c0 * time, 2e-3) << degrees;
     const Vec3 point = point_of(echo, best);
     if (degrees < 90.0) {
       const double out = c0 * (sine - sine_1) / (g * cosine);
