@@ -69,7 +69,7 @@ $(STAMPS)/venv: $(STAMPS)/apt-build constraints.txt
 demo: $(STAMPS)/venv
 	$(call install-package)
 	mkdir -p demo
-	$(BIN)/bathyal survey demo/survey.xyz --aims-out demo/aims.csv
+	$(BIN)/bathyal soundings demo/survey.xyz --aims-out demo/aims.csv
 	$(BIN)/bathyal plan demo/survey.xyz --aims demo/aims.csv --out demo/plan
 	@echo "The tool path is demo/plan/path.csv; its picture is demo/plan/plan.png, and demo/plan/plan.html turns."
 	$(BIN)/bathyal scenario example demo/scene

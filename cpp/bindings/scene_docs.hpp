@@ -45,10 +45,10 @@ Examples
 Scene(1 mesh, 1 triangle)
 >>> poses = np.array([np.eye(4), np.eye(4)])
 >>> poses[1, 2, 3] = -10.0
->>> scene = bathyal.Scene([floor, floor], poses=poses, scales=[1, 3])
->>> hits = scene.cast((0, 0, 5), [[1, 1, -5], [8, 2, -15]])
+>>> scene = bathyal.Scene([floor, floor], poses=poses, scales=[1, 4])
+>>> hits = scene.cast((0, 0, 5), [[1, 1, -5], [12, 3, -15]])
 >>> hits.mesh.tolist(), hits.point.tolist()
-([0, 1], [[1.0, 1.0, 0.0], [8.0, 2.0, -10.0]])
+([0, 1], [[1.0, 1.0, 0.0], [12.0, 3.0, -10.0]])
 )";
 
 inline constexpr const char* kWithPosesDoc = R"(The same meshes at other poses, as another scene.
@@ -96,7 +96,7 @@ Examples
 --------
 >>> import bathyal
 >>> floor = bathyal.TriangleMesh([[0, 0, 0], [4, 0, 0], [0, 4, 0]], [[0, 1, 2]])
->>> bathyal.Scene(floor, scales=[2]).mesh_in_world(0).vertices.max()
+>>> bathyal.Scene(floor, scales=[2]).mesh_in_world(0).vertices.max().item()
 8.0
 )";
 

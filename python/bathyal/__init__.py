@@ -100,8 +100,8 @@ from bathyal._core import (
     simd_level,
     sound_speed,
     survey_height,
-    triangle_material,
     trace_sound,
+    triangle_material,
     with_link_radii,
 )
 from bathyal.arm import methods as _arm_methods  # noqa: F401
@@ -120,6 +120,7 @@ from bathyal.sonar import methods as _sonar_methods  # noqa: F401
 from bathyal.sonar.files import read_sonar
 from bathyal.sonar.navigation import Navigation
 from bathyal.sonar.record import RecordTruth, SonarRecord
+from bathyal.sonar.tracks import read_track
 from bathyal.toolpath import methods as _toolpath_methods  # noqa: F401
 from bathyal.toolpath.aims import read_aims
 from bathyal.water import methods as _water_methods  # noqa: F401
@@ -135,6 +136,8 @@ from bathyal.workspace.joint_trajectory import write_joint_trajectory
 from bathyal.workspace.reach_files import read_reach_map
 from bathyal.workspace.scenario import Scenario, read_scenario
 from bathyal.workspace.srdf import read_srdf, write_srdf
+from bathyal.world import methods as _world_methods  # noqa: F401
+from bathyal.world.files import read_world
 
 __version__ = _version("bathyal")
 
@@ -249,14 +252,17 @@ __all__ = [
     "read_sonar",
     "read_srdf",
     "read_touches",
+    "read_track",
     "read_tracked",
+    "read_world",
     "seawater_density",
     "set_simd_level",
     "simd_level",
+    "sonars",
     "sound_speed",
     "survey_height",
-    "triangle_material",
     "trace_sound",
+    "triangle_material",
     "triangulate",
     "verify_arm",
     "with_link_radii",

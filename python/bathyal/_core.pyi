@@ -936,7 +936,7 @@ class Profile:
     >>> import bathyal
     >>> cast = bathyal.Profile([0, 20, 60], temperature=[18, 14, 9], salinity=[34, 34.5, 35])
     >>> cast.with_sound_speed().sound_speed.round(1).tolist()
-    [1515.1, 1503.4, 1487.1]
+    [1514.6, 1503.2, 1487.1]
     """
     def __getstate__(self) -> tuple[list[float], list[float], list[float], list[float], list[float], float | None, float | None, float | None, str, str]:
         ...
@@ -1230,9 +1230,9 @@ class Water:
     >>> cast = bathyal.Profile([0, 20, 60], temperature=[18, 14, 9], salinity=[34, 34.5, 35])
     >>> water = bathyal.Water(cast, surface=0.0)
     >>> round(water.sound_speed(-20.0), 1), water.covers(80)
-    (1503.4, False)
+    (1503.2, False)
     >>> round(water.absorption(100e3, depth=50), 1)
-    33.6
+    33.5
     """
     def __init__(self, profile: Profile | list[Profile] | None = None, *, surface: typing.SupportsFloat | typing.SupportsIndex | None = None, time: numpy.typing.ArrayLike | None = None, reference_depth: typing.SupportsFloat | typing.SupportsIndex = 50.0, temperature: typing.SupportsFloat | typing.SupportsIndex = 10.0, salinity: typing.SupportsFloat | typing.SupportsIndex = 35.0, sound_speed: typing.SupportsFloat | typing.SupportsIndex | None = None, formula: str = 'mackenzie', ph: typing.SupportsFloat | typing.SupportsIndex = 8.0, latitude: typing.SupportsFloat | typing.SupportsIndex | None = None, current: Current | numpy.typing.ArrayLike | None = None, waves: Waves | None = None, tide: Tide | None = None) -> None:
         ...
@@ -1355,7 +1355,7 @@ class SoundPath:
     >>> cast = bathyal.Profile([0, 1000], sound_speed=[1500.0, 1517.0])
     >>> path = bathyal.SoundPath(cast, 100.0, 0.0, max_time=0.5)
     >>> path.at([0.5]).round(3).tolist()  # bent upwards, to less speed
-    [[0.5, 750.844, 96.815, -0.008]]
+    [[0.5, 750.832, 96.809, -0.008]]
     """
     def __init__(self, water: Water | Profile, start_depth: typing.SupportsFloat | typing.SupportsIndex, launch_angle: typing.SupportsFloat | typing.SupportsIndex, *, max_time: typing.SupportsFloat | typing.SupportsIndex = 1.0, max_distance: typing.SupportsFloat | typing.SupportsIndex = ..., surface: bool = True, surface_reflects: bool = False, time: typing.SupportsFloat | typing.SupportsIndex = 0.0) -> None:
         ...
@@ -1628,10 +1628,10 @@ class Scene:
     Scene(1 mesh, 1 triangle)
     >>> poses = np.array([np.eye(4), np.eye(4)])
     >>> poses[1, 2, 3] = -10.0
-    >>> scene = bathyal.Scene([floor, floor], poses=poses, scales=[1, 3])
-    >>> hits = scene.cast((0, 0, 5), [[1, 1, -5], [8, 2, -15]])
+    >>> scene = bathyal.Scene([floor, floor], poses=poses, scales=[1, 4])
+    >>> hits = scene.cast((0, 0, 5), [[1, 1, -5], [12, 3, -15]])
     >>> hits.mesh.tolist(), hits.point.tolist()
-    ([0, 1], [[1.0, 1.0, 0.0], [8.0, 2.0, -10.0]])
+    ([0, 1], [[1.0, 1.0, 0.0], [12.0, 3.0, -10.0]])
     """
     @typing.overload
     def __init__(self, mesh: TriangleMesh, *, poses: numpy.typing.ArrayLike | None = None, scales: numpy.typing.ArrayLike | None = None, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> None:
@@ -1726,7 +1726,7 @@ class Scene:
         --------
         >>> import bathyal
         >>> floor = bathyal.TriangleMesh([[0, 0, 0], [4, 0, 0], [0, 4, 0]], [[0, 1, 2]])
-        >>> bathyal.Scene(floor, scales=[2]).mesh_in_world(0).vertices.max()
+        >>> bathyal.Scene(floor, scales=[2]).mesh_in_world(0).vertices.max().item()
         8.0
         """
     def nearest(self, points: numpy.typing.ArrayLike, *, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> Nearest:
@@ -2866,6 +2866,19 @@ class World:
             μ of Lambert's law σ₀ = μ cos²θ, linear; the paper's K_d.
         angle, backscatter : (K,) arrays, optional
             A measured law: σ₀ [dB] by the angle of incidence [rad], rising.
+        """
+    def show(self, time: float = 0.0) -> Figure:
+        """
+        The world from above, shaded: in a notebook a picture, else `.savefig(path)`.
+        
+        Parameters
+        ----------
+        time : float
+            At which it is drawn [s].
+        
+        Returns
+        -------
+        matplotlib.figure.Figure
         """
     @property
     def materials(self) -> list[str]:
@@ -8486,7 +8499,7 @@ def trace_sound(water: Water | Profile, launch_angle: numpy.typing.ArrayLike, tr
     >>> cast = bathyal.Profile([0, 10, 100], sound_speed=[1520.0, 1500.0, 1490.0])
     >>> found = bathyal.trace_sound(cast, [0.5, 1.0], 0.04, 2.0)
     >>> found.across.round(2).tolist(), found.depth.round(2).tolist()
-    ([52.17, 31.86], [31.56, 52.68])
+    ([52.19, 32.04], [31.7, 52.69])
     """
 def triangle_material(mesh: TriangleMesh) -> numpy.ndarray:
     """

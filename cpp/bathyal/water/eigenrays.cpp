@@ -21,7 +21,7 @@ struct Passage {
 class Fan {
  public:
   Fan(const SpeedProfile& profile, double from, double to, double distance, bool reflects)
-      : profile_(profile), from_(from), to_(to), distance_(distance) {
+      : profile_(profile), from_(from), to_(to) {
     const double slowest = *std::min_element(profile.speed().begin(), profile.speed().end());
     options_.surface_reflects = reflects;
     options_.max_distance = distance;
@@ -60,7 +60,6 @@ class Fan {
   const SpeedProfile& profile_;
   double from_;
   double to_;
-  double distance_;
   SoundPathOptions options_;
 };
 

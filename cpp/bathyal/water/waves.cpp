@@ -155,9 +155,12 @@ Waves::Motion Waves::motion(const Vec3& point, double time) const {
   if (flat()) return motion;
   const double surface = elevation(point.x(), point.y(), time);
   if (!(point.z() <= surface) || !(point.z() >= -depth_)) return motion;
-  // Wheeler: z' = h (z − η) / (h + η), from 0 at the surface to −h at the bottom.
-  const double z = std::isinf(depth_) ? point.z() - surface
-                                      : depth_ * (point.z() - surface) / (depth_ + surface);
+  // Wheeler: z' = h (z − η) / (h + η), from 0 at the surface to −h at the bottom; it moves with η.
+  const bool deep = std::isinf(depth_);
+  const double column = depth_ + surface;
+  const double z = deep ? point.z() - surface : depth_ * (point.z() - surface) / column;
+  const double z_rate = -elevation_rate(point.x(), point.y(), time) *
+                        (deep ? 1.0 : depth_ * (depth_ + point.z()) / (column * column));
   for (const WaveComponent& c : components_) {
     const double k = c.number.norm();
     const Decay decay = decay_at(k, z, depth_);
@@ -169,8 +172,11 @@ Waves::Motion Waves::motion(const Vec3& point, double time) const {
     const double sine = std::sin(angle);
     motion.velocity.head<2>() += speed * decay.horizontal * cosine * along;
     motion.velocity.z() += speed * decay.vertical * sine;
-    motion.acceleration.head<2>() += speed * c.frequency * decay.horizontal * sine * along;
-    motion.acceleration.z() -= speed * c.frequency * decay.vertical * cosine;
+    motion.acceleration.head<2>() +=
+        speed * (c.frequency * decay.horizontal * sine + k * decay.vertical * z_rate * cosine) *
+        along;
+    motion.acceleration.z() +=
+        speed * (-c.frequency * decay.vertical * cosine + k * decay.horizontal * z_rate * sine);
   }
   return motion;
 }

@@ -67,7 +67,7 @@ class Waves {
   /// below the bottom.
   struct Motion {
     Vec3 velocity = Vec3::Zero();      ///< [m/s]
-    Vec3 acceleration = Vec3::Zero();  ///< ∂/∂t in a fixed place, Wheeler's surface held [m/s²]
+    Vec3 acceleration = Vec3::Zero();  ///< ∂/∂t of the velocity in a fixed place [m/s²]
   };
   Motion motion(const Vec3& point, double time) const;
 

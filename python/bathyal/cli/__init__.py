@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The command line: bathyal plan · triangulate · info · survey · identify · diagnose · touches ·
-check · reach · sample · scenario · profile."""
+"""The command line: bathyal plan · triangulate · info · soundings · identify · diagnose · touches ·
+check · reach · sample · scenario · profile ·
+world · survey."""
 
 from __future__ import annotations
 
@@ -19,11 +20,13 @@ from bathyal.cli.profile import profile
 from bathyal.cli.reach import reach
 from bathyal.cli.sample import sample
 from bathyal.cli.scenario_example import example as example_scenario
+from bathyal.cli.soundings import soundings
 from bathyal.cli.survey import survey
 from bathyal.cli.talk import Commands
 from bathyal.cli.touches_example import example
 from bathyal.cli.touches_plan import plan as plan_of_touches
 from bathyal.cli.triangulate import triangulate
+from bathyal.cli.world import world
 
 _EXIT_CODES = (
     "Exit codes: 0 done (warnings are printed, they do not fail a job), 1 the job failed or a file "
@@ -39,7 +42,10 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     epilog=_EXIT_CODES,
 )
-for command in (plan, triangulate, info, survey, identify, diagnose, check, reach, sample, profile):
+for command in (
+    plan, triangulate, info, soundings, identify, diagnose, check, reach, sample, profile, world,
+    survey,
+):  # fmt: skip
     app.command(epilog=_EXIT_CODES)(spread(command))
 
 touches = typer.Typer(rich_markup_mode="rich", no_args_is_help=True)
@@ -74,7 +80,7 @@ def main(
 
     [bold]Try it:[/]
 
-      bathyal survey survey.xyz --aims-out aims.csv
+      bathyal soundings survey.xyz --aims-out aims.csv
 
       bathyal plan survey.xyz --aims aims.csv --out plan
 
@@ -89,6 +95,10 @@ def main(
       bathyal check scene/scenario.yaml
 
       bathyal sample scene/scenario.yaml --out sample
+
+      bathyal world sea/world.yaml --example
+
+      bathyal survey sea/world.yaml --track sea/track.csv --speed 2 --out sea/survey
     """
     if show_version:
         typer.echo(f"bathyal {version('bathyal')}")

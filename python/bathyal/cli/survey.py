@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""bathyal survey: a generated survey, to try things on."""
+"""bathyal survey: a sonar flown over a world."""
 
 from __future__ import annotations
 
@@ -8,56 +8,78 @@ from typing import Annotated
 
 import typer
 
-from bathyal._core import generate_survey
 from bathyal.cli import options as opt
 from bathyal.cli.talk import Talk
-from bathyal.cli.values import default_note, given, seed_number
-from bathyal.seabed.clouds import write_cloud
+from bathyal.cli.values import given, seed_number
 
 
 def survey(
     *,
-    out: Annotated[
-        Path, typer.Argument(metavar="OUT", help="Soundings to write: .xyz .csv .ply or .vtp.")
+    world: Annotated[
+        Path,
+        typer.Argument(metavar="WORLD", help="A .yaml file; `bathyal world --example` makes one."),
     ],
-    aims_out: Annotated[
-        Path | None, typer.Option(help="Also write camera axes that fit the survey, .csv.")
+    track: Annotated[
+        Path,
+        typer.Option(
+            "--track", "-t", help="Table of x, y, z and time or heading_deg, .csv.", metavar="FILE"
+        ),
+    ],
+    out: Annotated[
+        Path, typer.Option("--out", "-o", help="Folder for the results; made if missing.")
+    ],
+    sonar: Annotated[
+        str, typer.Option(help="A sonar by its name in bathyal.sonars.", metavar="PRESET")
+    ] = "side_scan",
+    physics: Annotated[
+        str, typer.Option(help='"real": every effect on, or "off".', metavar="real|off")
+    ] = "real",
+    speed: Annotated[
+        float | None, typer.Option(help="Where the track has no time \\[m/s].", metavar="SPEED")
+    ] = None,
+    max_range: Annotated[
+        float | None,
+        typer.Option("--range", help="In place of the sonar's own \\[m].", metavar="RANGE"),
     ] = None,
     seed: Annotated[
         int | None,
         typer.Option(
-            help="Of the random numbers. " + default_note(generate_survey, "seed"),
+            help="Of the random numbers. [dim]\\[default: 0][/]",
             parser=seed_number,
             metavar="NUMBER",
         ),
     ] = None,
-    length: Annotated[
-        float | None,
-        typer.Option(help="Along x \\[m]. " + default_note(generate_survey, "length")),
-    ] = None,
-    width: Annotated[
-        float | None,
-        typer.Option(help="Along y \\[m]. " + default_note(generate_survey, "width")),
+    inside: Annotated[
+        Path | None,
+        typer.Option(
+            help="Folder in which the files that the world names may lie, in place of its own.",
+            show_default=False,
+        ),
     ] = None,
     json: opt.Json = False,
     quiet: opt.Quiet = False,
 ) -> None:
-    """Generate a survey: sand waves, boulders, a trench, a lost stripe, noise.
+    """Fly a sonar over a world, and write what it hears.
+
+    Writes survey.xtf and survey.png of a side-scan, survey.npz of other sonars.
 
     [bold]Example:[/]
 
-      bathyal survey survey.xyz --seed 7 --aims-out aims.csv
+      bathyal survey sea/world.yaml --track sea/track.csv --out sea/survey
     """
-    from bathyal.toolpath.example_aims import aims_over, write_aims
+    from bathyal.sonar.survey_job import run_survey, sonar_named
 
     talk = Talk(json=json, quiet=quiet)
-    with talk.progress() as progress:
-        with progress("Generating"):
-            cloud = generate_survey(**given(seed=seed, length=length, width=width))
-        with progress("Writing"):
-            write_cloud(cloud, out)
-            if aims_out is not None:
-                write_aims(aims_over(cloud), aims_out)
-    files = [str(path) for path in (out, aims_out) if path is not None]
-    rows = {"soundings": f"{len(cloud):,}", "written": "\n".join(files)}
-    talk.result({"soundings": len(cloud), "files": files}, rows)
+    made = sonar_named(sonar, physics)
+    if max_range is not None:
+        made = made.replace(range=max_range)
+    with talk.progress() as progress, progress("Listening"):
+        result = run_survey(
+            world, track, out, sonar=made, speed=speed, inside=inside, **given(seed=seed)
+        )
+    talk.warn(list(result.record.warnings[:5]))
+    files = [str(path) for path in result.files]
+    talk.result(
+        {"pings": len(result.record), "files": files},
+        {"pings": f"{len(result.record):,}", "written": "\n".join(files)},
+    )

@@ -5,12 +5,16 @@ from __future__ import annotations
 
 import os
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from bathyal._core import Sonar
 from bathyal.sonar.navigation import Floats, Navigation
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 
 @dataclass(frozen=True)
@@ -56,6 +60,44 @@ class SonarRecord:
 
     def __len__(self) -> int:
         return len(self.time)
+
+    def distance(self) -> Floats:
+        """(P,) along the track [m], by the positions, or by speed and time where there are none."""
+        position = np.asarray(self.navigation.position)[:, :2]
+        if np.isfinite(position).all() and len(position):
+            moved = np.linalg.norm(np.diff(position, axis=0), axis=1)
+        else:
+            speed = np.nan_to_num(np.asarray(self.navigation.speed))
+            moved = np.diff(self.time) * 0.5 * (speed[1:] + speed[:-1])
+        return np.concatenate([[0.0], np.cumsum(np.nan_to_num(moved))])[: len(self.time)]
+
+    def plot(self, *, altitude: bool = False) -> Figure:
+        """The side-scan's waterfall: pings downwards, port on the left, metres on the axes.
+
+        Parameters
+        ----------
+        altitude : bool
+            Whether the reported altitude is drawn.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+
+        Raises
+        ------
+        ValueError
+            For a record that is no side-scan's, or an empty one.
+        """
+        from bathyal.errors import argument_error
+        from bathyal.view.waterfall import waterfall_figure
+
+        if not set(self.beam_names) <= {"port", "starboard"} or len(self.time) == 0:
+            raise argument_error("record", "pings of a side-scan", f"beams {self.beam_names}")
+        return waterfall_figure(
+            np.asarray(self.intensity), self.range, self.distance(),
+            title=self.sonar.name if self.sonar else "",
+            altitude=np.asarray(self.navigation.altitude) if altitude else None,
+        )  # fmt: skip
 
     def write(self, path: str | os.PathLike[str]) -> None:
         """Writes the record: `.xtf`, a side-scan's rows in 16 bits of amplitude.

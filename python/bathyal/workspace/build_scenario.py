@@ -4,9 +4,7 @@
 from __future__ import annotations
 
 import math
-import os
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -16,7 +14,6 @@ from numpy.typing import NDArray
 from bathyal._core import (
     Arm,
     Capsule,
-    Error,
     Hull,
     KeepOut,
     RigidBody,
@@ -31,7 +28,7 @@ from bathyal._core import (
 from bathyal.arm.files import find_arm
 from bathyal.io.files import PathLike, shown
 from bathyal.io.yaml_documents import Document, Place
-from bathyal.io.yaml_schema import at
+from bathyal.io.yaml_files import DocumentFiles
 from bathyal.seabed.bottom import make_bottom, noting
 from bathyal.seabed.meshes import read_mesh
 from bathyal.view.arm_solid import resting_pose
@@ -86,38 +83,8 @@ def scenario_of(
     )
 
 
-class _Builder:
+class _Builder(DocumentFiles):
     """One document's sections, its files found within one folder."""
-
-    def __init__(self, document: Document, inside: PathLike | None) -> None:
-        self.document = document
-        self.within = Path(os.path.realpath(document.folder if inside is None else inside))
-        self.warnings: list[str] = []
-
-    @contextmanager
-    def placed(self, place: Place) -> Iterator[None]:
-        """What goes wrong inside is reported with the place it came from."""
-        try:
-            yield
-        except (ValueError, OSError, Error) as error:
-            raise at(self.document, place, error) from error
-
-    def file(self, name: str, place: Place) -> Path:
-        """A file by its name, which may not lead out of the folder."""
-        with self.placed(place):
-            path = Path(os.path.realpath(self.document.folder / name))
-        if not path.is_relative_to(self.within):
-            raise at(
-                self.document,
-                place,
-                Error(
-                    f"{shown(name)} lies outside {shown(self.within)}; where that is meant, name a "
-                    "folder that holds it: inside=…, on the command line --inside"
-                ),
-            )
-        if not path.is_file():
-            raise at(self.document, place, FileNotFoundError(2, "no such file", name))
-        return path
 
     def arm(self, section: own.ArmSection) -> Arm:
         options = {"tip": section.tip, "root": section.root}

@@ -7,80 +7,37 @@ worlds and missions take the same sections.
 
 from __future__ import annotations
 
-import math
 from typing import Annotated, Any, Literal
 
 import numpy as np
-from numpy.typing import NDArray
-from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, model_validator
+from pydantic import BeforeValidator, Field, model_validator
 
-from bathyal.io.poses import pose_of
-
-Array = NDArray[np.float64]
-
-Number = Annotated[float, Field(strict=True, allow_inf_nan=False)]
-Positive = Annotated[Number, Field(gt=0)]
-NotNegative = Annotated[Number, Field(ge=0)]
-Whole = Annotated[int, Field(strict=True, ge=0)]
-Vector = tuple[Number, Number, Number]
-Spread = tuple[NotNegative, NotNegative, NotNegative]
-Name = Annotated[str, Field(min_length=1, max_length=200)]
-FileName = Annotated[str, Field(min_length=1, max_length=1000)]
-
-_ORIGIN = (0.0, 0.0, 0.0)
-
-
-class Section(BaseModel):
-    """Keys that are not known are refused."""
-
-    model_config = ConfigDict(extra="forbid", frozen=True, hide_input_in_errors=False)
-
-
-def _one_of(section: BaseModel, *names: str, needed: bool = False) -> str | None:
-    """The one of these keys that is given."""
-    given = [name for name in names if getattr(section, name) is not None]
-    if len(given) > 1:
-        raise ValueError(f"expected one of {', '.join(names)}, got {' and '.join(given)}")
-    if needed and not given:
-        raise ValueError(f"expected one of {', '.join(names)}, got none")
-    return given[0] if given else None
-
-
-def _radians(section: BaseModel, name: str) -> tuple[float, ...] | None:
-    """The value of `name`, or of `name`_deg."""
-    value = getattr(section, name)
-    if value is not None:
-        return tuple(value)
-    degrees = getattr(section, f"{name}_deg")
-    return None if degrees is None else tuple(math.radians(angle) for angle in degrees)
-
-
-class PoseSection(Section):
-    """A place and three turns: roll about x, then pitch about y, then yaw about z, all fixed axes.
-    In the vehicle's frame (x forward, y port, z up) a positive pitch is nose down."""
-
-    position: Vector = _ORIGIN
-    rpy: Vector | None = None
-    rpy_deg: Vector | None = None
-
-    @model_validator(mode="after")
-    def _one_unit(self) -> PoseSection:
-        _one_of(self, "rpy", "rpy_deg")
-        return self
-
-    def matrix(self) -> Array:
-        """(4, 4)."""
-        return pose_of(self.position, _radians(self, "rpy") or _ORIGIN)
+from bathyal.io.yaml_sections import (
+    ORIGIN,
+    Array,
+    FileName,
+    Name,
+    NotNegative,
+    Number,
+    PoseSection,
+    Positive,
+    Section,
+    Spread,
+    Vector,
+    Whole,
+    one_of,
+    radians,
+)
 
 
 class BodySection(Section):
     """What a body weighs and displaces; `inertia` about the centre of mass."""
 
     mass: NotNegative = 0.0
-    center_of_mass: Vector = _ORIGIN
+    center_of_mass: Vector = ORIGIN
     inertia: tuple[Vector, Vector, Vector] | None = None
     volume: NotNegative = 0.0
-    center_of_buoyancy: Vector = _ORIGIN
+    center_of_buoyancy: Vector = ORIGIN
 
 
 class LinkSection(BodySection):
@@ -110,8 +67,8 @@ class ArmSection(Section):
 
     @model_validator(mode="after")
     def _one_source(self) -> ArmSection:
-        _one_of(self, "name", "file", needed=True)
-        _one_of(self, "q_start", "q_start_deg")
+        one_of(self, "name", "file", needed=True)
+        one_of(self, "q_start", "q_start_deg")
         if self.file is None and (self.tip or self.root):
             raise ValueError("expected tip and root with a file only")
         return self
@@ -127,7 +84,7 @@ class HullSection(Section):
 
     @model_validator(mode="after")
     def _one_source(self) -> HullSection:
-        _one_of(self, "mesh", "box", needed=True)
+        one_of(self, "mesh", "box", needed=True)
         return self
 
 
@@ -141,7 +98,7 @@ class SphereSection(_KeepOutSection):
 
     shape: Literal["sphere"]
     radius: Positive
-    center: Vector = _ORIGIN
+    center: Vector = ORIGIN
 
 
 class BoxSection(_KeepOutSection):
@@ -173,7 +130,7 @@ class ConeSection(_KeepOutSection):
 
     @model_validator(mode="after")
     def _one_width(self) -> ConeSection:
-        _one_of(self, "radius", "angle", "angle_deg", needed=True)
+        one_of(self, "radius", "angle", "angle_deg", needed=True)
         return self
 
 
@@ -206,7 +163,7 @@ class SeabedSection(Section):
 
     size: tuple[Positive, Positive]
     spacing: Positive
-    center: Vector = _ORIGIN
+    center: Vector = ORIGIN
     seed: Whole = 0
     wave_height: NotNegative | None = None
     wave_length: Positive | None = None
@@ -228,7 +185,7 @@ class SceneSection(Section):
 
     @model_validator(mode="after")
     def _one_source(self) -> SceneSection:
-        _one_of(self, "mesh", "survey", "seabed", needed=True)
+        one_of(self, "mesh", "survey", "seabed", needed=True)
         if self.z is not None and self.survey is None:
             raise ValueError("expected z with a survey only")
         return self
@@ -252,7 +209,7 @@ class VehicleSection(PoseSection):
 
     @model_validator(mode="after")
     def _one_pose(self) -> VehicleSection:
-        _one_of(self, "rpy_std", "rpy_std_deg")
+        one_of(self, "rpy_std", "rpy_std_deg")
         placed = {"position", "rpy", "rpy_deg"} & self.model_fields_set
         if self.trajectory is not None and placed:
             raise ValueError(f"expected a pose or a trajectory, got {sorted(placed)[0]} too")
@@ -260,10 +217,10 @@ class VehicleSection(PoseSection):
 
     def pose_std(self) -> Array | None:
         """(6,) along and about the vehicle's axes [m, rad]; None where it is surely known."""
-        turns = _radians(self, "rpy_std")
+        turns = radians(self, "rpy_std")
         if self.position_std is None and turns is None:
             return None
-        return np.array([*(self.position_std or _ORIGIN), *(turns or _ORIGIN)])
+        return np.array([*(self.position_std or ORIGIN), *(turns or ORIGIN)])
 
 
 def _as_target(given: Any) -> Any:
@@ -279,7 +236,7 @@ class TargetSection(Section):
 
     @model_validator(mode="after")
     def _one_place(self) -> TargetSection:
-        _one_of(self, "point", "on_bottom", needed=True)
+        one_of(self, "point", "on_bottom", needed=True)
         return self
 
 
@@ -320,7 +277,7 @@ class SamplingSection(Section):
 
     @model_validator(mode="after")
     def _one_unit(self) -> SamplingSection:
-        _one_of(self, "transport", "transport_deg")
+        one_of(self, "transport", "transport_deg")
         return self
 
     def keywords(self) -> dict[str, Any]:

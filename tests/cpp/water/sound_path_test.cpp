@@ -285,6 +285,9 @@ TEST(Eigenrays, SeveralInAChannelNoneInAShadow) {
   }
   const SpeedProfile downward({0.0, 1000.0}, {1540.0, 1480.0});
   EXPECT_TRUE(eigenrays(downward, 10.0, 10.0, 5000.0).empty());
+  // Above a layer of greatest speed rays turn back, below it they go down: neither passes between.
+  const SpeedProfile ridge({0.0, 500.0, 1000.0}, {1480.0, 1500.0, 1480.0});
+  EXPECT_TRUE(eigenrays(ridge, 100.0, 500.0, 10000.0).empty());
 }
 
 }  // namespace

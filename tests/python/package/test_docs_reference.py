@@ -97,6 +97,7 @@ def test_every_command_is_in_the_reference(sections: dict[str, str]) -> None:
         "check",
         "reach",
         "sample",
+        "profile",
     ]
     expected = [*verbs, "touches example", "touches plan", "scenario example"]
     assert set(sections) == {f"bathyal {verb}" for verb in expected}
@@ -104,7 +105,8 @@ def test_every_command_is_in_the_reference(sections: dict[str, str]) -> None:
 
 @pytest.mark.parametrize(
     "command", ["plan", "triangulate", "info", "survey", "identify", "diagnose",
-                "touches example", "touches plan", "check", "reach", "sample", "scenario example"],
+                "touches example", "touches plan", "check", "reach", "sample", "profile",
+                "scenario example"],
 )  # fmt: skip
 def test_every_option_of_a_command_is_in_the_reference(
     command: str, sections: dict[str, str], capsys: pytest.CaptureFixture[str],

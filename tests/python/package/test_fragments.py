@@ -2,13 +2,15 @@
 """What the README and the pages of the documentation tell a reader to type works as it is.
 
 Each page is followed from top to bottom in a folder of its own: shell lines that begin with
-`bathyal` must end well, Python is executed, tables of aims and of touches are the file that the
+`bathyal` must end well, Python is executed and, where it is
+a session, says what is shown, tables of aims and of touches are the file that the
 page names, and what is shown of the program's words must have been said. The pages on file formats
 are doctests (test_format_pages.py).
 """
 
 from __future__ import annotations
 
+import doctest
 import re
 import shlex
 from pathlib import Path
@@ -66,6 +68,10 @@ def follow(blocks: list[tuple[str, str]], folder: Path) -> None:
                     said = run(words, folder)
                 else:
                     assert " ".join(words).startswith(NOT_RUN_HERE), words
+        elif kind == "python" and text.startswith(">>>"):
+            session = doctest.DocTestParser().get_doctest(text, names, folder.name, None, None)
+            assert doctest.DocTestRunner().run(session, clear_globs=False).failed == 0
+            names.update(session.globs)
         elif kind == "python":
             exec(compile(text, f"python of {folder.name}", "exec"), names)
         elif kind == "text" and text.startswith(tuple(TABLES)):

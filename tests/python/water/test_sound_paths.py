@@ -65,7 +65,7 @@ def test_paths_and_chords():
     path = bathyal.SoundPath(THERMOCLINE, 3.0, 0.3, max_time=0.1)
     assert path.end == "time"
     assert path.duration == 0.1
-    assert path.depth[1:-1].tolist() == [15, 30, 80]
+    assert path.depth[1:-1].tolist() == [15, 30]
     for tolerance in (1.0, 1e-3):
         chords = path.chords(tolerance)
         assert path.at(chords[:, 0])[:, 1:] == pytest.approx(chords[:, 1:], abs=1e-9)

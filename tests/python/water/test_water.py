@@ -4,8 +4,6 @@
 from __future__ import annotations
 
 import pickle
-import re
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -156,7 +154,7 @@ def test_current_waves_and_tide_together():
     point = np.array([3.0, 2.0, 6.0])
     slope = (waves.velocity(point - [0, 0, 10], 2 + step) - waves.velocity(
         point - [0, 0, 10], 2 - step)) / (2 * step)  # fmt: skip
-    assert waves.acceleration(point - [0, 0, 10], 2.0) == pytest.approx(slope, rel=0.15, abs=1e-3)
+    assert waves.acceleration(point - [0, 0, 10], 2.0) == pytest.approx(slope, rel=1e-5, abs=1e-7)
 
 
 def test_waves_of_components():
@@ -167,15 +165,3 @@ def test_waves_of_components():
     assert waves.wave_number[:, 0] == pytest.approx(waves.frequency**2 / 9.80665)
     with pytest.raises(ValueError, match="period"):
         bathyal.Waves.of_components(1.0, 0.0)
-
-
-def test_the_page_of_the_water_runs(tmp_path, monkeypatch):
-    import doctest
-
-    monkeypatch.chdir(tmp_path)
-    page = Path(__file__).resolve().parents[3] / "docs" / "water.md"
-    blocks = re.findall(r"```python\n(.*?)```", page.read_text("utf-8"), re.DOTALL)
-    test = doctest.DocTestParser().get_doctest("\n".join(blocks), {}, page.name, str(page), 0)
-    results = doctest.DocTestRunner().run(test)
-    assert results.attempted > 5
-    assert results.failed == 0

@@ -68,13 +68,16 @@ void set_time(XtfHeader<256>& header, double time) {
 
 void add_navigation(const XtfHeader<256>& header, SidescanPings& pings) {
   const double y = header.get<double>(160), x = header.get<double>(168);
-  const bool known = std::isfinite(x) && std::isfinite(y) && (x != 0.0 || y != 0.0);
+  // A ping without navigation is all zeros; the origin of a grid is a place, 0° N 0° E none.
+  const bool elsewhere = header.get<float>(196) != 0.0F || header.get<float>(212) != 0.0F;
+  const bool known = std::isfinite(x) && std::isfinite(y) &&
+                     (x != 0.0 || y != 0.0 || (!pings.geographic && elsewhere));
   const double unit = pings.geographic ? kDegree : 1.0;
   pings.x.push_back(known ? unit * x : kNone);
   pings.y.push_back(known ? unit * y : kNone);
   const auto value = [&](std::size_t offset) -> double {
     const double read = header.get<float>(offset);
-    return known && std::isfinite(read) ? read : kNone;  // a ping without navigation is all zeros
+    return known && std::isfinite(read) ? read : kNone;
   };
   pings.speed.push_back(0.514444 * value(152));  // knots
   pings.depth.push_back(value(192));
