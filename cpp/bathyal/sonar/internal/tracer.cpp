@@ -162,6 +162,7 @@ void Tracer::spread(const BeamRays& fan, const Arrival& arrival, double against,
   const double half_psi = std::abs(steep_psi) * fan.half_psi;
   const double half_phi = std::abs(steep_phi) * fan.half_phi;
   back.half = arrival.range * std::max(half_psi, half_phi);
+  back.least = arrival.range * std::abs(against);
   if (half_psi >= half_phi && steep_psi != 0.0)
     back.slide = arrival.direction + arrival.by_psi / steep_psi;
   else if (steep_phi != 0.0)
