@@ -6,6 +6,10 @@ On a seabed of 204,800 triangles, in the same interleaved rounds: `Scene.cast` o
 other instruments. Published, not run here: Bobkov and others (2014) 5 to 10 pings/s in the paper's
 window; DAVE 0.5 Hz with 512 beams of 114 rays (RTX 2080 Ti, coherent sums); OceanSim 41.7 Hz with
 an image of 512 × 512 (A6000).
+
+The column "casting" is what the rays would take at the cost of one of the paper's rays: a share of
+the ping for the paper's model, and only a scale for instruments whose rays are others. A busy
+machine slows the two unequally; trust it where several runs agree.
 """
 
 import argparse
