@@ -67,7 +67,8 @@ World::World() : materials_(std::make_shared<const std::vector<Material>>(materi
 World::World(const World& other)
     : objects_(other.objects_),
       rows_(other.rows_),
-      materials_(other.materials_), water_(other.water_) {}
+      materials_(other.materials_),
+      water_(other.water_) {}
 
 World& World::operator=(const World& other) {
   if (this == &other) return *this;

@@ -163,6 +163,10 @@ void Tracer::spread(const BeamRays& fan, const Arrival& arrival, double against,
   const double half_phi = std::abs(steep_phi) * fan.half_phi;
   const double nearest = 1.0 - back.incidence_cosine;  // no place of the plane is nearer
   back.half = arrival.range * std::min(std::max(half_psi, half_phi), nearest);
+  constexpr double kGrazing = 0.1;  // a facet nearly on edge ends within the cell
+  if (back.incidence_cosine < kGrazing && arrival.hit.mesh >= 0) {
+    back.half = std::min(back.half, 0.5 * facets_.longest_edge(arrival.hit));
+  }
   if (half_psi >= half_phi && steep_psi != 0.0)
     back.slide = arrival.direction + arrival.by_psi / steep_psi;
   else if (steep_phi != 0.0)
