@@ -220,7 +220,10 @@ TEST(Paint, TakesTrianglesByTheirMiddle) {
 }
 
 TEST(Clones, LieOnTheGroundUnderTheirOrigin) {
-  const TriangleMesh stone = make_boulder(1.0);
+  const TriangleMesh made = make_boulder(1.0);
+  PointMatrix vertices = made.vertices();
+  vertices.col(2).array() -= 0.7;  // its foot is not at its origin
+  const TriangleMesh stone(vertices, TriangleMatrix(made.triangles()));
   for (const double slope : {0.0, 0.3}) {
     World world;
     world.add(plane(20, slope), {}, "sand", "bottom");

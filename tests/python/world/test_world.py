@@ -156,7 +156,8 @@ def test_material_sets_how_strong_an_echo_is(world):
 def test_clones_lie_on_the_ground(slope):
     world = bathyal.World()
     world.add(plane(20, slope), name="bottom")
-    stone = bathyal.make_boulder(0.3, seed=1)
+    made = bathyal.make_boulder(0.3, seed=1)
+    stone = bathyal.TriangleMesh(made.vertices - [0, 0, 0.2], made.triangles)  # foot off origin
     low, high = (float(pick(stone.vertices[:, 2])) for pick in (np.min, np.max))
     first = world.add_clones(
         stone, 40, name="stone", seed=5,
