@@ -17,28 +17,39 @@ class Navigation:
 
     Angles are as a mariner reads them: heading clockwise from north (the world's y), pitch positive
     with the bow up, roll positive with starboard down.
+
+    Attributes
+    ----------
+    time
+        (P,) [s]
+    position
+        (P, 3) in the world [m]: east, north, up.
+    heading
+        (P,) [rad]
+    pitch
+        (P,) [rad]
+    roll
+        (P,) [rad]
+    depth
+        (P,) below the mean surface [m]
+    altitude
+        (P,) above the bottom [m]
+    speed
+        (P,) over ground [m/s]
+    latitude, longitude
+        (P,) [rad]; of files that have them.
     """
 
     time: Floats
-    """(P,) [s]"""
     position: Floats
-    """(P, 3) in the world [m]: east, north, up."""
     heading: Floats
-    """(P,) [rad]"""
     pitch: Floats
-    """(P,) [rad]"""
     roll: Floats
-    """(P,) [rad]"""
     depth: Floats
-    """(P,) below the mean surface [m]"""
     altitude: Floats
-    """(P,) above the bottom [m]"""
     speed: Floats
-    """(P,) over ground [m/s]"""
     latitude: Floats | None = None
-    """(P,) [rad]; of files that have it."""
     longitude: Floats | None = None
-    """(P,) [rad]; of files that have it."""
 
 
 def mariners_angles(pose: Floats) -> tuple[Floats, Floats, Floats]:
