@@ -2867,7 +2867,7 @@ class World:
         angle, backscatter : (K,) arrays, optional
             A measured law: σ₀ [dB] by the angle of incidence [rad], rising.
         """
-    def show(self, time: float = 0.0) -> Figure:
+    def show(self, time: float = 0.0) -> matplotlib.figure.Figure:
         """
         The world from above, shaded: in a notebook a picture, else `.savefig(path)`.
         
@@ -4943,12 +4943,11 @@ class Sonar:
     >>> pose = np.eye(4)
     >>> pose[2, 3] = 10.0
     >>> ping = sonar.ping(world, pose)
-    >>> ping.intensity.shape, float(ping.range[ping.intensity[0] > 0][0])
-    ((2, 1500), 10.016666666666667)
+    >>> ping.intensity.shape, round(float(ping.range[ping.intensity[0] > 0][0]), 3)
+    ((2, 1500), 10.017)
     """
-    __hash__: typing.ClassVar[None] = None
     @staticmethod
-    def from_dict(fields: dict[str, typing.Any]) -> Sonar:
+    def from_dict(fields: dict[str, bool | int | float | str | numpy.typing.ArrayLike | None]) -> Sonar:
         """
         The sonar that `to_dict` describes.
         """
@@ -4969,9 +4968,11 @@ class Sonar:
         -------
         Sonar
         """
-    def __eq__(self, arg0: typing.Any) -> bool:
+    def __eq__(self, arg0: Sonar) -> bool:
         ...
-    def __getstate__(self) -> dict[str, typing.Any]:
+    def __getstate__(self) -> dict[str, bool | int | float | str | numpy.typing.ArrayLike | None]:
+        ...
+    def __hash__(self) -> int:
         ...
     def __repr__(self) -> str:
         ...
@@ -5033,7 +5034,7 @@ class Sonar:
         """
         Times of a survey's pings along a trajectory [s].
         """
-    def replace(self, **kwargs) -> Sonar:
+    def replace(self, **kwargs: bool | int | float | str | numpy.typing.ArrayLike | None) -> Sonar:
         """
         Another sonar with the given fields changed.
         
@@ -5103,27 +5104,27 @@ class Sonar:
         ValueError
             As `Sonar.ping`, with the ping's number.
         """
-    def to_dict(self) -> dict[str, typing.Any]:
+    def to_dict(self) -> dict[str, bool | int | float | str | numpy.typing.ArrayLike | None]:
         """
         Every field's value by its name.
         """
     @property
-    def absorption(self) -> typing.Any:
+    def absorption(self) -> str | None:
         """
         None, "francois_garrison" or "ainslie_mccolm".
         """
     @property
-    def axis_tilt(self) -> typing.Any:
+    def axis_tilt(self) -> float:
         """
         Of the beam's axis below the horizontal, where its pattern counts [rad].
         """
     @property
-    def backscatter(self) -> typing.Any:
+    def backscatter(self) -> str | None:
         """
         "lambert", or "material": its table or sediment where it has one.
         """
     @property
-    def bandwidth(self) -> typing.Any:
+    def bandwidth(self) -> float:
         """
         [Hz]
         """
@@ -5133,117 +5134,117 @@ class Sonar:
         Of the rows.
         """
     @property
-    def beam_pattern(self) -> typing.Any:
+    def beam_pattern(self) -> str | None:
         """
         None, "uniform" (sinc² with side lobes) or "gaussian".
         """
     @property
-    def beam_width(self) -> typing.Any:
+    def beam_width(self) -> float:
         """
         In φ, where one-way power is half [rad].
         """
     @property
-    def beams(self) -> typing.Any:
+    def beams(self) -> int:
         """
         Rows of a ping; of a side-scan port, or port and starboard.
         """
     @property
-    def bits(self) -> typing.Any:
+    def bits(self) -> int:
         """
         Of the samples' amplitude; 0 is not quantised.
         """
     @property
-    def dropout_rate(self) -> typing.Any:
+    def dropout_rate(self) -> float:
         """
         Part of the pings that bring nothing.
         """
     @property
-    def fan_span(self) -> typing.Any:
+    def fan_span(self) -> float:
         """
         Of ψ that rays cover [rad].
         """
     @property
-    def fan_width(self) -> typing.Any:
+    def fan_width(self) -> float:
         """
         In ψ, where one-way power is half [rad].
         """
     @property
-    def frequency(self) -> typing.Any:
+    def frequency(self) -> float:
         """
         [Hz]
         """
     @property
-    def full_scale(self) -> typing.Any:
+    def full_scale(self) -> float:
         """
         Intensity at which samples clip [dB].
         """
     @property
-    def head_start(self) -> typing.Any:
+    def head_start(self) -> float:
         """
         Angle of a scanning head at ping 0, to port [rad].
         """
     @property
-    def head_step(self) -> typing.Any:
+    def head_step(self) -> float:
         """
         And from ping to ping [rad].
         """
     @property
-    def kind(self) -> typing.Any:
+    def kind(self) -> str | None:
         """
         "echo_sounder", "side_scan", "multibeam", "imaging" or "scanning".
         """
     @property
-    def layover(self) -> typing.Any:
+    def layover(self) -> bool:
         """
         Whether what is nearer than a lower part of its fan is heard as well.
         """
     @property
-    def motion(self) -> typing.Any:
+    def motion(self) -> bool:
         """
         Whether the vehicle moves between transmission and reception.
         """
     @property
-    def multiples(self) -> typing.Any:
+    def multiples(self) -> int:
         """
         Reflections after which a ray is still followed, 0 to 8; under a surface, that one reflects and scatters as well.
         """
     @property
-    def name(self) -> typing.Any:
+    def name(self) -> str:
         """
         What it is called.
         """
     @property
-    def noise(self) -> typing.Any:
+    def noise(self) -> bool:
         """
         Whether the sea's noise is heard.
         """
     @property
-    def noise_level(self) -> typing.Any:
+    def noise_level(self) -> float:
         """
         Its spectral level [dB re 1 µPa²/Hz].
         """
     @property
-    def ping_rate(self) -> typing.Any:
+    def ping_rate(self) -> float:
         """
         [Hz]
         """
     @property
-    def pixel_solid_angle(self) -> typing.Any:
+    def pixel_solid_angle(self) -> bool:
         """
         Whether pixels count by their solid angle, cos³ of the angle off axis.
         """
     @property
-    def pulse(self) -> typing.Any:
+    def pulse(self) -> str | None:
         """
         None, "rectangle" (its length) or "chirp" (compressed to c / 2B).
         """
     @property
-    def pulse_length(self) -> typing.Any:
+    def pulse_length(self) -> float:
         """
         [s]
         """
     @property
-    def range(self) -> typing.Any:
+    def range(self) -> float:
         """
         Slant range of the end of the last sample [m].
         """
@@ -5253,82 +5254,82 @@ class Sonar:
         Rays of a ping.
         """
     @property
-    def rays(self) -> typing.Any:
+    def rays(self) -> str | None:
         """
         "angles": equal angles with their solid angles; "camera": pixels that count equally.
         """
     @property
-    def rays_across_beam(self) -> typing.Any:
+    def rays_across_beam(self) -> int:
         """
         Over φ, of each beam.
         """
     @property
-    def rays_along_fan(self) -> typing.Any:
+    def rays_along_fan(self) -> int:
         """
         Over ψ, of each beam.
         """
     @property
-    def refraction(self) -> typing.Any:
+    def refraction(self) -> bool:
         """
         Whether sound runs along arcs, by the profile of the water.
         """
     @property
-    def samples(self) -> typing.Any:
+    def samples(self) -> int:
         """
         Of a row.
         """
     @property
-    def sector(self) -> typing.Any:
+    def sector(self) -> float:
         """
         Between the axes of the outer beams [rad].
         """
     @property
-    def source_level(self) -> typing.Any:
+    def source_level(self) -> float:
         """
         [dB re 1 µPa at 1 m]
         """
     @property
-    def speckle(self) -> typing.Any:
+    def speckle(self) -> str | None:
         """
         None, "rayleigh" or "k".
         """
     @property
-    def speckle_shape(self) -> typing.Any:
+    def speckle_shape(self) -> float:
         """
         ν of the K distribution.
         """
     @property
-    def spreading(self) -> typing.Any:
+    def spreading(self) -> bool:
         """
         Whether power falls with R⁻⁴.
         """
     @property
-    def tilt(self) -> typing.Any:
+    def tilt(self) -> float:
         """
         Of the fan's middle below the horizontal [rad].
         """
     @property
-    def tvg(self) -> typing.Any:
+    def tvg(self) -> bool:
         """
         Whether a gain over range is applied.
         """
     @property
-    def tvg_absorption(self) -> typing.Any:
+    def tvg_absorption(self) -> float:
         """
         Its part with the way there and back [dB/m].
         """
     @property
-    def tvg_spreading(self) -> typing.Any:
+    def tvg_spreading(self) -> float:
         """
         Its part with range [dB a decade].
         """
     @property
-    def vehicle_from_sonar(self) -> typing.Any:
+    def vehicle_from_sonar(self) -> numpy.ndarray:
         """
         (4, 4), its mount.
         """
     @property
-    def wind_speed(self) -> typing.Any:
+    def wind_speed(self) -> float:
         """
         At 10 m, by which the sea surface scatters [m/s].
         """

@@ -41,8 +41,8 @@ struct ReceiverOptions {
   void check() const;
 };
 
-/// What the random numbers of a ping come from. Speckle belongs to the place: a sonar that stands
-/// still hears the same, and one that has moved by a quarter of a wavelength, or turned by an
+/// What the random numbers of a ping come from. Speckle belongs to the place: a sonar that rests
+/// hears the same, and one that has moved by a quarter of a wavelength, or turned by an
 /// eighth of its beam, another. Noise and dropouts belong to the time.
 struct ReceiverKey {
   std::uint64_t seed = 0;
