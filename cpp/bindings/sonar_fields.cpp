@@ -43,6 +43,13 @@ SonarField number(const char* name, double SonarOptions::*member) {
           [name, member](SonarOptions& o, const py::object& v) { o.*member = number_of(name, v); }};
 }
 
+SonarField number_or_none(const char* name, std::optional<double> SonarOptions::*member) {
+  return {name, [member](const SonarOptions& o) -> py::object { return py::cast(o.*member); },
+          [name, member](SonarOptions& o, const py::object& v) {
+            o.*member = v.is_none() ? std::nullopt : std::optional<double>(number_of(name, v));
+          }};
+}
+
 SonarField count(const char* name, int SonarOptions::*member) {
   return {name, [member](const SonarOptions& o) { return py::int_(o.*member); },
           [name, member](SonarOptions& o, const py::object& v) { o.*member = count_of(name, v); }};
@@ -163,11 +170,13 @@ std::vector<SonarField> make_fields() {
                            true),
       number("speckle_shape", &O::speckle_shape),
       flag("noise", &O::noise),
-      number("noise_level", &O::noise_level),
-      number("dropout_rate", &O::dropout_rate),
+      number_or_none("noise_level", &O::noise_level),
       flag("tvg", &O::tvg),
       number("tvg_spreading", &O::tvg_spreading),
       number("tvg_absorption", &O::tvg_absorption),
+      number("tvg_offset", &O::tvg_offset),
+      number("dropout_rate", &O::dropout_rate),
+      number("beam_dropout_rate", &O::beam_dropout_rate),
       count("bits", &O::bits),
       number("full_scale", &O::full_scale),
   };
