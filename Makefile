@@ -65,7 +65,7 @@ $(STAMPS)/venv: $(STAMPS)/apt-build constraints.txt
 	touch $@
 
 # The main jobs, as a user would run them: a generated survey written as a file, planned over; a
-# scenario in which a sample is taken.
+# scenario in which a sample is taken; a sea that a side-scan is flown over.
 demo: $(STAMPS)/venv
 	$(call install-package)
 	mkdir -p demo
@@ -75,6 +75,9 @@ demo: $(STAMPS)/venv
 	$(BIN)/bathyal scenario example demo/scene
 	$(BIN)/bathyal check demo/scene/scenario.yaml
 	$(BIN)/bathyal sample demo/scene/scenario.yaml --out demo/sample
+	$(BIN)/bathyal world demo/sea/world.yaml --example --picture demo/sea/world.png
+	$(BIN)/bathyal survey demo/sea/world.yaml --track demo/sea/track.csv --speed 2 --range 40 --out demo/sea/survey
+	@echo "The side-scan is demo/sea/survey/survey.xtf; its picture is demo/sea/survey/survey.png."
 	@echo "The sample's motion is demo/sample/motion.csv; its picture is demo/sample/motion.png, and demo/sample/motion.html plays."
 
 # C++ tests, the same under ASan and UBSan with the fuzzers' short run, then Python, notebooks, docs.

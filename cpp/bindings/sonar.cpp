@@ -188,9 +188,7 @@ void bind_ping(py::module_& module) {
 
 void add_fields(py::class_<Sonar>& cls) {
   for (const auto& [name, doc] : sonar_docs::fields()) {
-    const SonarField* field = &sonar_field(name);
-    cls.def_property_readonly(
-        name.c_str(), [field](const Sonar& s) { return field->get(s.options()); }, doc.c_str());
+    sonar_field(name).add(cls, doc.c_str());
   }
 }
 
@@ -210,7 +208,7 @@ void bind_sonar(py::module_& module) {
          py::arg("name"), py::arg("physics") = "off", sonar_docs::kPreset)
       .def(
           "replace",
-          [](const Sonar& sonar, const py::kwargs& fields) {
+          [](const Sonar& sonar, const py::KWArgs<SonarValue>& fields) {
             return Sonar(replaced(sonar.options(), fields));
           },
           sonar_docs::kReplace)
@@ -219,9 +217,7 @@ void bind_sonar(py::module_& module) {
           "Every field's value by its name.")
       .def_static(
           "from_dict",
-          [](const py::typing::Dict<py::str, py::object>& fields) {
-            return Sonar(replaced(SonarOptions(), fields));
-          },
+          [](const SonarValues& fields) { return Sonar(replaced(SonarOptions(), fields)); },
           py::arg("fields"), "The sonar that `to_dict` describes.")
       .def("ping", &ping_of, py::arg("world"), py::arg("world_from_vehicle"), py::arg("time") = 0.0,
            py::kw_only(), py::arg("velocity") = py::none(),
@@ -242,13 +238,14 @@ void bind_sonar(py::module_& module) {
           "ray_count", [](const Sonar& s) { return s.ray_count(); }, "Rays of a ping.")
       .def_property_readonly(
           "beam_names", [](const Sonar& s) { return beam_names(s.options()); }, "Of the rows.")
-      .def("__eq__",
-           [](const Sonar& a, const py::object& b) {
-             if (!py::isinstance<Sonar>(b)) return false;
-             const Sonar other = b.cast<Sonar>();
-             return py::repr(sonar_to_dict(a.options()))
-                 .equal(py::repr(sonar_to_dict(other.options())));
-           })
+      .def(
+          "__eq__",
+          [](const Sonar& a, const Sonar& b) {
+            return py::repr(sonar_to_dict(a.options())).equal(py::repr(sonar_to_dict(b.options())));
+          },
+          py::is_operator())
+      .def("__hash__",
+           [](const Sonar& s) { return py::hash(py::repr(sonar_to_dict(s.options()))); })
       .def("__repr__",
            [](const Sonar& s) {
              const SonarOptions& o = s.options();
@@ -259,7 +256,6 @@ void bind_sonar(py::module_& module) {
       .def(py::pickle(
           [](const Sonar& s) { return sonar_to_dict(s.options()); },
           [](const py::dict& fields) { return Sonar(replaced(SonarOptions(), fields)); }));
-  cls.attr("__hash__") = py::none();
   add_fields(cls);
 }
 

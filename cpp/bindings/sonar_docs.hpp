@@ -29,8 +29,8 @@ Examples
 >>> pose = np.eye(4)
 >>> pose[2, 3] = 10.0
 >>> ping = sonar.ping(world, pose)
->>> ping.intensity.shape, float(ping.range[ping.intensity[0] > 0][0])
-((2, 1500), 10.016666666666667)
+>>> ping.intensity.shape, round(float(ping.range[ping.intensity[0] > 0][0]), 3)
+((2, 1500), 10.017)
 )";
 
 inline constexpr const char* kPreset = R"(A sonar by the name of its class; see `bathyal.sonars`.

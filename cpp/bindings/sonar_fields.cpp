@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sonar_fields.hpp"
 
+#include <pybind11/stl.h>
+
 #include <string_view>
 #include <utility>
 
@@ -38,26 +40,39 @@ bool flag_of(std::string_view name, const py::object& object) {
   throw_argument(name, "True or False", shown(object));
 }
 
+/// A property whose type is that of what `get` returns.
+template <class Get>
+std::function<void(py::class_<Sonar>&, const char*)> property(const char* name, Get get) {
+  return [name, get](py::class_<Sonar>& cls, const char* doc) {
+    cls.def_property_readonly(
+        name, [get](const Sonar& s) { return get(s.options()); }, doc);
+  };
+}
+
 SonarField number(const char* name, double SonarOptions::*member) {
   return {name, [member](const SonarOptions& o) { return py::float_(o.*member); },
-          [name, member](SonarOptions& o, const py::object& v) { o.*member = number_of(name, v); }};
+          [name, member](SonarOptions& o, const py::object& v) { o.*member = number_of(name, v); },
+          property(name, [member](const SonarOptions& o) { return o.*member; })};
 }
 
 SonarField number_or_none(const char* name, std::optional<double> SonarOptions::*member) {
   return {name, [member](const SonarOptions& o) -> py::object { return py::cast(o.*member); },
           [name, member](SonarOptions& o, const py::object& v) {
             o.*member = v.is_none() ? std::nullopt : std::optional<double>(number_of(name, v));
-          }};
+          },
+          property(name, [member](const SonarOptions& o) { return o.*member; })};
 }
 
 SonarField count(const char* name, int SonarOptions::*member) {
   return {name, [member](const SonarOptions& o) { return py::int_(o.*member); },
-          [name, member](SonarOptions& o, const py::object& v) { o.*member = count_of(name, v); }};
+          [name, member](SonarOptions& o, const py::object& v) { o.*member = count_of(name, v); },
+          property(name, [member](const SonarOptions& o) { return o.*member; })};
 }
 
 SonarField flag(const char* name, bool SonarOptions::*member) {
   return {name, [member](const SonarOptions& o) { return py::bool_(o.*member); },
-          [name, member](SonarOptions& o, const py::object& v) { o.*member = flag_of(name, v); }};
+          [name, member](SonarOptions& o, const py::object& v) { o.*member = flag_of(name, v); },
+          property(name, [member](const SonarOptions& o) { return o.*member; })};
 }
 
 /// A choice by name; of a switch, None and False are its first value, True is its second.
@@ -83,7 +98,8 @@ SonarField choice(const char* name, Enum SonarOptions::*member, EnumNames<Enum> 
       throw_argument(name, is_switch ? "None or a name" : "a name", shown(v));
     }
   };
-  return {name, get, set};
+  const auto typed = [get](const SonarOptions& o) { return py::typing::Optional<py::str>(get(o)); };
+  return {name, get, set, property(name, typed)};
 }
 
 SonarField text(const char* name, std::string SonarOptions::*member) {
@@ -91,13 +107,15 @@ SonarField text(const char* name, std::string SonarOptions::*member) {
           [name, member](SonarOptions& o, const py::object& v) {
             if (!py::isinstance<py::str>(v)) throw_argument(name, "text", shown(v));
             o.*member = v.cast<std::string>();
-          }};
+          },
+          property(name, [member](const SonarOptions& o) { return o.*member; })};
 }
 
 SonarField pose(const char* name, Pose SonarOptions::*member) {
   return {
       name, [member](const SonarOptions& o) { return py::object(to_numpy(o.*member)); },
-      [name, member](SonarOptions& o, const py::object& v) { o.*member = pose_argument(name, v); }};
+      [name, member](SonarOptions& o, const py::object& v) { o.*member = pose_argument(name, v); },
+      property(name, [member](const SonarOptions& o) { return to_numpy(o.*member); })};
 }
 
 /// None, or a formula by its name; True is the first.
@@ -198,8 +216,8 @@ const SonarField& sonar_field(const std::string& name) {
   throw_argument(name, known.insert(0, "a field of a sonar: "), "none of them");
 }
 
-py::typing::Dict<py::str, py::object> sonar_to_dict(const SonarOptions& options) {
-  py::typing::Dict<py::str, py::object> values;
+SonarValues sonar_to_dict(const SonarOptions& options) {
+  SonarValues values;
   for (const SonarField& field : sonar_fields()) values[field.name.c_str()] = field.get(options);
   return values;
 }

@@ -12,7 +12,7 @@ import numpy.typing
 import os
 import plotly.graph_objects
 import typing
-__all__: list[str] = ['Arm', 'ArmFit', 'BEYOND_NOISE', 'Capsule', 'Cause', 'CleanReport', 'CleanResult', 'Clearances', 'CorrectedArm', 'Current', 'DhTable', 'Diagnosis', 'Effect', 'EffectRange', 'EffectRows', 'Eigenray', 'Error', 'Estimate', 'FitParameter', 'FollowedPath', 'FoundEffect', 'HeldOut', 'HeldOutPart', 'Hits', 'Hull', 'HullReport', 'InverseResult', 'KeepOut', 'Link', 'MeshReport', 'MotionCheck', 'MotionPlan', 'NamedEffect', 'Nearest', 'NearestSegments', 'Outlier', 'Ping', 'PingTruth', 'Pipeline', 'Plane', 'PlaneFit', 'PointCloud', 'Polyline', 'Profile', 'ReachMap', 'RigidBody', 'SamplingPhase', 'SamplingPlan', 'Scene', 'SeabedModel', 'Shape', 'SheetPatch', 'SheetReport', 'SidescanPings', 'Sonar', 'SoundPath', 'Standpoint', 'StaticTrim', 'Structure', 'Support', 'TargetChecks', 'Targets', 'TextTable', 'Tide', 'TipMove', 'ToolPath', 'TouchForecast', 'TouchPlan', 'Touches', 'TracedSound', 'Tracked', 'Trade', 'Trajectory', 'TriangleMesh', 'Verification', 'Voxels', 'Water', 'Waves', 'Workspace', 'World', 'WorldSnapshot', 'XtfFile', 'absorption', 'arm_from_chain', 'arm_from_parts', 'arm_parts', 'best_standpoint', 'chain_from_arm', 'check_bytes', 'clean_cloud', 'cover_polygon', 'depth_from_pressure', 'diagnose', 'eigenrays', 'find_effect_with', 'find_sheets', 'find_targets', 'fish_paths', 'fit_plane', 'forecast_touches', 'generate_survey', 'identify_arm', 'intersect_moller_trumbore', 'library_effects', 'make_boulder', 'make_cable', 'make_fish', 'make_mine', 'make_pipeline', 'make_seabed', 'make_wreck', 'make_xtf', 'mesh_report', 'parse_xtf', 'plan_sampling', 'plan_toolpath', 'plan_touches', 'practical_salinity', 'pressure_from_depth', 'read_mesh_with', 'read_pcd', 'read_text_table', 'seawater_density', 'set_simd_level', 'simd_level', 'sound_speed', 'sound_speed_teos10_with', 'survey_height', 'trace_sound', 'triangle_material', 'triangulate', 'triangulate_delaunay', 'verify_positions', 'warn_of_range_with', 'warn_of_support_with', 'with_link_radii', 'write_xyz']
+__all__: list[str] = ['Arm', 'ArmFit', 'BEYOND_NOISE', 'Capsule', 'Cause', 'CleanReport', 'CleanResult', 'Clearances', 'CorrectedArm', 'Current', 'DhTable', 'Diagnosis', 'Effect', 'EffectRange', 'EffectRows', 'Eigenray', 'Error', 'Estimate', 'FitParameter', 'FollowedPath', 'FoundEffect', 'HeldOut', 'HeldOutPart', 'Hits', 'Hull', 'HullReport', 'InverseResult', 'KeepOut', 'Link', 'MeshReport', 'MotionCheck', 'MotionPlan', 'NamedEffect', 'Nearest', 'NearestSegments', 'Outlier', 'Ping', 'PingTruth', 'Pipeline', 'Plane', 'PlaneFit', 'PointCloud', 'Polyline', 'Profile', 'ReachMap', 'RigidBody', 'SamplingPhase', 'SamplingPlan', 'Scene', 'SeabedModel', 'Shape', 'SheetPatch', 'SheetReport', 'SidescanPings', 'Sonar', 'SoundPath', 'Standpoint', 'StaticTrim', 'Structure', 'Support', 'TargetChecks', 'Targets', 'TextTable', 'Tide', 'TipMove', 'ToolPath', 'TouchForecast', 'TouchPlan', 'Touches', 'TracedSound', 'Tracked', 'Trade', 'Trajectory', 'TriangleMesh', 'Verification', 'Voxels', 'Water', 'Waves', 'Workspace', 'World', 'WorldSnapshot', 'XtfFile', 'absorption', 'ambient_noise', 'arm_from_chain', 'arm_from_parts', 'arm_parts', 'best_standpoint', 'chain_from_arm', 'check_bytes', 'clean_cloud', 'cover_polygon', 'depth_from_pressure', 'diagnose', 'eigenrays', 'find_effect_with', 'find_sheets', 'find_targets', 'fish_paths', 'fit_plane', 'forecast_touches', 'generate_survey', 'identify_arm', 'intersect_moller_trumbore', 'library_effects', 'make_boulder', 'make_cable', 'make_fish', 'make_mine', 'make_pipeline', 'make_seabed', 'make_wreck', 'make_xtf', 'mesh_report', 'parse_xtf', 'plan_sampling', 'plan_toolpath', 'plan_touches', 'practical_salinity', 'pressure_from_depth', 'read_mesh_with', 'read_pcd', 'read_text_table', 'seawater_density', 'set_simd_level', 'simd_level', 'sound_speed', 'sound_speed_teos10_with', 'survey_height', 'trace_sound', 'triangle_material', 'triangulate', 'triangulate_delaunay', 'verify_positions', 'warn_of_range_with', 'warn_of_support_with', 'with_link_radii', 'write_xyz']
 class Error(RuntimeError):
     """
     A broken file, a solver that failed or a part that is not installed.
@@ -2867,7 +2867,7 @@ class World:
         angle, backscatter : (K,) arrays, optional
             A measured law: σ₀ [dB] by the angle of incidence [rad], rising.
         """
-    def show(self, time: float = 0.0) -> Figure:
+    def show(self, time: float = 0.0) -> matplotlib.figure.Figure:
         """
         The world from above, shaded: in a notebook a picture, else `.savefig(path)`.
         
@@ -4943,12 +4943,11 @@ class Sonar:
     >>> pose = np.eye(4)
     >>> pose[2, 3] = 10.0
     >>> ping = sonar.ping(world, pose)
-    >>> ping.intensity.shape, float(ping.range[ping.intensity[0] > 0][0])
-    ((2, 1500), 10.016666666666667)
+    >>> ping.intensity.shape, round(float(ping.range[ping.intensity[0] > 0][0]), 3)
+    ((2, 1500), 10.017)
     """
-    __hash__: typing.ClassVar[None] = None
     @staticmethod
-    def from_dict(fields: dict[str, typing.Any]) -> Sonar:
+    def from_dict(fields: dict[str, bool | int | float | str | numpy.typing.ArrayLike | None]) -> Sonar:
         """
         The sonar that `to_dict` describes.
         """
@@ -4969,9 +4968,11 @@ class Sonar:
         -------
         Sonar
         """
-    def __eq__(self, arg0: typing.Any) -> bool:
+    def __eq__(self, arg0: Sonar) -> bool:
         ...
-    def __getstate__(self) -> dict[str, typing.Any]:
+    def __getstate__(self) -> dict[str, bool | int | float | str | numpy.typing.ArrayLike | None]:
+        ...
+    def __hash__(self) -> int:
         ...
     def __repr__(self) -> str:
         ...
@@ -5033,7 +5034,7 @@ class Sonar:
         """
         Times of a survey's pings along a trajectory [s].
         """
-    def replace(self, **kwargs) -> Sonar:
+    def replace(self, **kwargs: bool | int | float | str | numpy.typing.ArrayLike | None) -> Sonar:
         """
         Another sonar with the given fields changed.
         
@@ -5103,29 +5104,34 @@ class Sonar:
         ValueError
             As `Sonar.ping`, with the ping's number.
         """
-    def to_dict(self) -> dict[str, typing.Any]:
+    def to_dict(self) -> dict[str, bool | int | float | str | numpy.typing.ArrayLike | None]:
         """
         Every field's value by its name.
         """
     @property
-    def absorption(self) -> typing.Any:
+    def absorption(self) -> str | None:
         """
         None, "francois_garrison" or "ainslie_mccolm".
         """
     @property
-    def axis_tilt(self) -> typing.Any:
+    def axis_tilt(self) -> float:
         """
         Of the beam's axis below the horizontal, where its pattern counts [rad].
         """
     @property
-    def backscatter(self) -> typing.Any:
+    def backscatter(self) -> str | None:
         """
         "lambert", or "material": its table or sediment where it has one.
         """
     @property
-    def bandwidth(self) -> typing.Any:
+    def bandwidth(self) -> float:
         """
         [Hz]
+        """
+    @property
+    def beam_dropout_rate(self) -> float:
+        """
+        Part of the rows of the other pings that are 0.
         """
     @property
     def beam_names(self) -> list[str]:
@@ -5133,117 +5139,117 @@ class Sonar:
         Of the rows.
         """
     @property
-    def beam_pattern(self) -> typing.Any:
+    def beam_pattern(self) -> str | None:
         """
         None, "uniform" (sinc² with side lobes) or "gaussian".
         """
     @property
-    def beam_width(self) -> typing.Any:
+    def beam_width(self) -> float:
         """
         In φ, where one-way power is half [rad].
         """
     @property
-    def beams(self) -> typing.Any:
+    def beams(self) -> int:
         """
         Rows of a ping; of a side-scan port, or port and starboard.
         """
     @property
-    def bits(self) -> typing.Any:
+    def bits(self) -> int:
         """
         Of the samples' amplitude; 0 is not quantised.
         """
     @property
-    def dropout_rate(self) -> typing.Any:
+    def dropout_rate(self) -> float:
         """
-        Part of the pings that bring nothing.
+        Part of the pings that bring nothing: all their samples are 0.
         """
     @property
-    def fan_span(self) -> typing.Any:
+    def fan_span(self) -> float:
         """
         Of ψ that rays cover [rad].
         """
     @property
-    def fan_width(self) -> typing.Any:
+    def fan_width(self) -> float:
         """
         In ψ, where one-way power is half [rad].
         """
     @property
-    def frequency(self) -> typing.Any:
+    def frequency(self) -> float:
         """
         [Hz]
         """
     @property
-    def full_scale(self) -> typing.Any:
+    def full_scale(self) -> float:
         """
         Intensity at which samples clip [dB].
         """
     @property
-    def head_start(self) -> typing.Any:
+    def head_start(self) -> float:
         """
         Angle of a scanning head at ping 0, to port [rad].
         """
     @property
-    def head_step(self) -> typing.Any:
+    def head_step(self) -> float:
         """
         And from ping to ping [rad].
         """
     @property
-    def kind(self) -> typing.Any:
+    def kind(self) -> str | None:
         """
         "echo_sounder", "side_scan", "multibeam", "imaging" or "scanning".
         """
     @property
-    def layover(self) -> typing.Any:
+    def layover(self) -> bool:
         """
         Whether what is nearer than a lower part of its fan is heard as well.
         """
     @property
-    def motion(self) -> typing.Any:
+    def motion(self) -> bool:
         """
         Whether the vehicle moves between transmission and reception.
         """
     @property
-    def multiples(self) -> typing.Any:
+    def multiples(self) -> int:
         """
         Reflections after which a ray is still followed, 0 to 8; under a surface, that one reflects and scatters as well.
         """
     @property
-    def name(self) -> typing.Any:
+    def name(self) -> str:
         """
         What it is called.
         """
     @property
-    def noise(self) -> typing.Any:
+    def noise(self) -> bool:
         """
         Whether the sea's noise is heard.
         """
     @property
-    def noise_level(self) -> typing.Any:
+    def noise_level(self) -> float | None:
         """
-        Its spectral level [dB re 1 µPa²/Hz].
+        Its spectral level [dB re 1 µPa²/Hz]; None: `bathyal.ambient_noise` at the frequency and wind speed.
         """
     @property
-    def ping_rate(self) -> typing.Any:
+    def ping_rate(self) -> float:
         """
         [Hz]
         """
     @property
-    def pixel_solid_angle(self) -> typing.Any:
+    def pixel_solid_angle(self) -> bool:
         """
         Whether pixels count by their solid angle, cos³ of the angle off axis.
         """
     @property
-    def pulse(self) -> typing.Any:
+    def pulse(self) -> str | None:
         """
         None, "rectangle" (its length) or "chirp" (compressed to c / 2B).
         """
     @property
-    def pulse_length(self) -> typing.Any:
+    def pulse_length(self) -> float:
         """
         [s]
         """
     @property
-    def range(self) -> typing.Any:
+    def range(self) -> float:
         """
         Slant range of the end of the last sample [m].
         """
@@ -5253,82 +5259,87 @@ class Sonar:
         Rays of a ping.
         """
     @property
-    def rays(self) -> typing.Any:
+    def rays(self) -> str | None:
         """
         "angles": equal angles with their solid angles; "camera": pixels that count equally.
         """
     @property
-    def rays_across_beam(self) -> typing.Any:
+    def rays_across_beam(self) -> int:
         """
         Over φ, of each beam.
         """
     @property
-    def rays_along_fan(self) -> typing.Any:
+    def rays_along_fan(self) -> int:
         """
         Over ψ, of each beam.
         """
     @property
-    def refraction(self) -> typing.Any:
+    def refraction(self) -> bool:
         """
         Whether sound runs along arcs, by the profile of the water.
         """
     @property
-    def samples(self) -> typing.Any:
+    def samples(self) -> int:
         """
         Of a row.
         """
     @property
-    def sector(self) -> typing.Any:
+    def sector(self) -> float:
         """
         Between the axes of the outer beams [rad].
         """
     @property
-    def source_level(self) -> typing.Any:
+    def source_level(self) -> float:
         """
         [dB re 1 µPa at 1 m]
         """
     @property
-    def speckle(self) -> typing.Any:
+    def speckle(self) -> str | None:
         """
         None, "rayleigh" or "k".
         """
     @property
-    def speckle_shape(self) -> typing.Any:
+    def speckle_shape(self) -> float:
         """
         ν of the K distribution.
         """
     @property
-    def spreading(self) -> typing.Any:
+    def spreading(self) -> bool:
         """
         Whether power falls with R⁻⁴.
         """
     @property
-    def tilt(self) -> typing.Any:
+    def tilt(self) -> float:
         """
         Of the fan's middle below the horizontal [rad].
         """
     @property
-    def tvg(self) -> typing.Any:
+    def tvg(self) -> bool:
         """
         Whether a gain over range is applied.
         """
     @property
-    def tvg_absorption(self) -> typing.Any:
+    def tvg_absorption(self) -> float:
         """
         Its part with the way there and back [dB/m].
         """
     @property
-    def tvg_spreading(self) -> typing.Any:
+    def tvg_offset(self) -> float:
         """
-        Its part with range [dB a decade].
+        Its part at all ranges [dB].
         """
     @property
-    def vehicle_from_sonar(self) -> typing.Any:
+    def tvg_spreading(self) -> float:
+        """
+        Its part with range [dB a decade], 0 at 1 m.
+        """
+    @property
+    def vehicle_from_sonar(self) -> numpy.ndarray:
         """
         (4, 4), its mount.
         """
     @property
-    def wind_speed(self) -> typing.Any:
+    def wind_speed(self) -> float:
         """
         At 10 m, by which the sea surface scatters [m/s].
         """
@@ -7013,6 +7024,33 @@ def absorption(frequency: numpy.typing.ArrayLike, temperature: numpy.typing.Arra
     >>> import bathyal
     >>> bathyal.absorption([100e3, 600e3, 900e3], 10, 35, 50).round(1).tolist()
     [33.4, 158.6, 298.6]
+    """
+def ambient_noise(frequency: numpy.typing.ArrayLike, wind_speed: numpy.typing.ArrayLike = 5.0, shipping: numpy.typing.ArrayLike = 0.5) -> float | numpy.ndarray:
+    """
+    Noise of the sea, by the curves of Wenz (1962).
+    
+    The sum of turbulence, ships, wind and, above some 100 kHz, the motion of molecules, by the formulas
+    of Coates (1990).
+    
+    Parameters
+    ----------
+    frequency : float or array
+        1 Hz to 10 MHz [Hz].
+    wind_speed : float or array
+        At 10 m, 0 to 50 [m/s].
+    shipping : float or array
+        From 0 (none near) to 1 (heavy).
+    
+    Returns
+    -------
+    float or array
+        Spectral level [dB re 1 µPa²/Hz].
+    
+    Examples
+    --------
+    >>> import bathyal
+    >>> bathyal.ambient_noise([1e3, 100e3, 600e3]).round(1).tolist()
+    [60.7, 29.9, 40.6]
     """
 def arm_from_chain(chain: dict, *, nearly_parallel: typing.SupportsFloat | typing.SupportsIndex = 0.1) -> Arm:
     """

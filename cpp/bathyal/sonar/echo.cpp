@@ -71,6 +71,20 @@ void add_notes(const SonarOptions& options, const Water& water, double z,
   }
 }
 
+/// Angles below the horizontal between which all rays leave, by the bounds of their directions.
+std::pair<double, double> steepest_launches(const std::vector<BeamRays>& fans,
+                                            const Pose& world_from_head) {
+  const Eigen::RowVector3d down = -world_from_head.linear().row(2);
+  double low = 1.0, high = -1.0;
+  for (const BeamRays& fan : fans) {
+    const Eigen::RowVector3d middle = 0.5 * (fan.least + fan.most).transpose();
+    const Eigen::RowVector3d half = 0.5 * (fan.most - fan.least).transpose();
+    low = std::min(low, down.dot(middle) - down.cwiseAbs().dot(half));
+    high = std::max(high, down.dot(middle) + down.cwiseAbs().dot(half));
+  }
+  return {std::asin(std::clamp(low, -1.0, 1.0)), std::asin(std::clamp(high, -1.0, 1.0))};
+}
+
 Echo empty_echo(const SonarOptions& options) {
   Echo echo;
   echo.beams = options.beams;
@@ -124,7 +138,9 @@ Echo Sonar::echo(const WorldSnapshot& world, const Water& water, const Pose& wor
   if (water.surface()) setting.surface = water.surface_height(head.x(), head.y(), world.time);
   std::optional<sonar::BentPaths> bent;
   if (options.refraction && water.varies()) {
-    bent.emplace(water.speed_profile(world.time), setting.sonar_depth, options.range, num_threads);
+    const auto [up, down] = sonar::steepest_launches(state_->fans, world_from_head);
+    bent.emplace(water.speed_profile(world.time), setting.sonar_depth, options.range, up, down,
+                 num_threads);
     setting.bent = &*bent;
   }
   if (options.motion) {

@@ -63,7 +63,7 @@ def survey(
     sonar.hear(world, trajectory, kept.keep, seed=seed, num_threads=num_threads)
     done = kept._done
     navigation = true_navigation(kept.time[:done], kept.pose[:done], kept.altitude[:done])
-    middles = (np.arange(sonar.samples) + 0.5) * (sonar.range / sonar.samples)
+    middles = (np.arange(sonar.samples, dtype=np.float64) + 0.5) * (sonar.range / sonar.samples)
     return SonarRecord(
         kept.time[:done], kept.intensity[:done], middles, tuple(sonar.beam_names), navigation,
         kept.truth, sonar, None, tuple(kept.warnings),

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from bathyal._core import XtfFile, make_xtf, parse_xtf
 from bathyal.errors import argument_error
@@ -52,7 +53,7 @@ def record_of_xtf(data: bytes) -> SonarRecord:
     )  # fmt: skip
 
 
-def _warnings(file: XtfFile, reach: np.ndarray) -> list[str]:
+def _warnings(file: XtfFile, reach: NDArray[np.float64]) -> list[str]:
     found = []
     if file.damaged or file.lost_bytes:
         found.append(f"{file.damaged} damaged packets, {file.lost_bytes} bytes left out")
@@ -78,12 +79,11 @@ def xtf_of_record(record: SonarRecord) -> bytes:
     nav = record.navigation
     start = record.start if record.start is not None else _EPOCH
     origin = float((start - _EPOCH) / np.timedelta64(1, "s"))
-    geographic = nav.latitude is not None and nav.longitude is not None
     sound_speed = np.full(len(record.time), record.sound_speed)
-    columns = {
+    columns: dict[str, ArrayLike] = {
         "time": record.time + origin,
-        "x": nav.longitude if geographic else nav.position[:, 0],
-        "y": nav.latitude if geographic else nav.position[:, 1],
+        "x": nav.position[:, 0] if nav.longitude is None else nav.longitude,
+        "y": nav.position[:, 1] if nav.latitude is None else nav.latitude,
         "depth": nav.depth, "altitude": nav.altitude, "heading": nav.heading, "pitch": nav.pitch,
         "roll": nav.roll, "speed": nav.speed, "sound_speed": sound_speed,
     }  # fmt: skip
@@ -92,7 +92,7 @@ def xtf_of_record(record: SonarRecord) -> bytes:
         np.sqrt(record.intensity), list(record.beam_names), columns,
         slant_range=spacing * len(record.range),
         frequency=record.sonar.frequency if record.sonar else 0.0,
-        geographic=geographic,
+        geographic=nav.longitude is not None,
         sonar_name=record.sonar.name if record.sonar else "bathyal",
     )  # fmt: skip
     return file.to_bytes()

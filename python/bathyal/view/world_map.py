@@ -58,7 +58,8 @@ def world_figure(world: World, time: float = 0.0, *, title: str = "") -> Figure:
         height, origin="lower", extent=(low[0], high[0], low[1], high[1]), cmap=_SCALE, alpha=0.0
     )
     bar = figure.colorbar(scale, ax=axes, label="z [m]", fraction=0.03, pad=0.01)
-    bar.solids.set(alpha=1.0)
+    if bar.solids is not None:
+        bar.solids.set(alpha=1.0)
     axes.set_xlabel("x [m]")
     axes.set_ylabel("y [m]")
     axes.set_title(title, loc="left", fontsize=11)

@@ -29,6 +29,7 @@ from bathyal.arm.files import find_arm
 from bathyal.io.files import PathLike, shown
 from bathyal.io.yaml_documents import Document, Place
 from bathyal.io.yaml_files import DocumentFiles
+from bathyal.io.yaml_sections import PoseSection
 from bathyal.seabed.bottom import make_bottom, noting
 from bathyal.seabed.meshes import read_mesh
 from bathyal.view.arm_solid import resting_pose
@@ -134,7 +135,7 @@ class _Builder(DocumentFiles):
             return arm_from_parts(parts)
 
     def mesh(
-        self, name: str, place: Place, scale: float | None, pose: own.PoseSection | None
+        self, name: str, place: Place, scale: float | None, pose: PoseSection | None
     ) -> TriangleMesh:
         path = self.file(name, (*place, "mesh"))
         with self.placed((*place, "mesh")):

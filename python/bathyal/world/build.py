@@ -41,8 +41,8 @@ class WorldBuilder(DocumentFiles):
         for name, material in sections.materials.items():
             with self.placed((*self.root, "materials", name)):
                 decibels = material.strength_db
-                strength = material.strength if decibels is None else 10 ** (0.1 * decibels)
-                world.set_material(name, strength)
+                linear = material.strength or 0.0
+                world.set_material(name, linear if decibels is None else 10 ** (0.1 * decibels))
         world.water = self.water(sections.water)
         self.terrain(world, sections.terrain)
         for kind, make in (("pipelines", _core.make_pipeline), ("cables", _core.make_cable)):
@@ -55,7 +55,7 @@ class WorldBuilder(DocumentFiles):
             mesh = self.shape(some, place)
             with self.placed(place):
                 world.add_clones(
-                    mesh, some.count, some.material or "rock", some.name, **some.options
+                    mesh, some.count, some.material or "rock", some.name, **_keywords(some.options)
                 )
         for row, school in enumerate(sections.fish):
             self.school(world, school, (*self.root, "fish", row))
@@ -79,7 +79,7 @@ class WorldBuilder(DocumentFiles):
         place = (*self.root, "terrain")
         if section.seabed is not None:
             with self.placed((*place, "seabed")):
-                mesh = _core.make_seabed(**section.seabed)
+                mesh = _core.make_seabed(**_keywords(section.seabed))
         elif section.mesh is not None:
             path = self.file(section.mesh, (*place, "mesh"))
             with self.placed((*place, "mesh")):
@@ -141,7 +141,12 @@ class WorldBuilder(DocumentFiles):
         with self.placed(place):
             mesh = _core.make_fish(section.length)
             paths = _core.fish_paths(
-                world.scene, section.count, section.duration, seed=section.seed, **section.options
+                world.scene, section.count, section.duration, seed=section.seed, **_keywords(section.options)
             )
             for number, path in enumerate(paths):
                 world.add(mesh, path, "fish", f"{section.name}_{number}")
+
+
+def _keywords(values: own.Keywords) -> dict[str, Any]:
+    """For a function that refuses by name what it does not take."""
+    return dict(values)

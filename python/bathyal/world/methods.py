@@ -9,12 +9,12 @@ from bathyal._core import World
 from bathyal.attach import methods_of
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+    import matplotlib.figure
 
 
 @methods_of(World)
 class _World(World):
-    def show(self, time: float = 0.0) -> Figure:
+    def show(self, time: float = 0.0) -> matplotlib.figure.Figure:
         """The world from above, shaded: in a notebook a picture, else `.savefig(path)`.
 
         Parameters

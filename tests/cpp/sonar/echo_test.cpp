@@ -170,6 +170,12 @@ TEST(Echo, TruthSaysWhatWasHit) {
   EXPECT_EQ(row.echo.truth.material[100], -1);
 }
 
+TEST(Echo, NothingIsHeardBeforeTheBottomStraightBelow) {
+  const Row row = flat_row(10.0, true);
+  EXPECT_EQ(sum(row.echo.power, 0, 200), 0.0);  // samples of 5 cm, the last ends at 10 m
+  EXPECT_GT(row.echo.power[200], 0.0);
+}
+
 TEST(Echo, AnyNumberOfThreadsGivesTheSameBytes) {
   const WorldSnapshot world = world_of({flat(0.0), ball(Vec3(3, 15, 0), 2.0, 40)}, {0.5, 1.0});
   const Sonar sonar{side_scan_sonar()};

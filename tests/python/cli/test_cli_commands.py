@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""bathyal survey, triangulate and info."""
+"""bathyal soundings, triangulate and info."""
 
 from __future__ import annotations
 
@@ -15,11 +15,11 @@ from tests.support.command import run
 def test_survey_can_be_planned_over(tmp_path, capsys):
     files = (tmp_path / "survey.xyz", tmp_path / "aims.csv")
     small = ["--length", 20, "--width", 14]
-    assert run(capsys, "survey", files[0], "--aims-out", files[1], "--seed", 5, *small)[0] == 0
+    assert run(capsys, "soundings", files[0], "--aims-out", files[1], "--seed", 5, *small)[0] == 0
     first = files[0].read_bytes()
-    run(capsys, "survey", files[0], "--seed", 5, *small)
+    run(capsys, "soundings", files[0], "--seed", 5, *small)
     assert files[0].read_bytes() == first
-    run(capsys, "survey", files[0], "--seed", 6, *small)
+    run(capsys, "soundings", files[0], "--seed", 6, *small)
     assert files[0].read_bytes() != first
     code, text, err = run(
         capsys, "plan", files[0], "--aims", files[1], "-o", tmp_path / "plan", "--json"

@@ -22,8 +22,8 @@ HUGE = str(10**30)
 @pytest.mark.parametrize(
     ("arguments", "option"),
     [
-        (["survey", "s.xyz", "--seed", "-1"], "--seed"),
-        (["survey", "s.xyz", "--seed", HUGE], "--seed"),
+        (["soundings", "s.xyz", "--seed", "-1"], "--seed"),
+        (["soundings", "s.xyz", "--seed", HUGE], "--seed"),
         (["touches", "example", "t.csv", "--seed", "-1"], "--seed"),
         (["touches", "example", "t.csv", "--seed", HUGE], "--seed"),
         (["touches", "example", "t.csv", "--count", HUGE], "--count"),
@@ -155,7 +155,7 @@ def test_touches_in_files_whose_names_are_not_utf_8(latin):
               "--picture", latin / os.fsdecode(b"pl\xe4n.png"))  # fmt: skip
     made = latin / os.fsdecode(b"m\xe4de.xyz")
     aims = latin / os.fsdecode(b"\xe4ims.csv")
-    summary = done_well("survey", made, "--aims-out", aims, "--length", 5, "--width", 5)
+    summary = done_well("soundings", made, "--aims-out", aims, "--length", 5, "--width", 5)
     assert summary["files"] == [str(made), str(aims)]
 
 

@@ -13,7 +13,7 @@ from bathyal.cli import values
 
 
 def test_help_has_examples_and_defaults():
-    for command in ("plan", "triangulate", "info", "survey"):
+    for command in ("plan", "triangulate", "info", "soundings"):
         shown = CliRunner().invoke(cli.app, [command, "--help"], terminal_width=100)
         assert shown.exit_code == 0
         assert f"bathyal {command} " in shown.output

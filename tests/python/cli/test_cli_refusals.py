@@ -34,7 +34,7 @@ from tests.support.command import bathyal_run, run
         (["info", "survey.doc"], 1, "survey.doc"),
         (["triangulate", "survey.xyz", "-o", "nowhere/seabed.vtp"], 1, "nowhere"),
         (["triangulate", "survey.xyz", "-o", "s.vtp", "--max-edge", "wide"], 2, "max-edge"),
-        (["survey", "nowhere/survey.xyz", "--length", "5", "--width", "5"], 1, "nowhere"),
+        (["soundings", "nowhere/survey.xyz", "--length", "5", "--width", "5"], 1, "nowhere"),
     ],
 )
 def test_refusals_are_one_line_and_leave_nothing(

@@ -91,13 +91,15 @@ def test_every_command_is_in_the_reference(sections: dict[str, str]) -> None:
         "plan",
         "triangulate",
         "info",
-        "survey",
+        "soundings",
         "identify",
         "diagnose",
         "check",
         "reach",
         "sample",
         "profile",
+        "world",
+        "survey",
     ]
     expected = [*verbs, "touches example", "touches plan", "scenario example"]
     assert set(sections) == {f"bathyal {verb}" for verb in expected}

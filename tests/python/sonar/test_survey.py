@@ -86,7 +86,7 @@ def test_parts_of_a_survey_join_to_the_whole() -> None:
     assert 0.05 < dropped < 0.7
 
 
-def test_a_survey_ends_where_it_is_told_to() -> None:
+def test_a_survey_ends_where_its_progress_says_so() -> None:
     record = seas.small_side_scan().survey(
         seas.flat_world(), seas.line(4.0), progress=lambda done, total: done < 5
     )

@@ -11,22 +11,12 @@
 namespace bathyal::sonar {
 namespace {
 
-constexpr std::size_t kRows = 513;
+constexpr double kStep = std::numbers::pi / 512.0;  ///< between rows [rad], at most
+constexpr double kVertical = 0.5 * std::numbers::pi;
 constexpr double kFarthest = 0.02;  ///< of a chord from its arc [m]
 constexpr int kMostChords = 64;
+constexpr int kLeastSteps = 32;
 constexpr double kTightest = 0.1;  ///< of a tube of rays; there a caustic is near
-
-double angle_of(std::size_t row) {
-  if (row + 1 == kRows) return 0.5 * std::numbers::pi;
-  return std::numbers::pi * (static_cast<double>(row) / (kRows - 1) - 0.5);
-}
-
-SoundPath path_of(const SpeedProfile& profile, double depth, std::size_t row, double time) {
-  SoundPathOptions options;
-  options.max_time = time;
-  options.surface = false;
-  return SoundPath(profile, depth, angle_of(row), options);
-}
 
 double off_chord(const SoundState& a, const SoundState& b, const SoundState& between) {
   const double out = b.distance - a.distance, down = b.depth - a.depth;
@@ -34,23 +24,51 @@ double off_chord(const SoundState& a, const SoundState& b, const SoundState& bet
   return std::abs(cross) / std::max(std::hypot(out, down), 1e-12);
 }
 
+/// Within 2·10⁻⁸ (Abramowitz, Stegun 1964, 4.4.46).
+double fast_asin(double x) {
+  const double a = std::abs(x);
+  const double sum =
+      1.5707963050 +
+      a * (-0.2145988016 +
+           a * (0.0889789874 +
+                a * (-0.0501743046 +
+                     a * (0.0308918810 +
+                          a * (-0.0170881256 + a * (0.0066700901 + a * -0.0012624911))))));
+  return std::copysign(kVertical - std::sqrt(1.0 - a) * sum, x);
+}
+
 }  // namespace
 
-BentPaths::BentPaths(const SpeedProfile& profile, double depth, double range, int num_threads)
+BentPaths::BentPaths(const SpeedProfile& profile, double depth, double range, double steepest_up,
+                     double steepest_down, int num_threads)
     : profile_(profile), range_(1.02 * range), speed_(profile.speed(depth)) {
+  low_ = std::max(std::min(steepest_up, steepest_down - 4.0 * kStep), -kVertical);
+  const double high = std::min(std::max(steepest_down, low_ + 4.0 * kStep), kVertical);
+  rows_ = static_cast<std::size_t>(std::ceil((high - low_) / kStep)) + 1;
+  apart_ = (high - low_) / static_cast<double>(rows_ - 1);
   while (chords_ < kMostChords && !close_enough(depth, chords_)) chords_ *= 2;
-  chord_range_ = range_ / chords_;
-  halves_ = static_cast<std::size_t>(2 * chords_ + 1);
-  points_.resize(kRows * halves_);
+  steps_ = static_cast<std::size_t>(std::max(kLeastSteps, 4 * chords_));
+  points_.resize(rows_ * (steps_ + 1));
   fill(depth, num_threads);
   fill_tubes();
+}
+
+double BentPaths::angle_of(std::size_t row) const {
+  return std::clamp(low_ + static_cast<double>(row) * apart_, -kVertical, kVertical);
+}
+
+SoundPath BentPaths::path_of(double depth, std::size_t row) const {
+  SoundPathOptions options;
+  options.max_time = range_ / speed_;
+  options.surface = false;
+  return SoundPath(profile_, depth, angle_of(row), options);
 }
 
 bool BentPaths::close_enough(double depth, int chords) const {
   const double time = range_ / speed_;
   const double step = time / chords;
-  for (std::size_t row = 0; row < kRows; row += 16) {
-    const SoundPath path = path_of(profile_, depth, row, time);
+  for (std::size_t row = 0; row < rows_; row += 4) {
+    const SoundPath path = path_of(depth, row);
     for (int k = 0; k < chords; ++k) {
       const SoundState a = path.at(step * k), b = path.at(step * (k + 1));
       for (const double part : {0.25, 0.5, 0.75}) {
@@ -63,17 +81,17 @@ bool BentPaths::close_enough(double depth, int chords) const {
 
 void BentPaths::fill(double depth, int num_threads) {
   const double time = range_ / speed_;
-  parallel_for(kRows, 32, num_threads, [&](std::size_t begin, std::size_t end) {
+  parallel_for(rows_, 16, num_threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t row = begin; row < end; ++row) {
       const double angle = angle_of(row);
-      const SoundPath path = path_of(profile_, depth, row, time);
-      for (std::size_t half = 0; half < halves_; ++half) {
-        const double part = static_cast<double>(half) / static_cast<double>(halves_ - 1);
+      const SoundPath path = path_of(depth, row);
+      for (std::size_t step = 0; step <= steps_; ++step) {
+        const double part = static_cast<double>(step) / static_cast<double>(steps_);
         const SoundState state = path.at(part * time);
-        Point& point = points_[row * halves_ + half];
+        Point& point = points_[row * (steps_ + 1) + step];
         point.out = state.distance - part * range_ * std::cos(angle);
         point.down = state.depth - depth - part * range_ * std::sin(angle);
-        point.state = {half == 0 ? 0.0 : std::atan2(state.down, state.along) - angle, state.speed,
+        point.state = {step == 0 ? 0.0 : std::atan2(state.down, state.along) - angle, state.speed,
                        1.0};
       }
     }
@@ -83,57 +101,61 @@ void BentPaths::fill(double depth, int num_threads) {
 /// A tube's area is that of the ring that its rays turn through about the vertical, times how far
 /// rays part that leave in directions one above the other.
 void BentPaths::fill_tubes() {
-  const double step = std::numbers::pi / (kRows - 1);
-  for (std::size_t half = 1; half < halves_; ++half) {
-    const double range = range_ * static_cast<double>(half) / static_cast<double>(halves_ - 1);
-    for (std::size_t row = 1; row + 1 < kRows; ++row) {
+  const auto tube = [&](std::size_t row, std::size_t step) -> double& {
+    return points_[row * (steps_ + 1) + step].state.tube;
+  };
+  for (std::size_t step = 1; step <= steps_; ++step) {
+    const double range = step_range() * static_cast<double>(step);
+    for (std::size_t row = 1; row + 1 < rows_; ++row) {
       const double angle = angle_of(row);
-      const Point& below = at(row - 1, half);
-      const Point& above = at(row + 1, half);
-      const double out = (above.out - below.out) / (2.0 * step) - range * std::sin(angle);
-      const double down = (above.down - below.down) / (2.0 * step) + range * std::cos(angle);
-      const double ring = 1.0 + at(row, half).out / (range * std::cos(angle));
-      points_[row * halves_ + half].state.tube =
+      const Point& below = at(row - 1, step);
+      const Point& above = at(row + 1, step);
+      const double out = (above.out - below.out) / (2.0 * apart_) - range * std::sin(angle);
+      const double down = (above.down - below.down) / (2.0 * apart_) + range * std::cos(angle);
+      const double ring = 1.0 + at(row, step).out / (range * std::cos(angle));
+      tube(row, step) =
           std::clamp(ring * std::hypot(out, down) / range, kTightest, 1.0 / kTightest);
     }
-    points_[half].state.tube = at(1, half).state.tube;
-    points_[(kRows - 1) * halves_ + half].state.tube = at(kRows - 2, half).state.tube;
+    tube(0, step) = tube(1, step);
+    tube(rows_ - 1, step) = tube(rows_ - 2, step);
   }
 }
 
 BentPaths::Launch BentPaths::launch(const Vec3& direction) const {
   Launch launch;
   launch.down = std::clamp(-direction.z(), -1.0, 1.0);
-  launch.along = std::hypot(direction.x(), direction.y());
+  launch.along = std::sqrt(direction.x() * direction.x() + direction.y() * direction.y());
   if (launch.along > 1e-12) launch.level = Vec3(direction.x(), direction.y(), 0.0) / launch.along;
-  const double angle = std::atan2(launch.down, launch.along);
-  const double place = std::clamp((angle / std::numbers::pi + 0.5) * (kRows - 1), 0.0, kRows - 1.0);
-  launch.row = std::min(static_cast<std::size_t>(place), kRows - 2);
+  const double angle = fast_asin(launch.down);
+  const double place = std::clamp((angle - low_) / apart_, 0.0, static_cast<double>(rows_ - 1));
+  launch.row = std::min(static_cast<std::size_t>(place), rows_ - 2);
   launch.part = place - static_cast<double>(launch.row);
   return launch;
 }
 
-Vec3 BentPaths::place(const Launch& launch, double ends) const {
-  const auto half = static_cast<std::size_t>(2.0 * ends);
-  const Point& low = at(launch.row, half);
-  const Point& high = at(launch.row + 1, half);
-  const double straight = chord_range_ * ends;
+Vec3 BentPaths::place(const Launch& launch, int steps) const {
+  const Point& low = at(launch.row, static_cast<std::size_t>(steps));
+  const Point& high = at(launch.row + 1, static_cast<std::size_t>(steps));
+  const double straight = step_range() * steps;
   const double out = straight * launch.along + low.out + launch.part * (high.out - low.out);
   const double down = straight * launch.down + low.down + launch.part * (high.down - low.down);
   return out * launch.level - Vec3(0.0, 0.0, down);
 }
 
-BentPaths::State BentPaths::state(const Launch& launch, int ends) const {
-  const auto half = static_cast<std::size_t>(2 * ends);
-  const State& low = at(launch.row, half).state;
-  const State& high = at(launch.row + 1, half).state;
+BentPaths::State BentPaths::state(const Launch& launch, int steps) const {
+  const State& low = at(launch.row, static_cast<std::size_t>(steps)).state;
+  const State& high = at(launch.row + 1, static_cast<std::size_t>(steps)).state;
   const auto between = [&](double a, double b) { return a + launch.part * (b - a); };
   return {between(low.turned, high.turned), between(low.speed, high.speed),
           between(low.tube, high.tube)};
 }
 
 Vec3 BentPaths::turned(const Launch& launch, double angle) {
-  const double cosine = std::cos(angle), sine = std::sin(angle);
+  const double square = angle * angle;
+  const bool small = square < 0.01;  // to 10⁻⁹
+  const double cosine = small ? 1.0 - square * (0.5 - square / 24.0) : std::cos(angle);
+  const double sine =
+      small ? angle * (1.0 - square * (1.0 / 6.0 - square / 120.0)) : std::sin(angle);
   return (launch.along * cosine - launch.down * sine) * launch.level -
          Vec3(0.0, 0.0, launch.down * cosine + launch.along * sine);
 }

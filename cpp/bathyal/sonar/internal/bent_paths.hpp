@@ -5,18 +5,21 @@
 #include <vector>
 
 #include "bathyal/geometry/pose.hpp"
+#include "bathyal/water/sound_path.hpp"
 #include "bathyal/water/speed_profile.hpp"
 
 namespace bathyal::sonar {
 
-/// The paths of sound that leave a depth at all angles, as chains of straight chords: an exact path
-/// for each of 513 launch angles, of which what differs from the straight line is linear between.
-/// All chords take the same time, and none lies farther than 2 cm from its arc.
+/// The paths of sound that leave a depth: an exact path every 0.35° of launch, at steps of equal
+/// time; what differs from the straight line is linear between. Rays are cast along chords of
+/// several steps, none of which lies farther than 2 cm from its arc.
 class BentPaths {
  public:
   /// \param depth of the sonar [m]
   /// \param range as far as paths go, counted by the sound speed at the sonar [m]
-  BentPaths(const SpeedProfile& profile, double depth, double range, int num_threads);
+  /// \param steepest_up, steepest_down launch angles below the horizontal between which rays leave
+  BentPaths(const SpeedProfile& profile, double depth, double range, double steepest_up,
+            double steepest_down, int num_threads);
 
   /// A ray as it leaves.
   struct Launch {
@@ -28,18 +31,19 @@ class BentPaths {
   Launch launch(const Vec3& direction) const;
 
   int chords() const { return chords_; }
-  double chord_range() const { return chord_range_; }  ///< of a chord's time
+  int steps_of_chord() const { return static_cast<int>(steps_) / chords_; }
+  double step_range() const { return range_ / static_cast<double>(steps_); }  ///< of its time
 
-  /// Where the end of a number of chords lies, from the launch. Halves are middles of their arcs.
-  Vec3 place(const Launch& launch, double ends) const;
+  /// Where the end of a number of steps lies, from the launch.
+  Vec3 place(const Launch& launch, int steps) const;
 
-  /// What a path is like at the end of a number of chords.
+  /// What a path is like there.
   struct State {
     double turned = 0.0;  ///< downwards since the launch [rad]
     double speed = 0.0;   ///< of sound [m/s]
     double tube = 1.0;    ///< area of a tube of rays over that of straight ones, 0.1 to 10
   };
-  State state(const Launch& launch, int ends) const;
+  State state(const Launch& launch, int steps) const;
 
   /// A direction that has turned down.
   static Vec3 turned(const Launch& launch, double angle);
@@ -52,16 +56,21 @@ class BentPaths {
     double out = 0.0, down = 0.0;  ///< from the straight line's [m]
     State state;
   };
+  double angle_of(std::size_t row) const;
+  SoundPath path_of(double depth, std::size_t row) const;
   void fill(double depth, int num_threads);
   void fill_tubes();
   bool close_enough(double depth, int chords) const;
-  const Point& at(std::size_t row, std::size_t half) const { return points_[row * halves_ + half]; }
+  const Point& at(std::size_t row, std::size_t step) const {
+    return points_[row * (steps_ + 1) + step];
+  }
 
   SpeedProfile profile_;
   double range_, speed_;
+  double low_ = 0.0, apart_ = 1.0;  ///< launch angle of row 0, and from row to row [rad]
+  std::size_t rows_ = 0;
   int chords_ = 1;
-  std::size_t halves_ = 0;  ///< points of a path: ends and middles of chords
-  double chord_range_ = 0.0;
+  std::size_t steps_ = 0;
   std::vector<Point> points_;
 };
 

@@ -5,6 +5,16 @@
 #include <cmath>
 
 namespace bathyal::sonar {
+namespace {
+
+/// On the border of a sample, where rounding alone keeps it off.
+double snapped(double place) {
+  constexpr double kRounding = 1e-9;
+  const double border = std::round(place);
+  return std::abs(place - border) < kRounding ? border : place;
+}
+
+}  // namespace
 
 void EchoRow::reset(std::size_t samples, double sample_length) {
   take();
@@ -27,8 +37,9 @@ void EchoRow::add(const Return& back) {
   const auto count = static_cast<double>(power_.size());
   const double middle = back.range / sample_length_;
   const double half = back.half / sample_length_;
-  const double low = middle - half;
-  const double high = middle + half;
+  const double low =
+      snapped(std::max(middle - half, std::min(middle, back.least / sample_length_)));
+  const double high = snapped(middle + half);
   if (!(low < count) || high < 0.0) return;
   const double first = std::floor(std::max(low, 0.0));
   const double last = std::min(std::floor(high), count - 1.0);

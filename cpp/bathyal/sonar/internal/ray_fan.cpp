@@ -35,6 +35,30 @@ double two_way(const SonarOptions& options, const Beam& beam, double phi, double
          twice(along, options.kind != SonarKind::kMultibeam);
 }
 
+/// One-way power of what is transmitted at φ, ψ; of an imaging sonar and a multibeam over all φ.
+double transmitted(const SonarOptions& options, const Beam& beam, double phi, double psi) {
+  if (options.beam_pattern == BeamPattern::kNone) return 1.0;
+  if (options.kind == SonarKind::kEchoSounder) return std::sqrt(two_way(options, beam, phi, psi));
+  const double off_axis = psi - (options.tilt - options.axis_tilt);
+  const double along = pattern(options.beam_pattern, off_axis, options.fan_width);
+  if (!beam_counts_twice(options.kind)) return along;
+  return along *
+         pattern(options.beam_pattern, phi - beam.steered, options.beam_width, beam.steered);
+}
+
+/// A ray with what it counts, `solid` apart from the beam's pattern; none where the pattern has no
+/// power.
+void add_ray(const SonarOptions& options, double phi, double psi, const Vec3& direction,
+             double solid, BeamRays& rays) {
+  const double weight = solid * two_way(options, rays.beam, phi, psi);
+  if (weight <= 0.0) return;
+  rays.least = rays.weight.empty() ? direction : Vec3(rays.least.cwiseMin(direction));
+  rays.most = rays.weight.empty() ? direction : Vec3(rays.most.cwiseMax(direction));
+  rays.direction.insert(rays.direction.end(), direction.data(), direction.data() + 3);
+  rays.weight.push_back(weight);
+  if (options.motion) rays.transmitted.push_back(solid * transmitted(options, rays.beam, phi, psi));
+}
+
 /// The span of ψ that rays cover: of a round beam, that of φ.
 double psi_span(const SonarOptions& options, double phi_span) {
   return options.kind == SonarKind::kEchoSounder ? phi_span : options.fan_span;
@@ -48,18 +72,14 @@ BeamRays angle_rays(const SonarOptions& options, const Beam& beam) {
   const double span = psi_span(options, 2.0 * reach);
   const double phi_step = (high - low) / options.rays_across_beam;
   const double psi_step = span / options.rays_along_fan;
-  BeamRays rays{beam, 0.5 * psi_step, 0.5 * phi_step, {}, {}, {0}};
+  BeamRays rays{beam, 0.5 * psi_step, 0.5 * phi_step, {}, {}, {}, {0}};
   for (int i = 0; i < options.rays_across_beam; ++i) {
     const double phi = low + (i + 0.5) * phi_step;
     const double angle =
         psi_step * (std::sin(phi + rays.half_phi) - std::sin(phi - rays.half_phi));  // solid
     for (int j = 0; j < options.rays_along_fan; ++j) {
       const double psi = (j + 0.5) * psi_step - 0.5 * span;
-      const double weight = angle * two_way(options, beam, phi, psi);
-      if (weight <= 0.0) continue;
-      const Vec3 direction = beam.direction(phi, psi).normalized();
-      rays.direction.insert(rays.direction.end(), direction.data(), direction.data() + 3);
-      rays.weight.push_back(weight);
+      add_ray(options, phi, psi, beam.direction(phi, psi).normalized(), angle, rays);
     }
     rays.columns.push_back(rays.weight.size());
   }
@@ -79,7 +99,7 @@ BeamRays camera_rays(const SonarOptions& options, const Beam& beam) {
   };
   const double pixel = 4.0 * half_width * half_height /
                        (static_cast<double>(options.rays_across_beam) * options.rays_along_fan);
-  BeamRays rays{beam, 0.0, 0.0, {}, {}, {0}};
+  BeamRays rays{beam, 0.0, 0.0, {}, {}, {}, {0}};
   for (int i = 0; i < options.rays_across_beam; ++i) {
     const double x = at(i, options.rays_across_beam, half_width);
     for (int j = 0; j < options.rays_along_fan; ++j) {
@@ -89,10 +109,7 @@ BeamRays camera_rays(const SonarOptions& options, const Beam& beam) {
       const double phi = std::asin(std::clamp(direction.dot(beam.array), -1.0, 1.0));
       const double psi = std::atan2(direction.dot(up), direction.dot(beam.axis));
       const double counts = options.pixel_solid_angle ? pixel * cosine * cosine * cosine : 1.0;
-      const double weight = counts * two_way(options, beam, phi, psi);
-      if (weight <= 0.0) continue;
-      rays.direction.insert(rays.direction.end(), direction.data(), direction.data() + 3);
-      rays.weight.push_back(weight);
+      add_ray(options, phi, psi, direction, counts, rays);
     }
     rays.columns.push_back(rays.weight.size());
   }
@@ -100,25 +117,6 @@ BeamRays camera_rays(const SonarOptions& options, const Beam& beam) {
 }
 
 }  // namespace
-
-double receive_power(const SonarOptions& options, const Beam& beam, const Vec3& direction) {
-  if (options.kind == SonarKind::kEchoSounder) {
-    const double off = std::acos(std::clamp(direction.dot(beam.axis), -1.0, 1.0));
-    if (options.beam_pattern == BeamPattern::kNone) return off <= 0.5 * options.beam_width;
-    return pattern(options.beam_pattern, off, options.beam_width);
-  }
-  const double phi = std::asin(std::clamp(direction.dot(beam.array), -1.0, 1.0));
-  const double psi = std::atan2(direction.dot(beam.up()), direction.dot(beam.axis));
-  const bool swath = options.kind == SonarKind::kMultibeam;  // received over all of ψ
-  if (options.beam_pattern == BeamPattern::kNone) {
-    return std::abs(phi - beam.steered) <= 0.5 * options.beam_width &&
-           (swath || std::abs(psi) <= 0.5 * options.fan_span);
-  }
-  const double across =
-      pattern(options.beam_pattern, phi - beam.steered, options.beam_width, beam.steered);
-  const double off_axis = psi - (options.tilt - options.axis_tilt);
-  return swath ? across : across * pattern(options.beam_pattern, off_axis, options.fan_width);
-}
 
 std::vector<BeamRays> ray_fans(const SonarOptions& options) {
   std::vector<BeamRays> fans;

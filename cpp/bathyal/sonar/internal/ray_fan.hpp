@@ -16,11 +16,10 @@ struct BeamRays {
   double half_phi = 0.0;  ///< and in φ
   std::vector<double> direction;     ///< (N, 3), unit
   std::vector<double> weight;        ///< (N,) b² ΔΩ, or what a pixel counts
+  std::vector<double> transmitted;   ///< the same by what the beam transmits alone; where it moves
   std::vector<std::size_t> columns;  ///< first ray of each, then N
+  Vec3 least = Vec3::Zero(), most = Vec3::Zero();  ///< of the directions, axis by axis
 };
-
-/// One-way power by which a beam receives from a direction of the head's frame.
-double receive_power(const SonarOptions& options, const Beam& beam, const Vec3& direction);
 
 /// All beams of a sonar. Rays without weight are left out.
 std::vector<BeamRays> ray_fans(const SonarOptions& options);

@@ -31,12 +31,17 @@ std::vector<Task> tasks_of(const std::vector<BeamRays>& fans) {
 }
 
 Tracer::Tracer(const Setting& setting)
-    : setting_(setting), options_(setting.options), facets_(setting.world.scene) {}
+    : setting_(setting),
+      options_(setting.options),
+      facets_(setting.world.scene),
+      moves_(setting.motion.moves()) {}
 
 EchoPart Tracer::trace(const BeamRays& fan, const Task& task) const {
   thread_local Batch batch;
   EchoRow& row = batch.row;
   row.reset(static_cast<std::size_t>(options_.samples), options_.sample_length());
+  batch.facet = Facet();
+  if (moves_) batch.reception.emplace(options_, fan.beam);
   for (std::size_t column = task.first_column; column < task.last_column; ++column) {
     double farthest = 0.0;  // of what lies lower in the column
     for (std::size_t first = fan.columns[column]; first < fan.columns[column + 1];
@@ -57,8 +62,8 @@ EchoPart Tracer::trace(const BeamRays& fan, const Task& task) const {
         }
         const Vec3 from = batch.direction(i);
         tangents(fan, from, arrival);
-        Return back = returned(fan, arrival, fan.weight[first + i]);
-        if (setting_.motion.moves()) back.weight *= received(fan, from, back);
+        Return back = returned(fan, arrival, weight(fan, first + i));
+        if (moves_) back.weight *= received(*batch.reception, from, back);
         row.add(back);
       }
       if (options_.multiples > 0) follow_reflections(fan, batch);
@@ -89,8 +94,7 @@ void Tracer::arrive_straight(Batch& batch) const {
     if (arrival.hit.mesh == -1) continue;
     arrival.point = origin + arrival.range * direction;
     arrival.direction = direction;
-    arrival.normal =
-        arrival.hit.mesh == kSurface ? Vec3(-Vec3::UnitZ()) : facets_.normal(arrival.hit);
+    arrival.normal = normal(arrival.hit, batch.facet);
   }
 }
 
@@ -158,6 +162,7 @@ void Tracer::spread(const BeamRays& fan, const Arrival& arrival, double against,
   const double half_psi = std::abs(steep_psi) * fan.half_psi;
   const double half_phi = std::abs(steep_phi) * fan.half_phi;
   back.half = arrival.range * std::max(half_psi, half_phi);
+  back.least = arrival.range * std::abs(against);
   if (half_psi >= half_phi && steep_psi != 0.0)
     back.slide = arrival.direction + arrival.by_psi / steep_psi;
   else if (steep_phi != 0.0)
@@ -165,23 +170,36 @@ void Tracer::spread(const BeamRays& fan, const Arrival& arrival, double against,
 }
 
 /// A moving head: the sound has gone R and comes back to where the head is then, after t with
-/// |R u − v t| = c t − R. Puts the range at ½ c t, and gives the beam's power there over what it
-/// was where the head transmitted.
-double Tracer::received(const BeamRays& fan, const Vec3& launch, Return& back) const {
+/// |R u − v t| = c t − R. Puts the range at ½ c t, and gives the beam's power there.
+double Tracer::received(const Reception& reception, const Vec3& launch, Return& back) const {
   const double c = setting_.sound_speed;
   const VehicleMotion& motion = setting_.motion;
   const double range = back.range;
   const double time =
       2.0 * range * (c - launch.dot(motion.velocity)) / (c * c - motion.velocity.squaredNorm());
   back.range = 0.5 * c * time;
-  const Vec3 from = range * launch - time * motion.velocity;
-  const double angle = motion.rate.norm() * time;
-  Vec3 direction = from.normalized();
-  if (angle > 0.0) direction = Eigen::AngleAxisd(-angle, motion.rate.normalized()) * direction;
-  const Eigen::Matrix3d head_from_world = setting_.world_from_head.linear().transpose();
-  const double before = receive_power(options_, fan.beam, head_from_world * launch);
-  if (!(before > 0.0)) return 1.0;
-  return receive_power(options_, fan.beam, head_from_world * direction) / before;
+  const Vec3 from = (range * launch - time * motion.velocity).normalized();
+  const Vec3 turned = (-time) * motion.rate;  // Rodrigues, for the small angles of a ping
+  const double square = turned.squaredNorm();
+  const double first =
+      square < 1e-4 ? 1.0 - square / 6.0 : std::sin(std::sqrt(square)) / std::sqrt(square);
+  const double second =
+      square < 1e-4 ? 0.5 - square / 24.0 : (1.0 - std::cos(std::sqrt(square))) / square;
+  const Vec3 across = turned.cross(from);
+  const Vec3 direction = from + first * across + second * turned.cross(across);
+  return reception.power(setting_.world_from_head.linear().transpose() * direction);
+}
+
+/// Of a ray before what it meets.
+double Tracer::weight(const BeamRays& fan, std::size_t ray) const {
+  return moves_ ? fan.transmitted[ray] : fan.weight[ray];
+}
+
+Vec3 Tracer::normal(const RayHit& hit, Facet& last) const {
+  if (hit.mesh == kSurface) return -Vec3::UnitZ();
+  if (hit.triangle != last.triangle || hit.mesh != last.mesh)
+    last = {hit.mesh, hit.triangle, facets_.normal(hit)};
+  return last.normal;
 }
 
 }  // namespace bathyal::sonar

@@ -11,6 +11,7 @@
 #include "bathyal/sonar/internal/echo_rows.hpp"
 #include "bathyal/sonar/internal/facets.hpp"
 #include "bathyal/sonar/internal/ray_fan.hpp"
+#include "bathyal/sonar/internal/reception.hpp"
 #include "bathyal/sonar/internal/scatter_tables.hpp"
 #include "bathyal/sonar/vehicle_motion.hpp"
 #include "bathyal/world/snapshot.hpp"
@@ -53,6 +54,14 @@ struct Arrival {
   Vec3 by_phi = Vec3::Zero();
 };
 
+struct Traveller;
+
+/// The triangle that was met last, and its normal: neighbouring rays often meet the same.
+struct Facet {
+  std::int32_t mesh = -1, triangle = -1;
+  Vec3 normal = Vec3::Zero();
+};
+
 /// Traces the rays of a ping.
 class Tracer {
  public:
@@ -61,25 +70,29 @@ class Tracer {
   EchoPart trace(const BeamRays& fan, const Task& task) const;
 
  private:
-  struct Batch;  ///< what a thread works with
+  struct Batch;  ///< what a thread works with, batch.hpp
 
   void launch(const BeamRays& fan, Batch& batch) const;
   void arrive_straight(Batch& batch) const;
   void arrive_bent(Batch& batch) const;
-  void arrive_on_chord(Batch& batch, std::size_t ray, int chord, const RayHit& hit) const;
+  void arrive_on_chord(Batch& batch, const Traveller& traveller, int chord, const Vec3& on_chord,
+                       const RayHit& hit) const;
   void follow_reflections(const BeamRays& fan, Batch& batch) const;
   bool reflect(Arrival& arrival, double& power) const;
 
   void tangents(const BeamRays& fan, const Vec3& launch, Arrival& arrival) const;
   Return returned(const BeamRays& fan, const Arrival& arrival, double weight) const;
   void spread(const BeamRays& fan, const Arrival& arrival, double against, Return& back) const;
-  double received(const BeamRays& fan, const Vec3& launch, Return& back) const;
+  double received(const Reception& reception, const Vec3& launch, Return& back) const;
+  double weight(const BeamRays& fan, std::size_t ray) const;
+  Vec3 normal(const RayHit& hit, Facet& last) const;
   double power(double scattered, double length) const;
   bool meets_surface(const Vec3& from, const Vec3& direction, RayHit& hit) const;
 
   const Setting& setting_;
   const SonarOptions& options_;
   Facets facets_;
+  bool moves_;
 };
 
 }  // namespace bathyal::sonar

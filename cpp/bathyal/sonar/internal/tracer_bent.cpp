@@ -10,17 +10,20 @@
 namespace bathyal::sonar {
 
 void Tracer::arrive_bent(Batch& batch) const {
+  const BentPaths& bent = *setting_.bent;
   const Vec3 origin = setting_.world_from_head.translation();
   std::vector<Traveller>& going = batch.travellers;
   going.clear();
   for (std::size_t i = 0; i < batch.count; ++i) {
     batch.arrivals[i].hit = RayHit();
-    going.push_back({i, setting_.bent->launch(batch.direction(i)), origin, 1.0});
+    batch.launches[i] = bent.launch(batch.direction(i));
+    going.push_back({i, origin, 1.0});
   }
-  const int last = setting_.bent->chords() - 1;
+  const int last = bent.chords() - 1;
   for (int chord = 0; chord <= last && !going.empty(); ++chord) {
+    const int end = (chord + 1) * bent.steps_of_chord();
     for (std::size_t i = 0; i < going.size(); ++i) {
-      const Vec3 to = origin + setting_.bent->place(going[i].launch, chord + 1.0);
+      const Vec3 to = origin + bent.place(batch.launches[going[i].ray], end);
       Eigen::Map<Vec3>(batch.origins.data() + 3 * i) = going[i].from;
       Eigen::Map<Vec3>(batch.chords.data() + 3 * i) = to - going[i].from;
     }
@@ -35,7 +38,7 @@ void Tracer::arrive_bent(Batch& batch) const {
       RayHit& hit = batch.hits[i];
       const bool over = meets_surface(going[i].from, way / length, hit);
       if (hit.range <= length || (chord == last && hit.mesh != -1)) {
-        arrive_on_chord(batch, i, chord, hit);
+        arrive_on_chord(batch, going[i], chord, hit.range / length * way, hit);
       } else if (!(over && hit.mesh == -1 && going[i].from.z() + way.z() > *setting_.surface)) {
         going[left] = going[i];
         going[left++].from += way;
@@ -45,40 +48,39 @@ void Tracer::arrive_bent(Batch& batch) const {
   }
 }
 
-void Tracer::arrive_on_chord(Batch& batch, std::size_t i, int chord, const RayHit& hit) const {
+/// A hit at `on_chord` from the chord's start: of the steps of the arc, the one that is near it
+/// meets its plane.
+void Tracer::arrive_on_chord(Batch& batch, const Traveller& traveller, int chord,
+                             const Vec3& on_chord, const RayHit& hit) const {
   const BentPaths& bent = *setting_.bent;
-  const Traveller& traveller = batch.travellers[i];
-  const Vec3 way = Eigen::Map<const Vec3>(batch.chords.data() + 3 * i);
-  const double length = way.norm();
-  const Vec3 along = way / length;
+  const BentPaths::Launch& launch = batch.launches[traveller.ray];
   Arrival& arrival = batch.arrivals[traveller.ray];
   arrival.hit = hit;
-  arrival.normal = hit.mesh == kSurface ? Vec3(-Vec3::UnitZ()) : facets_.normal(hit);
+  arrival.normal = normal(hit, batch.facet);
 
-  // On the arc: the chord's point and 4 f (1 − f) times the middle's distance from the chord, moved
-  // along the chord into the plane of what was hit.
-  double part = hit.range / length;
-  Vec3 off = Vec3::Zero();
-  if (part < 1.0) {
-    const Vec3 middle = setting_.world_from_head.translation() +
-                        bent.place(traveller.launch, chord + 0.5) - traveller.from - 0.5 * way;
-    off = 4.0 * part * (1.0 - part) * middle;
-    const double facing = arrival.normal.dot(along);
-    if (std::abs(facing) > 10.0 * kLeastCosine) {
-      const double moved = -arrival.normal.dot(off) / facing;
-      part += std::clamp(moved / length, -0.01, 0.01);
-    }
+  const Vec3 met = traveller.from + on_chord - setting_.world_from_head.translation();
+  const int first = chord * bent.steps_of_chord();
+  const int end = first + bent.steps_of_chord();
+  const double guess = first + std::floor(on_chord.norm() / bent.step_range());
+  const int step = std::clamp(static_cast<int>(guess), first, end - 1);
+  const Vec3 from = bent.place(launch, step);
+  const Vec3 way = bent.place(launch, step + 1) - from;
+  double part = way.dot(met - from) / way.squaredNorm();
+  const double facing = arrival.normal.dot(way) / way.norm();
+  if (std::abs(facing) > 10.0 * kLeastCosine) {
+    const double moved = arrival.normal.dot(met - from) / arrival.normal.dot(way) - part;
+    part += std::clamp(moved, -0.05, 0.05);
   }
-  const BentPaths::State from = bent.state(traveller.launch, chord);
-  const BentPaths::State to = bent.state(traveller.launch, chord + 1);
+  const BentPaths::State before = bent.state(launch, step);
+  const BentPaths::State after = bent.state(launch, step + 1);
+  const double faster = 0.5 * (after.speed / before.speed - 1.0);  // the first part takes longer
+  const double time = part + faster * part * (1.0 - part);
+  arrival.point = setting_.world_from_head.translation() + from + part * way;
+  arrival.range = bent.step_range() * (step + time);
   const double inside = std::clamp(part, 0.0, 1.0);
-  const double faster = 0.5 * (to.speed / from.speed - 1.0);  // the first part takes longer
-  const double time = part + faster * inside * (1.0 - inside);
-  arrival.point = traveller.from + part * way + off;
-  arrival.range = bent.chord_range() * (chord + time);
-  arrival.length = arrival.range * std::sqrt(from.tube + inside * (to.tube - from.tube));
+  arrival.length = arrival.range * std::sqrt(before.tube + inside * (after.tube - before.tube));
   arrival.direction =
-      BentPaths::turned(traveller.launch, from.turned + inside * (to.turned - from.turned));
+      BentPaths::turned(launch, before.turned + inside * (after.turned - before.turned));
 }
 
 }  // namespace bathyal::sonar

@@ -42,7 +42,8 @@ void Tracer::follow_reflections(const BeamRays& fan, Batch& batch) const {
   going.clear();
   for (std::size_t i = 0; i < batch.count; ++i) {
     const Arrival& arrival = batch.arrivals[i];
-    if (arrival.hit.mesh != -1 && arrival.range < options_.range) going.push_back({i});
+    if (arrival.hit.mesh != -1 && arrival.range < options_.range)
+      going.push_back({i, Vec3::Zero(), 1.0});
   }
   const double top = setting_.world_from_head.translation().z() + setting_.sonar_depth;
   for (int bounce = 0; bounce < options_.multiples && !going.empty(); ++bounce) {
@@ -70,16 +71,16 @@ void Tracer::follow_reflections(const BeamRays& fan, Batch& batch) const {
       const double from = arrival.point.z();
       arrival.hit = hit;
       arrival.point += hit.range * arrival.direction;
-      arrival.normal = hit.mesh == kSurface ? Vec3(-Vec3::UnitZ()) : facets_.normal(hit);
+      arrival.normal = normal(hit, batch.facet);
       arrival.length += hit.range;
       arrival.range +=
           setting_.bent == nullptr
               ? hit.range
               : setting_.bent->slow_range(hit.range, top - from, top - arrival.point.z());
       if (arrival.range >= options_.range) continue;
-      Return back = returned(fan, arrival, fan.weight[batch.first + going[i].ray] * going[i].power);
-      if (setting_.motion.moves())
-        back.weight *= received(fan, batch.direction(going[i].ray), back);
+      Return back =
+          returned(fan, arrival, weight(fan, batch.first + going[i].ray) * going[i].power);
+      if (moves_) back.weight *= received(*batch.reception, batch.direction(going[i].ray), back);
       batch.row.add(back);
       going[left++] = going[i];
     }
