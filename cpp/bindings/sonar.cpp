@@ -127,7 +127,7 @@ Ping ping_of(const Sonar& sonar, const std::shared_ptr<World>& world, const Arra
     const SonarOptions& options = sonar.options();
     const Pose world_from_sonar =
         world_from_vehicle * options.vehicle_from_sonar * head_pose(options, ping);
-    received = receive(options, echo, {seed, world_from_sonar, time});
+    received = receive(options, echo, {seed, world_from_sonar, time}, num_threads);
   }
   for (const std::string& warning : echo.warnings) warn_user(warning);
   return made_ping(sonar, time, std::move(echo), std::move(received));

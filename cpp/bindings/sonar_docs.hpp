@@ -191,11 +191,15 @@ inline const std::vector<std::pair<std::string, std::string>>& fields() {
       {"speckle", "None, \"rayleigh\" or \"k\"."},
       {"speckle_shape", "ν of the K distribution."},
       {"noise", "Whether the sea's noise is heard."},
-      {"noise_level", "Its spectral level [dB re 1 µPa²/Hz]."},
-      {"dropout_rate", "Part of the pings that bring nothing."},
+      {"noise_level",
+       "Its spectral level [dB re 1 µPa²/Hz]; None: `bathyal.ambient_noise` at the frequency and "
+       "wind speed."},
       {"tvg", "Whether a gain over range is applied."},
-      {"tvg_spreading", "Its part with range [dB a decade]."},
+      {"tvg_spreading", "Its part with range [dB a decade], 0 at 1 m."},
       {"tvg_absorption", "Its part with the way there and back [dB/m]."},
+      {"tvg_offset", "Its part at all ranges [dB]."},
+      {"dropout_rate", "Part of the pings that bring nothing: all their samples are 0."},
+      {"beam_dropout_rate", "Part of the rows of the other pings that are 0."},
       {"bits", "Of the samples' amplitude; 0 is not quantised."},
       {"full_scale", "Intensity at which samples clip [dB]."},
   };

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sonar_fields.hpp"
 
+#include <pybind11/stl.h>
+
 #include <string_view>
 #include <utility>
 
@@ -50,6 +52,14 @@ std::function<void(py::class_<Sonar>&, const char*)> property(const char* name, 
 SonarField number(const char* name, double SonarOptions::*member) {
   return {name, [member](const SonarOptions& o) { return py::float_(o.*member); },
           [name, member](SonarOptions& o, const py::object& v) { o.*member = number_of(name, v); },
+          property(name, [member](const SonarOptions& o) { return o.*member; })};
+}
+
+SonarField number_or_none(const char* name, std::optional<double> SonarOptions::*member) {
+  return {name, [member](const SonarOptions& o) -> py::object { return py::cast(o.*member); },
+          [name, member](SonarOptions& o, const py::object& v) {
+            o.*member = v.is_none() ? std::nullopt : std::optional<double>(number_of(name, v));
+          },
           property(name, [member](const SonarOptions& o) { return o.*member; })};
 }
 
@@ -178,11 +188,13 @@ std::vector<SonarField> make_fields() {
                            true),
       number("speckle_shape", &O::speckle_shape),
       flag("noise", &O::noise),
-      number("noise_level", &O::noise_level),
-      number("dropout_rate", &O::dropout_rate),
+      number_or_none("noise_level", &O::noise_level),
       flag("tvg", &O::tvg),
       number("tvg_spreading", &O::tvg_spreading),
       number("tvg_absorption", &O::tvg_absorption),
+      number("tvg_offset", &O::tvg_offset),
+      number("dropout_rate", &O::dropout_rate),
+      number("beam_dropout_rate", &O::beam_dropout_rate),
       count("bits", &O::bits),
       number("full_scale", &O::full_scale),
   };

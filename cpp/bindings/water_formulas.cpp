@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "bathyal/base/check.hpp"
+#include "bathyal/water/ambient_noise.hpp"
 #include "bathyal/water/seawater.hpp"
 #include "bindings.hpp"
 #include "water_formulas_docs.hpp"
@@ -164,6 +165,19 @@ void bind_water_formulas(py::module_& module) {
       py::arg("frequency"), py::arg("temperature"), py::arg("salinity"), py::arg("depth"),
       py::arg("ph") = AbsorptionPlace{}.ph,
       py::arg("formula") = formula_name(AbsorptionFormula::kFrancoisGarrison), kAbsorptionDoc);
+  module.def(
+      "ambient_noise",
+      [](const ArrayLike& frequency, const ArrayLike& wind_speed,
+         const ArrayLike& shipping) -> NumberOrArray {
+        const Broadcast given = broadcast_arguments(
+            {{"frequency", frequency}, {"wind_speed", wind_speed}, {"shipping", shipping}});
+        return each_row(given, [&](std::size_t i) {
+          return ambient_noise(given.at(0, i),
+                               {.wind_speed = given.at(1, i), .shipping = given.at(2, i)});
+        });
+      },
+      py::arg("frequency"), py::arg("wind_speed") = AmbientNoiseOptions{}.wind_speed,
+      py::arg("shipping") = AmbientNoiseOptions{}.shipping, kAmbientNoiseDoc);
   bind_places(module);
 }
 

@@ -152,6 +152,32 @@ float or array
     [kg/m³]
 )";
 
+inline constexpr const char* kAmbientNoiseDoc = R"(Noise of the sea, by the curves of Wenz (1962).
+
+The sum of turbulence, ships, wind and, above some 100 kHz, the motion of molecules, by the formulas
+of Coates (1990).
+
+Parameters
+----------
+frequency : float or array
+    1 Hz to 10 MHz [Hz].
+wind_speed : float or array
+    At 10 m, 0 to 50 [m/s].
+shipping : float or array
+    From 0 (none near) to 1 (heavy).
+
+Returns
+-------
+float or array
+    Spectral level [dB re 1 µPa²/Hz].
+
+Examples
+--------
+>>> import bathyal
+>>> bathyal.ambient_noise([1e3, 100e3, 600e3]).round(1).tolist()
+[60.7, 29.9, 40.6]
+)";
+
 inline constexpr const char* kPracticalSalinityDoc =
     R"(Practical salinity from conductivity, PSS-78.
 

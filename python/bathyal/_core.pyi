@@ -12,7 +12,7 @@ import numpy.typing
 import os
 import plotly.graph_objects
 import typing
-__all__: list[str] = ['Arm', 'ArmFit', 'BEYOND_NOISE', 'Capsule', 'Cause', 'CleanReport', 'CleanResult', 'Clearances', 'CorrectedArm', 'Current', 'DhTable', 'Diagnosis', 'Effect', 'EffectRange', 'EffectRows', 'Eigenray', 'Error', 'Estimate', 'FitParameter', 'FollowedPath', 'FoundEffect', 'HeldOut', 'HeldOutPart', 'Hits', 'Hull', 'HullReport', 'InverseResult', 'KeepOut', 'Link', 'MeshReport', 'MotionCheck', 'MotionPlan', 'NamedEffect', 'Nearest', 'NearestSegments', 'Outlier', 'Ping', 'PingTruth', 'Pipeline', 'Plane', 'PlaneFit', 'PointCloud', 'Polyline', 'Profile', 'ReachMap', 'RigidBody', 'SamplingPhase', 'SamplingPlan', 'Scene', 'SeabedModel', 'Shape', 'SheetPatch', 'SheetReport', 'SidescanPings', 'Sonar', 'SoundPath', 'Standpoint', 'StaticTrim', 'Structure', 'Support', 'TargetChecks', 'Targets', 'TextTable', 'Tide', 'TipMove', 'ToolPath', 'TouchForecast', 'TouchPlan', 'Touches', 'TracedSound', 'Tracked', 'Trade', 'Trajectory', 'TriangleMesh', 'Verification', 'Voxels', 'Water', 'Waves', 'Workspace', 'World', 'WorldSnapshot', 'XtfFile', 'absorption', 'arm_from_chain', 'arm_from_parts', 'arm_parts', 'best_standpoint', 'chain_from_arm', 'check_bytes', 'clean_cloud', 'cover_polygon', 'depth_from_pressure', 'diagnose', 'eigenrays', 'find_effect_with', 'find_sheets', 'find_targets', 'fish_paths', 'fit_plane', 'forecast_touches', 'generate_survey', 'identify_arm', 'intersect_moller_trumbore', 'library_effects', 'make_boulder', 'make_cable', 'make_fish', 'make_mine', 'make_pipeline', 'make_seabed', 'make_wreck', 'make_xtf', 'mesh_report', 'parse_xtf', 'plan_sampling', 'plan_toolpath', 'plan_touches', 'practical_salinity', 'pressure_from_depth', 'read_mesh_with', 'read_pcd', 'read_text_table', 'seawater_density', 'set_simd_level', 'simd_level', 'sound_speed', 'sound_speed_teos10_with', 'survey_height', 'trace_sound', 'triangle_material', 'triangulate', 'triangulate_delaunay', 'verify_positions', 'warn_of_range_with', 'warn_of_support_with', 'with_link_radii', 'write_xyz']
+__all__: list[str] = ['Arm', 'ArmFit', 'BEYOND_NOISE', 'Capsule', 'Cause', 'CleanReport', 'CleanResult', 'Clearances', 'CorrectedArm', 'Current', 'DhTable', 'Diagnosis', 'Effect', 'EffectRange', 'EffectRows', 'Eigenray', 'Error', 'Estimate', 'FitParameter', 'FollowedPath', 'FoundEffect', 'HeldOut', 'HeldOutPart', 'Hits', 'Hull', 'HullReport', 'InverseResult', 'KeepOut', 'Link', 'MeshReport', 'MotionCheck', 'MotionPlan', 'NamedEffect', 'Nearest', 'NearestSegments', 'Outlier', 'Ping', 'PingTruth', 'Pipeline', 'Plane', 'PlaneFit', 'PointCloud', 'Polyline', 'Profile', 'ReachMap', 'RigidBody', 'SamplingPhase', 'SamplingPlan', 'Scene', 'SeabedModel', 'Shape', 'SheetPatch', 'SheetReport', 'SidescanPings', 'Sonar', 'SoundPath', 'Standpoint', 'StaticTrim', 'Structure', 'Support', 'TargetChecks', 'Targets', 'TextTable', 'Tide', 'TipMove', 'ToolPath', 'TouchForecast', 'TouchPlan', 'Touches', 'TracedSound', 'Tracked', 'Trade', 'Trajectory', 'TriangleMesh', 'Verification', 'Voxels', 'Water', 'Waves', 'Workspace', 'World', 'WorldSnapshot', 'XtfFile', 'absorption', 'ambient_noise', 'arm_from_chain', 'arm_from_parts', 'arm_parts', 'best_standpoint', 'chain_from_arm', 'check_bytes', 'clean_cloud', 'cover_polygon', 'depth_from_pressure', 'diagnose', 'eigenrays', 'find_effect_with', 'find_sheets', 'find_targets', 'fish_paths', 'fit_plane', 'forecast_touches', 'generate_survey', 'identify_arm', 'intersect_moller_trumbore', 'library_effects', 'make_boulder', 'make_cable', 'make_fish', 'make_mine', 'make_pipeline', 'make_seabed', 'make_wreck', 'make_xtf', 'mesh_report', 'parse_xtf', 'plan_sampling', 'plan_toolpath', 'plan_touches', 'practical_salinity', 'pressure_from_depth', 'read_mesh_with', 'read_pcd', 'read_text_table', 'seawater_density', 'set_simd_level', 'simd_level', 'sound_speed', 'sound_speed_teos10_with', 'survey_height', 'trace_sound', 'triangle_material', 'triangulate', 'triangulate_delaunay', 'verify_positions', 'warn_of_range_with', 'warn_of_support_with', 'with_link_radii', 'write_xyz']
 class Error(RuntimeError):
     """
     A broken file, a solver that failed or a part that is not installed.
@@ -5129,6 +5129,11 @@ class Sonar:
         [Hz]
         """
     @property
+    def beam_dropout_rate(self) -> float:
+        """
+        Part of the rows of the other pings that are 0.
+        """
+    @property
     def beam_names(self) -> list[str]:
         """
         Of the rows.
@@ -5156,7 +5161,7 @@ class Sonar:
     @property
     def dropout_rate(self) -> float:
         """
-        Part of the pings that bring nothing.
+        Part of the pings that bring nothing: all their samples are 0.
         """
     @property
     def fan_span(self) -> float:
@@ -5219,9 +5224,9 @@ class Sonar:
         Whether the sea's noise is heard.
         """
     @property
-    def noise_level(self) -> float:
+    def noise_level(self) -> float | None:
         """
-        Its spectral level [dB re 1 µPa²/Hz].
+        Its spectral level [dB re 1 µPa²/Hz]; None: `bathyal.ambient_noise` at the frequency and wind speed.
         """
     @property
     def ping_rate(self) -> float:
@@ -5319,9 +5324,14 @@ class Sonar:
         Its part with the way there and back [dB/m].
         """
     @property
+    def tvg_offset(self) -> float:
+        """
+        Its part at all ranges [dB].
+        """
+    @property
     def tvg_spreading(self) -> float:
         """
-        Its part with range [dB a decade].
+        Its part with range [dB a decade], 0 at 1 m.
         """
     @property
     def vehicle_from_sonar(self) -> numpy.ndarray:
@@ -7014,6 +7024,33 @@ def absorption(frequency: numpy.typing.ArrayLike, temperature: numpy.typing.Arra
     >>> import bathyal
     >>> bathyal.absorption([100e3, 600e3, 900e3], 10, 35, 50).round(1).tolist()
     [33.4, 158.6, 298.6]
+    """
+def ambient_noise(frequency: numpy.typing.ArrayLike, wind_speed: numpy.typing.ArrayLike = 5.0, shipping: numpy.typing.ArrayLike = 0.5) -> float | numpy.ndarray:
+    """
+    Noise of the sea, by the curves of Wenz (1962).
+    
+    The sum of turbulence, ships, wind and, above some 100 kHz, the motion of molecules, by the formulas
+    of Coates (1990).
+    
+    Parameters
+    ----------
+    frequency : float or array
+        1 Hz to 10 MHz [Hz].
+    wind_speed : float or array
+        At 10 m, 0 to 50 [m/s].
+    shipping : float or array
+        From 0 (none near) to 1 (heavy).
+    
+    Returns
+    -------
+    float or array
+        Spectral level [dB re 1 µPa²/Hz].
+    
+    Examples
+    --------
+    >>> import bathyal
+    >>> bathyal.ambient_noise([1e3, 100e3, 600e3]).round(1).tolist()
+    [60.7, 29.9, 40.6]
     """
 def arm_from_chain(chain: dict, *, nearly_parallel: typing.SupportsFloat | typing.SupportsIndex = 0.1) -> Arm:
     """

@@ -4,19 +4,18 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <complex>
 #include <numbers>
 
 #include "bathyal/base/check.hpp"
+#include "bathyal/base/parallel.hpp"
 #include "bathyal/base/random.hpp"
 #include "bathyal/sonar/echo.hpp"
-#include "bathyal/sonar/internal/pulse.hpp"
+#include "bathyal/sonar/internal/speckle.hpp"
+#include "bathyal/water/ambient_noise.hpp"
 
 namespace bathyal {
 namespace sonar {
 namespace {
-
-using Amplitude = std::complex<double>;
 
 enum Purpose : std::uint64_t { kSpeckle = 1, kNoise, kDropout };
 
@@ -55,87 +54,137 @@ std::uint64_t time_key(Purpose purpose, const ReceiverKey& key) {
   return Key(key.seed, purpose).with(std::bit_cast<std::uint64_t>(key.time + 0.0)).value();
 }
 
-/// A circular complex normal number with a mean power of 1.
-Amplitude circular(RandomStream& random) {
-  const double radius = std::sqrt(-std::log(1.0 - random.uniform()));
-  return std::polar(radius, 2.0 * std::numbers::pi * random.uniform());
-}
+double linear(double decibels) { return std::pow(10.0, 0.1 * decibels); }
 
-/// Gamma of a mean of 1 (Marsaglia, Tsang 2000).
-double texture(RandomStream& random, double shape) {
-  const double boosted = shape < 1.0 ? shape + 1.0 : shape;
-  const double d = boosted - 1.0 / 3.0;
-  const double c = 1.0 / std::sqrt(9.0 * d);
-  double value = 0.0;
-  while (value == 0.0) {
-    const double x = random.normal();
-    const double v = std::pow(1.0 + c * x, 3);
-    if (v <= 0.0) continue;
-    if (std::log(1.0 - random.uniform()) < 0.5 * x * x + d - d * v + d * std::log(v)) value = d * v;
+/// The gain of each sample.
+std::vector<double> gains_of(const SonarOptions& options) {
+  std::vector<double> gains(static_cast<std::size_t>(options.samples), 1.0);
+  if (!options.tvg) return gains;
+  for (std::size_t i = 0; i < gains.size(); ++i) {
+    const double range = (static_cast<double>(i) + 0.5) * options.sample_length();
+    gains[i] = linear(options.tvg_spreading * std::log10(range) +
+                      options.tvg_absorption * 2.0 * range + options.tvg_offset);
   }
-  if (shape < 1.0) value *= std::pow(1.0 - random.uniform(), 1.0 / shape);
-  return value / shape;
+  return gains;
 }
 
-/// What arrives from each sample's range, as an amplitude.
-std::vector<Amplitude> scattered(const SonarOptions& options, const double* power,
-                                 std::size_t samples, RandomStream random) {
-  std::vector<Amplitude> amplitude(samples);
+/// Steps of the amplitude's converter.
+class Converter {
+ public:
+  explicit Converter(const SonarOptions& options)
+      : on_(options.bits > 0),
+        full_(linear(options.full_scale)),
+        levels_(std::exp2(options.bits) - 1.0) {}
+
+  double operator()(double intensity, std::int64_t& clipped) const {
+    if (!on_) return intensity;
+    const double level = std::sqrt(intensity / full_) * levels_;
+    if (level < levels_ - 0.5) {
+      const auto step = static_cast<double>(static_cast<std::int64_t>(level + 0.5));
+      return step * step * (full_ / (levels_ * levels_));
+    }
+    ++clipped;
+    return full_;
+  }
+
+ private:
+  bool on_;
+  double full_;    ///< intensity
+  double levels_;  ///< above 0
+};
+
+/// What all rows of a ping have in common.
+struct Chain {
+  const SonarOptions& options;
+  Pulse pulse;
+  std::vector<double> energy;  ///< of the pulse, by sample
+  std::vector<double> gains;
+  double noise = 0.0;  ///< amplitude
+  Converter converter;
+  std::uint64_t place = 0;
+  std::uint64_t moment = 0;
+
+  Chain(const SonarOptions& sonar, double sound_speed, const ReceiverKey& key)
+      : options(sonar),
+        pulse(pulse_of(sonar, sound_speed)),
+        gains(gains_of(sonar)),
+        noise(sonar.noise ? std::sqrt(noise_intensity(sonar, sound_speed)) : 0.0),
+        converter(sonar),
+        place(place_key(sonar, sound_speed, key)),
+        moment(time_key(kNoise, key)) {
+    for (const double value : pulse.shape) energy.push_back(value * value);
+  }
+};
+
+/// Rows of one worker, used over and over.
+struct Workspace {
+  Amplitudes drawn, heard;
+  std::vector<double> power;
+};
+
+void add_noise(const Chain& chain, std::uint64_t beam, Amplitudes& row) {
+  RandomStream random(chain.moment, beam);
+  for (std::size_t i = 0; i < row.real.size(); ++i) {
+    const Phasor one = circular(random);
+    row.real[i] += chain.noise * one.real;
+    row.imaginary[i] += chain.noise * one.imaginary;
+  }
+}
+
+/// Amplitudes where there are phases: speckle, noise or both. Without speckle powers add within
+/// the pulse, and noise is added to their roots.
+void hear_amplitudes(const Chain& chain, const double* power, std::uint64_t beam, Workspace& work) {
+  const std::size_t samples = work.power.size();
+  const bool speckled = chain.options.speckle != SpeckleModel::kNone;
+  work.heard.resize(samples);
+  if (speckled) {
+    Amplitudes& drawn = chain.pulse.shape.size() > 1 ? work.drawn : work.heard;
+    drawn.resize(samples);
+    draw_speckle(chain.options, power, RandomStream(chain.place, beam).next(), drawn);
+    if (&drawn == &work.drawn) {
+      convolve(chain.pulse.shape, chain.pulse.first, drawn.real, work.heard.real);
+      convolve(chain.pulse.shape, chain.pulse.first, drawn.imaginary, work.heard.imaginary);
+    }
+  } else {
+    for (std::size_t i = 0; i < samples; ++i) {
+      work.heard.real[i] = std::sqrt(work.power[i]);
+      work.heard.imaginary[i] = 0.0;
+    }
+  }
+  if (chain.noise > 0.0) add_noise(chain, beam, work.heard);
   for (std::size_t i = 0; i < samples; ++i) {
-    if (options.speckle == SpeckleModel::kNone) {
-      amplitude[i] = std::sqrt(power[i]);
-      continue;
-    }
-    const Amplitude drawn = circular(random);  // of every sample, so that each keeps its own
-    const double patch =
-        options.speckle == SpeckleModel::kK ? texture(random, options.speckle_shape) : 1.0;
-    amplitude[i] = std::sqrt(power[i] * patch) * drawn;
+    const double real = work.heard.real[i], imaginary = work.heard.imaginary[i];
+    work.power[i] = real * real + imaginary * imaginary;
   }
-  return amplitude;
 }
 
-/// Filtered by the pulse: without speckle powers add, for there are no phases.
-std::vector<Amplitude> through_pulse(const Pulse& pulse, const SonarOptions& options,
-                                     const std::vector<Amplitude>& from) {
-  if (pulse.shape.size() == 1) return from;
-  const auto samples = static_cast<std::ptrdiff_t>(from.size());
-  const bool phases = options.speckle != SpeckleModel::kNone;
-  std::vector<Amplitude> to(from.size());
-  for (std::ptrdiff_t i = 0; i < samples; ++i) {
-    Amplitude sum = 0.0;
-    for (std::size_t k = 0; k < pulse.shape.size(); ++k) {
-      const std::ptrdiff_t at = i - static_cast<std::ptrdiff_t>(k) - pulse.first;
-      if (at < 0 || at >= samples) continue;
-      const Amplitude& one = from[static_cast<std::size_t>(at)];
-      sum += phases ? pulse.shape[k] * one : pulse.shape[k] * pulse.shape[k] * std::norm(one);
-    }
-    to[static_cast<std::size_t>(i)] = phases ? sum : std::sqrt(sum.real());
+/// One row, from the power that arrives to what is recorded. \return samples at full scale.
+std::int64_t receive_row(const Chain& chain, const double* power, std::uint64_t beam,
+                         Workspace& work, double* to) {
+  const std::size_t samples = chain.gains.size();
+  const bool speckled = chain.options.speckle != SpeckleModel::kNone;
+  work.power.assign(power, power + samples);
+  if (!speckled && chain.pulse.shape.size() > 1) {
+    const std::vector<double> arrived = work.power;
+    convolve(chain.energy, chain.pulse.first, arrived, work.power);
   }
-  return to;
+  if (speckled || chain.noise > 0.0) hear_amplitudes(chain, power, beam, work);
+  std::int64_t clipped = 0;
+  for (std::size_t i = 0; i < samples; ++i) {
+    to[i] = chain.converter(chain.gains[i] * work.power[i], clipped);
+  }
+  return clipped;
 }
 
-/// Of the sea in the receiver's band, over the power transmitted at 1 m.
-double noise_power(const SonarOptions& options) {
-  const double directivity = 4.0 * std::numbers::pi / (options.beam_width * options.fan_width);
-  return std::pow(10.0, 0.1 * (options.noise_level - options.source_level)) * options.bandwidth /
-         std::max(1.0, directivity);
-}
-
-double gain(const SonarOptions& options, double range) {
-  if (!options.tvg) return 1.0;
-  return std::pow(10.0, 0.1 * (options.tvg_spreading * std::log10(range) +
-                               options.tvg_absorption * 2.0 * range));
-}
-
-/// Intensity after the steps of the amplitude's converter.
-double quantised(const SonarOptions& options, double intensity, std::int64_t& clipped) {
-  if (options.bits == 0) return intensity;
-  const double full = std::pow(10.0, 0.1 * options.full_scale);
-  const double levels = std::exp2(options.bits) - 1.0;
-  const double level = std::round(std::sqrt(intensity / full) * levels);
-  if (level >= levels) ++clipped;
-  const double kept = std::min(level, levels) / levels;
-  return kept * kept * full;
+/// Which rows bring nothing.
+std::vector<bool> lost_rows(const SonarOptions& options, std::size_t beams,
+                            const ReceiverKey& key) {
+  RandomStream random(time_key(kDropout, key));
+  std::vector<bool> lost(beams, random.uniform() < options.dropout_rate);
+  for (std::size_t beam = 0; beam < beams; ++beam) {
+    if (random.uniform() < options.beam_dropout_rate) lost[beam] = true;
+  }
+  return lost;
 }
 
 }  // namespace
@@ -143,50 +192,58 @@ double quantised(const SonarOptions& options, double intensity, std::int64_t& cl
 
 void ReceiverOptions::check() const {
   check_range("speckle_shape", speckle_shape, 0.1, 1000.0);
-  check_finite("noise_level", noise_level);
-  check_range("dropout_rate", dropout_rate, 0.0, 1.0);
+  if (noise_level) check_range("noise_level", *noise_level, -300.0, 300.0);
   check_range("tvg_spreading", tvg_spreading, 0.0, 100.0);
   check_range("tvg_absorption", tvg_absorption, 0.0, 10.0);
+  check_range("tvg_offset", tvg_offset, -300.0, 300.0);
+  check_range("dropout_rate", dropout_rate, 0.0, 1.0);
+  check_range("beam_dropout_rate", beam_dropout_rate, 0.0, 1.0);
   check_range("bits", bits, 0, 32);
   check_range("full_scale", full_scale, -300.0, 300.0);
 }
 
-Received receive(const SonarOptions& options, const Echo& echo, const ReceiverKey& key) {
+double noise_intensity(const SonarOptions& options, double sound_speed) {
+  const double level = options.noise_level
+                           ? *options.noise_level
+                           : ambient_noise(options.frequency, {.wind_speed = options.wind_speed});
+  const double directivity =
+      std::max(1.0, 4.0 * std::numbers::pi / (options.beam_width * options.fan_width));
+  const double density = sonar::linear(level - options.source_level) / directivity;
+  const double cell = options.sample_length();
+  switch (options.pulse) {
+    case PulseModel::kNone:
+      return density * options.bandwidth;
+    case PulseModel::kRectangle:
+      return density * options.bandwidth * cell / (0.5 * sound_speed * options.pulse_length);
+    case PulseModel::kChirp:
+      return density / options.pulse_length * cell / (0.5 * sound_speed / options.bandwidth);
+  }
+  return 0.0;
+}
+
+Received receive(const SonarOptions& options, const Echo& echo, const ReceiverKey& key,
+                 int num_threads) {
   const auto samples = static_cast<std::size_t>(echo.samples);
+  const auto beams = static_cast<std::size_t>(echo.beams);
+  const sonar::Chain chain(options, echo.sound_speed, key);
+  const std::vector<bool> lost = sonar::lost_rows(options, beams, key);
   Received received;
   received.intensity.assign(echo.power.size(), 0.0);
-  received.dropped =
-      RandomStream(sonar::time_key(sonar::kDropout, key)).uniform() < options.dropout_rate;
-  if (received.dropped) return received;
+  received.dropped = std::find(lost.begin(), lost.end(), false) == lost.end();
 
-  const sonar::Pulse pulse = sonar::pulse_of(options, echo.sound_speed);
-  const std::uint64_t place = sonar::place_key(options, echo.sound_speed, key);
-  const std::uint64_t moment = sonar::time_key(sonar::kNoise, key);
-  const double noise = options.noise ? std::sqrt(sonar::noise_power(options)) : 0.0;
-  std::vector<double> gains(samples);
-  for (std::size_t i = 0; i < samples; ++i) {
-    gains[i] = sonar::gain(options, (static_cast<double>(i) + 0.5) * options.sample_length());
-  }
-  const bool phases =
-      options.noise || options.speckle != SpeckleModel::kNone || pulse.shape.size() > 1;
-  for (std::size_t beam = 0; beam < static_cast<std::size_t>(echo.beams); ++beam) {
-    const double* power = echo.power.data() + beam * samples;
-    double* row = received.intensity.data() + beam * samples;
-    if (!phases) {
-      for (std::size_t i = 0; i < samples; ++i) {
-        row[i] = sonar::quantised(options, gains[i] * power[i], received.clipped);
-      }
-      continue;
+  constexpr std::size_t kSamplesAtOnce = 16384;
+  const std::size_t grain =
+      std::max<std::size_t>(1, kSamplesAtOnce / std::max<std::size_t>(samples, 1));
+  std::vector<std::int64_t> clipped(beams, 0);
+  parallel_for(beams, grain, num_threads, [&](std::size_t begin, std::size_t end) {
+    sonar::Workspace work;
+    for (std::size_t beam = begin; beam < end; ++beam) {
+      if (lost[beam]) continue;
+      clipped[beam] = sonar::receive_row(chain, echo.power.data() + beam * samples, beam, work,
+                                         received.intensity.data() + beam * samples);
     }
-    const std::vector<sonar::Amplitude> heard = sonar::through_pulse(
-        pulse, options, sonar::scattered(options, power, samples, RandomStream(place, beam)));
-    RandomStream random(moment, beam);
-    for (std::size_t i = 0; i < samples; ++i) {
-      sonar::Amplitude amplitude = heard[i];
-      if (options.noise) amplitude += noise * sonar::circular(random);
-      row[i] = sonar::quantised(options, gains[i] * std::norm(amplitude), received.clipped);
-    }
-  }
+  });
+  for (const std::int64_t count : clipped) received.clipped += count;
   return received;
 }
 

@@ -15,14 +15,21 @@ std::vector<double> rectangle(double length) {
   return energy;
 }
 
-/// A sinc of `width` samples under a Hann window of four lobes a side.
+/// The compressed chirp of a spectrum under a Hann window, sinc(x) / (1 − x²) with x in cells of
+/// `width` samples, out to six of them.
 std::vector<double> compressed(double width) {
-  const auto half = static_cast<int>(std::ceil(4.0 * width));
+  const auto half = static_cast<int>(std::ceil(6.0 * width));
   std::vector<double> shape;
   for (int i = -half; i <= half; ++i) {
-    const double x = std::numbers::pi * i / width;
-    const double window = std::pow(std::cos(0.5 * std::numbers::pi * i / (half + 1.0)), 2);
-    shape.push_back(window * (i == 0 ? 1.0 : std::sin(x) / x));
+    const double x = std::abs(i / width);
+    const double angle = std::numbers::pi * x;
+    if (x < 1e-6) {
+      shape.push_back(1.0);
+    } else if (std::abs(x - 1.0) < 1e-6) {
+      shape.push_back(0.5);
+    } else {
+      shape.push_back(std::sin(angle) / (angle * (1.0 - x * x)));
+    }
   }
   return shape;
 }
