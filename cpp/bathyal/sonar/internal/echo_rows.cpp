@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 namespace bathyal::sonar {
 namespace {
@@ -10,7 +11,8 @@ namespace {
 /// On the border of a sample, where rounding alone keeps it off.
 double snapped(double place) {
   constexpr double kRounding = 1e-9;
-  const double border = std::round(place);
+  if (!(place > 0.0 && place < 1e9)) return place;
+  const auto border = static_cast<double>(static_cast<std::int64_t>(place + 0.5));
   return std::abs(place - border) < kRounding ? border : place;
 }
 
