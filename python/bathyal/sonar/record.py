@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bathyal._core import Sonar
+from bathyal.io.formats.zarr_arrays import StoredArray
 from bathyal.sonar.navigation import Floats, Navigation
 
 if TYPE_CHECKING:
@@ -21,13 +22,13 @@ if TYPE_CHECKING:
 class RecordTruth:
     """What each sample came from, as `PingTruth`, and where the vehicle really was."""
 
-    range: Floats
+    range: Floats | StoredArray
     """(P, beams, samples) [m]"""
-    incidence: Floats
+    incidence: Floats | StoredArray
     """(P, beams, samples) [rad]"""
-    material: NDArray[np.int32]
+    material: NDArray[np.int32] | StoredArray
     """(P, beams, samples) row of the world's materials, −1 where nothing was hit."""
-    point: Floats
+    point: Floats | StoredArray
     """(P, beams, samples, 3) in the world [m]"""
     pose: Floats
     """(P, 4, 4) world_from_vehicle"""
@@ -39,8 +40,8 @@ class SonarRecord:
 
     time: Floats
     """(P,) [s]"""
-    intensity: NDArray[np.float32]
-    """(P, beams, samples) power, linear; side-scan rows port, starboard, near to far."""
+    intensity: NDArray[np.float32] | StoredArray
+    """(P, beams, samples) power, linear, of a survey in a folder read when it is asked for; side-scan rows port, starboard, near to far."""
     range: Floats
     """(samples,) slant range of their middles [m]"""
     beam_names: tuple[str, ...]
@@ -100,12 +101,13 @@ class SonarRecord:
         )  # fmt: skip
 
     def write(self, path: str | os.PathLike[str]) -> None:
-        """Writes the record: `.xtf`, a side-scan's rows in 16 bits of amplitude.
+        """Writes the record: `.xtf`, a side-scan's rows in 16 bits of amplitude; `.zarr`, a folder
+        with everything.
 
         Raises
         ------
         ValueError
-            For another suffix, or a sonar that the format does not hold.
+            For another suffix, a sonar that the format does not hold, or a folder that is there.
         """
         from bathyal.sonar.files import write_sonar
 

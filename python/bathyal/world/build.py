@@ -141,7 +141,11 @@ class WorldBuilder(DocumentFiles):
         with self.placed(place):
             mesh = _core.make_fish(section.length)
             paths = _core.fish_paths(
-                world.scene, section.count, section.duration, seed=section.seed, **_keywords(section.options)
+                world.scene,
+                section.count,
+                section.duration,
+                seed=section.seed,
+                **_keywords(section.options),
             )
             for number, path in enumerate(paths):
                 world.add(mesh, path, "fish", f"{section.name}_{number}")
