@@ -41,7 +41,8 @@ class SonarRecord:
     time: Floats
     """(P,) [s]"""
     intensity: NDArray[np.float32] | StoredArray
-    """(P, beams, samples) power, linear, of a survey in a folder read when it is asked for; side-scan rows port, starboard, near to far."""
+    """(P, beams, samples) power, linear; side-scan rows port, starboard, near to far. Of a survey in
+    a folder, read when it is asked for."""
     range: Floats
     """(samples,) slant range of their middles [m]"""
     beam_names: tuple[str, ...]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Surveys in folders: halves that join, interruptions, full disks, other readers, hostile folders."""
+"""Surveys in folders: halves that join, interruption, full disks, other readers, broken files."""
 
 from __future__ import annotations
 
