@@ -31,7 +31,7 @@ def side_scan_100khz(*, physics: str = "off") -> Sonar:
 
 def paper_side_scan(*, physics: str = "off") -> Sonar:
     """The model of Bobkov and others (2014): ideal cameras of 45° × 0.6° that look from the
-    horizontal to 45° down, 100 × 8,000 pixels a side, to 120 m; a sample is the sum of K_d cos θ
+    horizontal to 45° down, 100 × 8,000 pixels a side, to 120 m. A sample is the sum of K_d cos θ
     over the pixels whose range falls in it."""
     return Sonar.preset("paper_side_scan", physics)
 

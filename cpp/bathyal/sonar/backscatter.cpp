@@ -27,7 +27,8 @@ Complex vertical(const Sediment& sediment, double along) {
   return std::sqrt(kappa * kappa - along * along);
 }
 
-double roughness(const Sediment& sediment, double cosine, double along, double wave_number) {
+double roughness(const Sediment& sediment, double cosine, double along, double wave_number,
+                 const std::function<double(double, double)>& integral) {
   const double rho = sediment.density_ratio;
   const Complex kappa = wave_number_ratio(sediment);
   const Complex p_b = vertical(sediment, along);
@@ -48,7 +49,7 @@ double roughness(const Sediment& sediment, double cosine, double along, double w
   const double p = 0.5 * structure * q3 * q3 * std::pow(q, -2.0 * alpha);
   const double k2 = wave_number * wave_number;
   return 0.25 * k2 * k2 * amplitude / (2.0 * std::numbers::pi * q * q * q3 * q3) *
-         roughness_integral(alpha, p);
+         integral(alpha, p);
 }
 
 double volume(const Sediment& sediment, double cosine, double along) {
@@ -84,10 +85,16 @@ double backscatter(const Material& material, double cosine, double frequency) {
 }
 
 double sediment_backscatter(const Sediment& sediment, double cosine, double frequency) {
+  return sediment_backscatter(sediment, cosine, frequency, roughness_integral);
+}
+
+double sediment_backscatter(const Sediment& sediment, double cosine, double frequency,
+                            const std::function<double(double, double)>& integral) {
   if (!(cosine > 0.0)) return 0.0;
   const double along = std::sqrt((1.0 - cosine) * (1.0 + cosine));
   const double wave_number = 2.0 * std::numbers::pi * frequency / kWaterSpeed;
-  return roughness(sediment, cosine, along, wave_number) + volume(sediment, cosine, along);
+  return roughness(sediment, cosine, along, wave_number, integral) +
+         volume(sediment, cosine, along);
 }
 
 Complex reflection(const Sediment& sediment, double cosine) {

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <complex>
+#include <functional>
 #include <string>
+#include <vector>
 
 #include "bathyal/world/material.hpp"
 
@@ -25,6 +27,10 @@ double backscatter(const Material& material, double cosine, double frequency);
 /// with k of water of 1500 m/s, Γ the reflection coefficient, P = √(κ² − sin²θ), κ = (1 + iδ) / ν.
 double sediment_backscatter(const Sediment& sediment, double cosine, double frequency);
 
+/// The same with the integral I(α, p) by another function: a RoughnessCurve is quick.
+double sediment_backscatter(const Sediment& sediment, double cosine, double frequency,
+                            const std::function<double(double, double)>& integral);
+
 /// Γ of a plane wave at the bottom as a lossy fluid; ±1 at grazing incidence.
 std::complex<double> reflection(const Sediment& sediment, double cosine);
 
@@ -42,5 +48,18 @@ std::string extrapolated(double frequency);
 
 /// ∫₀^∞ J₀(u) exp(−p u^2α) u du, 0 < α < 1, p > 0, within 10⁻⁶ of its value.
 double roughness_integral(double alpha, double p);
+
+/// roughness_integral of one α by a table over ln p, cubic between, within 10⁻³ of its value.
+class RoughnessCurve {
+ public:
+  explicit RoughnessCurve(double alpha);
+
+  double alpha() const { return alpha_; }
+  double at(double p) const;
+
+ private:
+  double alpha_;
+  std::vector<double> logarithm_;
+};
 
 }  // namespace bathyal

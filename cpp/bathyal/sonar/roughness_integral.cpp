@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cmath>
+#include <cstddef>
 #include <numbers>
 
 #include "bathyal/base/check.hpp"
@@ -53,6 +54,9 @@ double series(double alpha, double p) {
   return sum;
 }
 
+constexpr double kFirst = -18.0, kLast = 28.0;  ///< ln p of a curve; beyond, powers of p
+constexpr double kPitch = 0.25;
+
 }  // namespace
 
 double roughness_integral(double alpha, double p) {
@@ -73,6 +77,26 @@ double roughness_integral(double alpha, double p) {
     sum += weight * mean_over_w(rise, shift, logarithm_of_a(alpha, phi));
   }
   return sum / weights;
+}
+
+RoughnessCurve::RoughnessCurve(double alpha) : alpha_(alpha) {
+  for (int row = 0; kFirst + row * kPitch <= kLast; ++row) {
+    logarithm_.push_back(std::log(roughness_integral(alpha, std::exp(kFirst + row * kPitch))));
+  }
+}
+
+double RoughnessCurve::at(double p) const {
+  const double place = (std::log(p) - kFirst) / kPitch;
+  const auto rows = static_cast<double>(logarithm_.size());
+  const double low = std::fmin(std::fmax(std::floor(place), 1.0), rows - 3.0);
+  const double* y = logarithm_.data() + static_cast<std::ptrdiff_t>(low);
+  const double t = place - low;
+  if (t < -1.0) return std::exp(y[-1] + (t + 1.0) * (y[0] - y[-1]));
+  if (t > 2.0) return std::exp(y[2] + (t - 2.0) * (y[2] - y[1]));
+  // Lagrange's cubic through the four rows about it.
+  return std::exp(-y[-1] * t * (t - 1.0) * (t - 2.0) / 6.0 +
+                  y[0] * (t + 1.0) * (t - 1.0) * (t - 2.0) / 2.0 -
+                  y[1] * (t + 1.0) * t * (t - 2.0) / 2.0 + y[2] * (t + 1.0) * t * (t - 1.0) / 6.0);
 }
 
 }  // namespace bathyal

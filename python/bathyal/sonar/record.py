@@ -20,8 +20,23 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class RecordTruth:
-    """What each sample came from, as `PingTruth`, and where the vehicle really was."""
+    """What each sample came from, as `PingTruth`, and where the vehicle really was.
 
+    Attributes
+    ----------
+    range
+        (P, beams, samples) [m]
+    incidence
+        (P, beams, samples) [rad]
+    material
+        (P, beams, samples) row of the world's materials, −1 where nothing was hit.
+    point
+        (P, beams, samples, 3) in the world [m]
+    pose
+        (P, 4, 4) world_from_vehicle
+    """
+
+<<<<<<< HEAD
     range: Floats | StoredArray
     """(P, beams, samples) [m]"""
     incidence: Floats | StoredArray
@@ -30,35 +45,60 @@ class RecordTruth:
     """(P, beams, samples) row of the world's materials, −1 where nothing was hit."""
     point: Floats | StoredArray
     """(P, beams, samples, 3) in the world [m]"""
+=======
+    range: Floats
+    incidence: Floats
+    material: NDArray[np.int32]
+    point: Floats
+>>>>>>> engine
     pose: Floats
-    """(P, 4, 4) world_from_vehicle"""
 
 
 @dataclass(frozen=True)
 class SonarRecord:
-    """Pings one after another."""
+    """Pings one after another.
+
+    Attributes
+    ----------
+    time
+        (P,) [s]
+    intensity
+        (P, beams, samples) power, linear; side-scan rows port, starboard, near to far.
+    range
+        (samples,) slant range of their middles [m]
+    beam_names
+        Of the rows.
+    navigation
+        What the vehicle reported.
+    truth
+        Of a simulated survey, where it was asked for.
+    sonar
+        The description; None of a file that has none.
+    start
+        Date and time of time 0 (UTC), where known.
+    warnings
+        Of the survey or the reader.
+    sound_speed
+        By which ranges were counted [m/s].
+    """
 
     time: Floats
+<<<<<<< HEAD
     """(P,) [s]"""
     intensity: NDArray[np.float32] | StoredArray
-    """(P, beams, samples) power, linear; side-scan rows port, starboard, near to far. Of a survey in
-    a folder, read when it is asked for."""
+    """(P, beams, samples) power, linear; side-scan rows port, starboard, near to far. Of a survey
+    in a folder, read when it is asked for."""
+=======
+    intensity: NDArray[np.float32]
+>>>>>>> engine
     range: Floats
-    """(samples,) slant range of their middles [m]"""
     beam_names: tuple[str, ...]
-    """Of the rows."""
     navigation: Navigation
-    """What the vehicle reported."""
     truth: RecordTruth | None = None
-    """Of a simulated survey, where it was asked for."""
     sonar: Sonar | None = None
-    """The description; None of a file that has none."""
     start: np.datetime64 | None = None
-    """Date and time of time 0 (UTC), where known."""
     warnings: tuple[str, ...] = field(default=())
-    """Of the survey or the reader."""
     sound_speed: float = 1500.0
-    """By which ranges were counted [m/s]."""
 
     def __len__(self) -> int:
         return len(self.time)

@@ -62,6 +62,15 @@ TEST(Backscatter, TheRoughnessIntegralIsSmooth) {
   }
 }
 
+TEST(Backscatter, ACurveIsTheIntegral) {
+  for (const double alpha : {0.2, 0.5, 0.625, 0.95}) {
+    const RoughnessCurve curve(alpha);
+    for (double p = 3e-10; p < 1e14; p *= 3.7) {  // beyond its ends as well
+      EXPECT_NEAR(curve.at(p) / roughness_integral(alpha, p), 1.0, 1e-3) << alpha << " " << p;
+    }
+  }
+}
+
 /// First-order perturbation as APL-UW TR 9407 writes it: 4 k⁴ sin⁴ |Y|² W(2 k cos), by the grazing
 /// angle.
 double perturbation(const Sediment& s, double incidence, double frequency) {

@@ -187,6 +187,29 @@ TEST(Physics, BackscatterOfTheMaterialIsThatOfItsLaw) {
   EXPECT_NE(high.notes[0].find("extrapolated"), std::string::npos);
 }
 
+/// A sonar that looks at several worlds by turns hears in each what one of its own would.
+TEST(Physics, EachWorldHasTablesOfItsOwn) {
+  SonarOptions options = pencil(radians(60.0), radians(1.0), 30.0);
+  options.frequency = 30e3;
+  options.backscatter = BackscatterModel::kMaterial;
+  const Sonar shared(options);
+  std::vector<WorldSnapshot> worlds;
+  for (int i = 0; i < 6; ++i) {  // more than are kept
+    WorldSnapshot world = world_of({flat(0.0)}, {1.0});
+    auto materials = std::make_shared<std::vector<Material>>(*world.materials);
+    materials->front().sediment = Sediment{};
+    materials->front().sediment->spectral_strength *= i + 1;
+    world.materials = materials;
+    worlds.push_back(world);
+  }
+  for (int turn = 0; turn < 2; ++turn) {
+    for (const WorldSnapshot& world : worlds) {
+      EXPECT_EQ(shared.echo(world, Water(), at(0, 0, 10)).power,
+                Sonar(options).echo(world, Water(), at(0, 0, 10)).power);
+    }
+  }
+}
+
 /// Sonar 20 m above the bottom, 10 m below the surface.
 Echo echo_sounder_echo(int multiples, bool surface) {
   WorldSnapshot world = world_of({flat(-30.0)}, {0.1});

@@ -37,8 +37,7 @@ void EchoRow::add(const Return& back) {
   const auto count = static_cast<double>(power_.size());
   const double middle = back.range / sample_length_;
   const double half = back.half / sample_length_;
-  const double low =
-      snapped(std::max(middle - half, std::min(middle, back.least / sample_length_)));
+  const double low = snapped(middle - half);
   const double high = snapped(middle + half);
   if (!(low < count) || high < 0.0) return;
   const double first = std::floor(std::max(low, 0.0));

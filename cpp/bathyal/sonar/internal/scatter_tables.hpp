@@ -60,7 +60,7 @@ class ScatterTables {
   bool uses_sediment_ = false;
 };
 
-/// Keeps the tables of the last list of materials.
+/// Keeps the tables of the last four lists of materials: worlds may be asked by turns.
 class ScatterCache {
  public:
   std::shared_ptr<const ScatterTables> tables(
@@ -68,7 +68,7 @@ class ScatterCache {
 
  private:
   std::mutex mutex_;
-  std::shared_ptr<const ScatterTables> last_;
+  std::vector<std::shared_ptr<const ScatterTables>> last_;  ///< the latest first
 };
 
 }  // namespace bathyal::sonar

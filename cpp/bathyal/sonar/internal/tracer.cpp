@@ -161,8 +161,8 @@ void Tracer::spread(const BeamRays& fan, const Arrival& arrival, double against,
   const double steep_phi = -arrival.normal.dot(arrival.by_phi) / facing;
   const double half_psi = std::abs(steep_psi) * fan.half_psi;
   const double half_phi = std::abs(steep_phi) * fan.half_phi;
-  back.half = arrival.range * std::max(half_psi, half_phi);
-  back.least = arrival.range * std::abs(against);
+  const double nearest = 1.0 - back.incidence_cosine;  // no place of the plane is nearer
+  back.half = arrival.range * std::min(std::max(half_psi, half_phi), nearest);
   if (half_psi >= half_phi && steep_psi != 0.0)
     back.slide = arrival.direction + arrival.by_psi / steep_psi;
   else if (steep_phi != 0.0)
