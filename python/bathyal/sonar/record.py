@@ -36,21 +36,10 @@ class RecordTruth:
         (P, 4, 4) world_from_vehicle
     """
 
-<<<<<<< HEAD
     range: Floats | StoredArray
-    """(P, beams, samples) [m]"""
     incidence: Floats | StoredArray
-    """(P, beams, samples) [rad]"""
     material: NDArray[np.int32] | StoredArray
-    """(P, beams, samples) row of the world's materials, −1 where nothing was hit."""
     point: Floats | StoredArray
-    """(P, beams, samples, 3) in the world [m]"""
-=======
-    range: Floats
-    incidence: Floats
-    material: NDArray[np.int32]
-    point: Floats
->>>>>>> engine
     pose: Floats
 
 
@@ -63,7 +52,8 @@ class SonarRecord:
     time
         (P,) [s]
     intensity
-        (P, beams, samples) power, linear; side-scan rows port, starboard, near to far.
+        (P, beams, samples) power, linear; side-scan rows port, starboard, near to far. Of a survey
+        in a folder, read when it is asked for.
     range
         (samples,) slant range of their middles [m]
     beam_names
@@ -83,14 +73,7 @@ class SonarRecord:
     """
 
     time: Floats
-<<<<<<< HEAD
-    """(P,) [s]"""
     intensity: NDArray[np.float32] | StoredArray
-    """(P, beams, samples) power, linear; side-scan rows port, starboard, near to far. Of a survey
-    in a folder, read when it is asked for."""
-=======
-    intensity: NDArray[np.float32]
->>>>>>> engine
     range: Floats
     beam_names: tuple[str, ...]
     navigation: Navigation
