@@ -240,10 +240,12 @@ void bind_sonar(py::module_& module) {
           "beam_names", [](const Sonar& s) { return beam_names(s.options()); }, "Of the rows.")
       .def(
           "__eq__",
-          [](const Sonar& a, const Sonar& b) {
+          [](const Sonar& a, const py::object& other) {
+            if (!py::isinstance<Sonar>(other)) return false;
+            const auto& b = other.cast<const Sonar&>();
             return py::repr(sonar_to_dict(a.options())).equal(py::repr(sonar_to_dict(b.options())));
           },
-          py::is_operator())
+          py::arg("other"))
       .def("__hash__",
            [](const Sonar& s) { return py::hash(py::repr(sonar_to_dict(s.options()))); })
       .def("__repr__",

@@ -12,7 +12,7 @@ import numpy.typing
 import os
 import plotly.graph_objects
 import typing
-__all__: list[str] = ['Arm', 'ArmFit', 'BEYOND_NOISE', 'Capsule', 'Cause', 'CleanReport', 'CleanResult', 'Clearances', 'CorrectedArm', 'Current', 'DhTable', 'Diagnosis', 'Effect', 'EffectRange', 'EffectRows', 'Eigenray', 'Error', 'Estimate', 'FitParameter', 'FollowedPath', 'FoundEffect', 'HeldOut', 'HeldOutPart', 'Hits', 'Hull', 'HullReport', 'InverseResult', 'KeepOut', 'Link', 'MeshReport', 'MotionCheck', 'MotionPlan', 'NamedEffect', 'Nearest', 'NearestSegments', 'Outlier', 'Ping', 'PingTruth', 'Pipeline', 'Plane', 'PlaneFit', 'PointCloud', 'Polyline', 'Profile', 'ReachMap', 'RigidBody', 'SamplingPhase', 'SamplingPlan', 'Scene', 'SeabedModel', 'Shape', 'SheetPatch', 'SheetReport', 'SidescanPings', 'Sonar', 'SoundPath', 'Standpoint', 'StaticTrim', 'Structure', 'Support', 'TargetChecks', 'Targets', 'TextTable', 'Tide', 'TipMove', 'ToolPath', 'TouchForecast', 'TouchPlan', 'Touches', 'TracedSound', 'Tracked', 'Trade', 'Trajectory', 'TriangleMesh', 'Verification', 'Voxels', 'Water', 'Waves', 'Workspace', 'World', 'WorldSnapshot', 'XtfFile', 'absorption', 'ambient_noise', 'arm_from_chain', 'arm_from_parts', 'arm_parts', 'best_standpoint', 'chain_from_arm', 'check_bytes', 'clean_cloud', 'cover_polygon', 'depth_from_pressure', 'diagnose', 'eigenrays', 'find_effect_with', 'find_sheets', 'find_targets', 'fish_paths', 'fit_plane', 'forecast_touches', 'generate_survey', 'identify_arm', 'intersect_moller_trumbore', 'library_effects', 'make_boulder', 'make_cable', 'make_fish', 'make_mine', 'make_pipeline', 'make_seabed', 'make_wreck', 'make_xtf', 'mesh_report', 'parse_xtf', 'plan_sampling', 'plan_toolpath', 'plan_touches', 'practical_salinity', 'pressure_from_depth', 'read_mesh_with', 'read_pcd', 'read_text_table', 'seawater_density', 'set_simd_level', 'simd_level', 'sound_speed', 'sound_speed_teos10_with', 'survey_height', 'trace_sound', 'triangle_material', 'triangulate', 'triangulate_delaunay', 'verify_positions', 'warn_of_range_with', 'warn_of_support_with', 'with_link_radii', 'write_xyz']
+__all__: list[str] = ['Arm', 'ArmFit', 'BEYOND_NOISE', 'Capsule', 'Cause', 'CleanReport', 'CleanResult', 'Clearances', 'CorrectedArm', 'Current', 'DhTable', 'Diagnosis', 'Effect', 'EffectRange', 'EffectRows', 'Eigenray', 'Error', 'Estimate', 'FitParameter', 'FollowedPath', 'FoundEffect', 'HeldOut', 'HeldOutPart', 'Hits', 'Hull', 'HullReport', 'InverseResult', 'KeepOut', 'Link', 'MeshReport', 'MotionCheck', 'MotionPlan', 'NamedEffect', 'NavigationErrors', 'NavigationReport', 'Nearest', 'NearestSegments', 'Outlier', 'Ping', 'PingTruth', 'Pipeline', 'Plane', 'PlaneFit', 'PointCloud', 'Polyline', 'Profile', 'ReachMap', 'RigidBody', 'SamplingPhase', 'SamplingPlan', 'Scene', 'SeabedModel', 'Shape', 'SheetPatch', 'SheetReport', 'SidescanPings', 'Sonar', 'SoundPath', 'Standpoint', 'StaticTrim', 'Structure', 'Support', 'TargetChecks', 'Targets', 'TextTable', 'Tide', 'TipMove', 'ToolPath', 'TouchForecast', 'TouchPlan', 'Touches', 'TracedSound', 'Tracked', 'Trade', 'Trajectory', 'TriangleMesh', 'Verification', 'Voxels', 'Water', 'Waves', 'Workspace', 'World', 'WorldSnapshot', 'XtfFile', 'absorption', 'ambient_noise', 'arm_from_chain', 'arm_from_parts', 'arm_parts', 'best_standpoint', 'chain_from_arm', 'check_bytes', 'clean_cloud', 'cover_polygon', 'depth_from_pressure', 'diagnose', 'eigenrays', 'find_effect_with', 'find_sheets', 'find_targets', 'fish_paths', 'fit_plane', 'forecast_touches', 'generate_survey', 'identify_arm', 'intersect_moller_trumbore', 'library_effects', 'make_boulder', 'make_cable', 'make_fish', 'make_mine', 'make_pipeline', 'make_seabed', 'make_wreck', 'make_xtf', 'mesh_report', 'parse_xtf', 'plan_sampling', 'plan_toolpath', 'plan_touches', 'practical_salinity', 'pressure_from_depth', 'read_mesh_with', 'read_pcd', 'read_text_table', 'seawater_density', 'set_simd_level', 'simd_level', 'sound_speed', 'sound_speed_teos10_with', 'survey_height', 'trace_sound', 'triangle_material', 'triangulate', 'triangulate_delaunay', 'verify_positions', 'warn_of_range_with', 'warn_of_support_with', 'with_link_radii', 'write_xyz']
 class Error(RuntimeError):
     """
     A broken file, a solver that failed or a part that is not installed.
@@ -4968,7 +4968,7 @@ class Sonar:
         -------
         Sonar
         """
-    def __eq__(self, arg0: Sonar) -> bool:
+    def __eq__(self, other: typing.Any) -> bool:
         ...
     def __getstate__(self) -> dict[str, bool | int | float | str | numpy.typing.ArrayLike | None]:
         ...
@@ -5077,7 +5077,7 @@ class Sonar:
         >>> np.round(10 * np.log10(sigma), 1).tolist()
         [-9.3, -18.5, -21.6]
         """
-    def survey(self, world: World, trajectory: Trajectory, *, seed: int = 0, truth: bool = False, progress: bathyal.sonar.survey.Progress | None = None, num_threads: int = 0) -> bathyal.sonar.record.SonarRecord:
+    def survey(self, world: World, trajectory: Trajectory, *, seed: int = 0, truth: bool = False, navigation: NavigationErrors | None = None, out: str | os.PathLike[str] | None = None, first: int = 0, count: int = -1, progress: bathyal.sonar.survey.Progress | None = None, num_threads: int = 0) -> bathyal.sonar.record.SonarRecord:
         """
         Hears a world along a trajectory.
         
@@ -5089,7 +5089,16 @@ class Sonar:
         seed : int
             Of all random numbers; the same seed gives the same bytes.
         truth : bool
-            Whether what each sample came from is kept: seven times the memory.
+            Whether what each sample came from is kept, and where the vehicle really was: twelve
+            times the memory.
+        navigation : NavigationErrors, optional
+            Of what the vehicle reports; unless given it reports the truth.
+        out : path, optional
+            A folder (``survey.zarr``) in which the record is kept as it grows, so that memory does
+            not grow with it. A folder that an interrupted survey left is continued; several
+            processes may fill one, each its part.
+        first, count : int
+            Which of the pings; −1 is to the end. Parts join to the bytes of the whole.
         progress : function, optional
             Called with the pings done and all of them; the survey ends where it returns False.
         num_threads : int
@@ -5102,7 +5111,10 @@ class Sonar:
         Raises
         ------
         ValueError
-            As `Sonar.ping`, with the ping's number.
+            As `Sonar.ping`, with the ping's number; for a folder of another survey, or of anything
+            else.
+        OSError
+            Where the folder cannot be written. What is there stays readable.
         """
     def to_dict(self) -> dict[str, bool | int | float | str | numpy.typing.ArrayLike | None]:
         """
@@ -5342,6 +5354,216 @@ class Sonar:
     def wind_speed(self) -> float:
         """
         At 10 m, by which the sea surface scatters [m/s].
+        """
+class NavigationReport:
+    """
+    What a vehicle reports, one row a time.
+    """
+    @property
+    def depth(self) -> numpy.ndarray:
+        """
+        (P,) below the mean surface [m]; NaN without one.
+        """
+    @property
+    def heading(self) -> numpy.ndarray:
+        """
+        (P,) clockwise from y [rad].
+        """
+    @property
+    def pitch(self) -> numpy.ndarray:
+        """
+        (P,) bow up [rad].
+        """
+    @property
+    def position(self) -> numpy.ndarray:
+        """
+        (P, 3) in the world [m].
+        """
+    @property
+    def roll(self) -> numpy.ndarray:
+        """
+        (P,) starboard down [rad].
+        """
+    @property
+    def speed(self) -> numpy.ndarray:
+        """
+        (P,) over ground [m/s].
+        """
+class NavigationErrors:
+    """
+    Errors of what a vehicle reports of its motion.
+    
+    Without any it reports the truth. Position is reckoned from the log and the heading since the last
+    fix (GNSS, USBL), without fixes since the start. Noise is normal and given by its standard
+    deviation.
+    
+    Parameters
+    ----------
+    **fields : float
+        Any of the properties; those not given are 0.
+    
+    Raises
+    ------
+    ValueError
+        For a name that is none of them, or a value out of its range.
+    
+    Examples
+    --------
+    >>> import bathyal, numpy as np
+    >>> errors = bathyal.NavigationErrors(speed_scale=0.01, heading_bias=np.radians(1.0))
+    >>> east = np.stack([np.eye(4), np.eye(4)])
+    >>> east[1, 0, 3] = 1000.0
+    >>> reported = errors.report(bathyal.Trajectory([0.0, 500.0], east), [0.0, 500.0])
+    >>> reported.position[1].round(1).tolist()
+    [1009.8, -17.6, 0.0]
+    """
+    @staticmethod
+    def preset(name: str) -> NavigationErrors:
+        """
+        Errors of a vehicle by class.
+        
+        Parameters
+        ----------
+        name : str
+            "inertial" (with a Doppler log, some 0.1 % of the way), "compass" (magnetic, with a Doppler log,
+            some 2 % of the way) or "usbl" (that, with a fix of 1 m from a ship every 2 s).
+        
+        Returns
+        -------
+        NavigationErrors
+        """
+    def __eq__(self, other: typing.Any) -> bool:
+        ...
+    def __getstate__(self) -> dict[str, float]:
+        ...
+    def __hash__(self) -> int:
+        ...
+    def __init__(self, **kwargs: float) -> None:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def __setstate__(self, arg0: dict) -> None:
+        ...
+    def replace(self, **kwargs: float) -> NavigationErrors:
+        """
+        Others with the given fields changed.
+        """
+    def report(self, trajectory: Trajectory, time: numpy.typing.ArrayLike, *, surface: typing.SupportsFloat | typing.SupportsIndex | None = None, seed: typing.SupportsInt | typing.SupportsIndex = 0) -> NavigationReport:
+        """
+        What a vehicle on a trajectory reports.
+        
+        Parameters
+        ----------
+        trajectory : Trajectory
+            world_from_vehicle.
+        time : (P,) array
+            Rising [s].
+        surface : float, optional
+            z of the mean sea surface [m], for the depth.
+        seed : int
+            Of noise and walks.
+        
+        Returns
+        -------
+        NavigationReport
+        
+        Raises
+        ------
+        ValueError
+            For times that do not rise, or more than 10⁸ readings.
+        """
+    def report_altitude(self, altitude: numpy.typing.ArrayLike, *, first: typing.SupportsInt | typing.SupportsIndex = 0, seed: typing.SupportsInt | typing.SupportsIndex = 0) -> numpy.ndarray:
+        """
+        (P,) what is reported of true altitudes [m], from ping `first` on; NaN stays NaN.
+        """
+    def to_dict(self) -> dict[str, float]:
+        """
+        Every field's value by its name.
+        """
+    @property
+    def altitude_bias(self) -> float:
+        """
+        [m]
+        """
+    @property
+    def altitude_noise(self) -> float:
+        """
+        [m]
+        """
+    @property
+    def attitude_lag(self) -> float:
+        """
+        By which heading, pitch and roll are late [s].
+        """
+    @property
+    def attitude_noise(self) -> float:
+        """
+        Of pitch and of roll [rad].
+        """
+    @property
+    def depth_bias(self) -> float:
+        """
+        [m]
+        """
+    @property
+    def depth_noise(self) -> float:
+        """
+        [m]
+        """
+    @property
+    def fix_interval(self) -> float:
+        """
+        Between fixes [s]; 0: there are none.
+        """
+    @property
+    def fix_noise(self) -> float:
+        """
+        Of a fix, along x and along y [m].
+        """
+    @property
+    def heading_bias(self) -> float:
+        """
+        Clockwise [rad].
+        """
+    @property
+    def heading_noise(self) -> float:
+        """
+        [rad]
+        """
+    @property
+    def heading_walk(self) -> float:
+        """
+        Drift of a gyro [rad/√s].
+        """
+    @property
+    def latency(self) -> float:
+        """
+        What is reported at t was so at t − latency [s].
+        """
+    @property
+    def pitch_bias(self) -> float:
+        """
+        [rad]
+        """
+    @property
+    def position_walk(self) -> float:
+        """
+        Of a reckoned position, in x and in y [m/√s].
+        """
+    @property
+    def rate(self) -> float:
+        """
+        Of readings [Hz]; between them the last one is reported. 0: one at each ping.
+        """
+    @property
+    def roll_bias(self) -> float:
+        """
+        [rad]
+        """
+    @property
+    def speed_scale(self) -> float:
+        """
+        Of the log, as a part of the speed, −0.5 to 0.5.
         """
 class Touches:
     """

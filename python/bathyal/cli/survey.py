@@ -49,6 +49,22 @@ def survey(
             metavar="NUMBER",
         ),
     ] = None,
+    navigation: Annotated[
+        str | None,
+        typer.Option(
+            help="What the vehicle reports: inertial, compass or usbl. "
+            "[dim]\\[default: the truth][/]",
+            metavar="CLASS",
+        ),
+    ] = None,
+    truth: Annotated[
+        bool,
+        typer.Option("--truth", help="Keep what each sample came from: twelve times the size."),
+    ] = False,
+    overwrite: Annotated[
+        bool,
+        typer.Option("--overwrite", help="Replace another survey that is in the folder."),
+    ] = False,
     inside: Annotated[
         Path | None,
         typer.Option(
@@ -61,7 +77,8 @@ def survey(
 ) -> None:
     """Fly a sonar over a world, and write what it hears.
 
-    Writes survey.xtf and survey.png of a side-scan, survey.npz of other sonars.
+    Writes survey.zarr, which holds all axes, and of a side-scan survey.xtf and survey.png. A survey
+    that was interrupted is continued by the same command.
 
     [bold]Example:[/]
 
@@ -73,10 +90,13 @@ def survey(
     made = sonar_named(sonar, physics)
     if max_range is not None:
         made = made.replace(range=max_range)
-    with talk.progress() as progress, progress("Listening"):
+    with talk.progress() as progress, progress("Listening") as tell:
         result = run_survey(
-            world, track, out, sonar=made, speed=speed, inside=inside, **given(seed=seed)
-        )
+            world, track, out, sonar=made, speed=speed, inside=inside, navigation=navigation,
+            truth=truth, overwrite=overwrite,
+            progress=lambda done, total: tell(done / total, f"Ping {done:,} of {total:,}"),
+            **given(seed=seed),
+        )  # fmt: skip
     talk.warn(list(result.record.warnings[:5]))
     files = [str(path) for path in result.files]
     talk.result(

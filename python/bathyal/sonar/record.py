@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bathyal._core import Sonar
+from bathyal.io.formats.zarr_arrays import StoredArray
 from bathyal.sonar.navigation import Floats, Navigation
 
 if TYPE_CHECKING:
@@ -35,10 +36,10 @@ class RecordTruth:
         (P, 4, 4) world_from_vehicle
     """
 
-    range: Floats
-    incidence: Floats
-    material: NDArray[np.int32]
-    point: Floats
+    range: Floats | StoredArray
+    incidence: Floats | StoredArray
+    material: NDArray[np.int32] | StoredArray
+    point: Floats | StoredArray
     pose: Floats
 
 
@@ -51,7 +52,8 @@ class SonarRecord:
     time
         (P,) [s]
     intensity
-        (P, beams, samples) power, linear; side-scan rows port, starboard, near to far.
+        (P, beams, samples) power, linear; side-scan rows port, starboard, near to far. Of a survey
+        in a folder, read when it is asked for.
     range
         (samples,) slant range of their middles [m]
     beam_names
@@ -71,7 +73,7 @@ class SonarRecord:
     """
 
     time: Floats
-    intensity: NDArray[np.float32]
+    intensity: NDArray[np.float32] | StoredArray
     range: Floats
     beam_names: tuple[str, ...]
     navigation: Navigation
@@ -123,12 +125,13 @@ class SonarRecord:
         )  # fmt: skip
 
     def write(self, path: str | os.PathLike[str]) -> None:
-        """Writes the record: `.xtf`, a side-scan's rows in 16 bits of amplitude.
+        """Writes the record: `.xtf`, a side-scan's rows in 16 bits of amplitude; `.zarr`, a folder
+        with everything.
 
         Raises
         ------
         ValueError
-            For another suffix, or a sonar that the format does not hold.
+            For another suffix, a sonar that the format does not hold, or a folder that is there.
         """
         from bathyal.sonar.files import write_sonar
 

@@ -3,16 +3,16 @@
 
 from __future__ import annotations
 
+import shutil
 from dataclasses import dataclass
 from pathlib import Path
 
-import numpy as np
-
 from bathyal import sonars
-from bathyal._core import Sonar, World
+from bathyal._core import NavigationErrors, Sonar, World
 from bathyal.errors import argument_error
 from bathyal.io.files import PathLike, replacing
 from bathyal.sonar.record import SonarRecord
+from bathyal.sonar.store import is_record
 from bathyal.sonar.survey import Progress
 from bathyal.sonar.tracks import read_track
 from bathyal.world.files import read_world
@@ -49,6 +49,9 @@ def run_survey(
     sonar: Sonar,
     speed: float | None = None,
     seed: int = 0,
+    navigation: str | None = None,
+    truth: bool = False,
+    overwrite: bool = False,
     inside: PathLike | None = None,
     progress: Progress | None = None,
 ) -> SurveyResult:
@@ -59,11 +62,17 @@ def run_survey(
     world, track : path
         As `bathyal.read_world` and `bathyal.read_track`.
     out : path
-        A folder, made where it is missing.
+        A folder, made where it is missing. An interrupted survey in it is continued.
     sonar : Sonar
     speed : float, optional
         [m/s], where the track has no time.
     seed : int
+    navigation : str, optional
+        A name of `NavigationErrors.preset`; the truth unless given.
+    truth : bool
+        As `Sonar.survey`.
+    overwrite : bool
+        Whether another survey in the folder is replaced.
     inside : path, optional
         As `bathyal.read_world`.
     progress : function, optional
@@ -72,24 +81,28 @@ def run_survey(
     Returns
     -------
     SurveyResult
-        `files`: survey.xtf and survey.png of a side-scan; survey.npz of all others.
+        `files`: survey.zarr, with all axes; of a side-scan survey.xtf and survey.png too.
+
+    Raises
+    ------
+    ValueError
+        For a folder that holds another survey.
     """
     heard = read_world(world, inside=inside)
     trajectory = read_track(track, speed=speed)
-    record = sonar.survey(heard, trajectory, seed=seed, progress=progress)
+    errors = NavigationErrors() if navigation is None else NavigationErrors.preset(navigation)
     folder = Path(out)
-    folder.mkdir(parents=True, exist_ok=True)
+    store = folder / "survey.zarr"
+    if overwrite and is_record(store):
+        shutil.rmtree(store)
+    record = sonar.survey(
+        heard, trajectory, seed=seed, navigation=errors, truth=truth, out=store, progress=progress
+    )
+    files = [store]
     if sonar.kind == "side_scan":
-        files = [folder / "survey.xtf", folder / "survey.png"]
-        record.write(files[0])
+        files += [folder / "survey.xtf", folder / "survey.png"]
+        record.write(files[1])
         picture = record.plot()
-        with replacing(files[1]) as path:
+        with replacing(files[2]) as path:
             picture.savefig(path, format="png")
-    else:
-        files = [folder / "survey.npz"]
-        with replacing(files[0]) as path, open(path, "wb") as stream:
-            np.savez(
-                stream, time=record.time, intensity=record.intensity, range=record.range,
-                position=record.navigation.position, heading=record.navigation.heading,
-            )  # fmt: skip
     return SurveyResult(record, heard, files)
