@@ -7272,7 +7272,7 @@ def ambient_noise(frequency: numpy.typing.ArrayLike, wind_speed: numpy.typing.Ar
     --------
     >>> import bathyal
     >>> bathyal.ambient_noise([1e3, 100e3, 600e3]).round(1).tolist()
-    [60.7, 29.9, 40.6]
+    [61.0, 28.9, 40.6]
     """
 def arm_from_chain(chain: dict, *, nearly_parallel: typing.SupportsFloat | typing.SupportsIndex = 0.1) -> Arm:
     """
