@@ -126,11 +126,10 @@ void bind_navigation(py::module_& module) {
       .def("to_dict", &errors_to_dict, "Every field's value by its name.")
       .def(
           "__eq__",
-          [](const NavigationErrors& a, const py::object& other) {
-            if (!py::isinstance<NavigationErrors>(other)) return false;
-            return errors_to_dict(a).equal(errors_to_dict(other.cast<const NavigationErrors&>()));
+          [](const NavigationErrors& a, const NavigationErrors& b) {
+            return errors_to_dict(a).equal(errors_to_dict(b));
           },
-          py::arg("other"))
+          py::is_operator())
       .def("__hash__",
            [](const NavigationErrors& e) { return py::hash(py::repr(errors_to_dict(e))); })
       .def("__repr__", &shown_errors)

@@ -240,12 +240,10 @@ void bind_sonar(py::module_& module) {
           "beam_names", [](const Sonar& s) { return beam_names(s.options()); }, "Of the rows.")
       .def(
           "__eq__",
-          [](const Sonar& a, const py::object& other) {
-            if (!py::isinstance<Sonar>(other)) return false;
-            const auto& b = other.cast<const Sonar&>();
+          [](const Sonar& a, const Sonar& b) {
             return py::repr(sonar_to_dict(a.options())).equal(py::repr(sonar_to_dict(b.options())));
           },
-          py::arg("other"))
+          py::is_operator())
       .def("__hash__",
            [](const Sonar& s) { return py::hash(py::repr(sonar_to_dict(s.options()))); })
       .def("__repr__",

@@ -175,7 +175,7 @@ Examples
 --------
 >>> import bathyal
 >>> bathyal.ambient_noise([1e3, 100e3, 600e3]).round(1).tolist()
-[60.7, 29.9, 40.6]
+[61.0, 28.9, 40.6]
 )";
 
 inline constexpr const char* kPracticalSalinityDoc =

@@ -19,6 +19,28 @@
 namespace bathyal::python {
 namespace {
 
+/// Counts functions of time that ask worlds with functions of time: without a bound, one that asks
+/// its own world would overflow the stack.
+class Nested {
+ public:
+  Nested() {
+    if (depth() == kMost) {
+      throw_argument("pose", "a function that does not ask its own world", "one that does");
+    }
+    ++depth();
+  }
+  Nested(const Nested&) = delete;
+  Nested& operator=(const Nested&) = delete;
+  ~Nested() { --depth(); }
+
+ private:
+  static constexpr int kMost = 16;
+  static int& depth() {
+    thread_local int value = 0;
+    return value;
+  }
+};
+
 /// A Python function as a motion: it takes the interpreter's lock to be called, copied or dropped.
 Motion function_motion(const py::object& function) {
   const auto kept = std::shared_ptr<py::object>(new py::object(function), [](py::object* held) {
@@ -27,6 +49,7 @@ Motion function_motion(const py::object& function) {
   });
   return Motion(std::function<Pose(double)>([kept](double time) {
     const py::gil_scoped_acquire lock;
+    const Nested nested;
     return pose_argument("pose", (*kept)(time));
   }));
 }

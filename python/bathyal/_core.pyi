@@ -4968,7 +4968,7 @@ class Sonar:
         -------
         Sonar
         """
-    def __eq__(self, other: typing.Any) -> bool:
+    def __eq__(self, arg0: Sonar) -> bool:
         ...
     def __getstate__(self) -> dict[str, bool | int | float | str | numpy.typing.ArrayLike | None]:
         ...
@@ -5432,7 +5432,7 @@ class NavigationErrors:
         -------
         NavigationErrors
         """
-    def __eq__(self, other: typing.Any) -> bool:
+    def __eq__(self, arg0: NavigationErrors) -> bool:
         ...
     def __getstate__(self) -> dict[str, float]:
         ...

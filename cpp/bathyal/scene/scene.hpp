@@ -80,7 +80,7 @@ class Scene {
   /// frame in double and decided there on the mesh's own vertices: at the identity to the same
   /// bytes as without poses, elsewhere to double's rounding, and each instance is watertight in
   /// itself; across two that share an edge it is not promised. Of a rotation that is off by less
-  /// than check_rigid allows the nearest rotation is taken. 	hrow std::invalid_argument for no
+  /// than check_rigid allows the nearest rotation is taken. \throw std::invalid_argument for no
   /// mesh at all, or when poses or scales are not as many as the meshes, not rigid, not from 1e-9
   /// to 1e9, or carry triangles further than 10¹² m from the middle.
   Scene(std::vector<TriangleMesh> meshes, const std::vector<Pose>& poses,

@@ -20,9 +20,12 @@
 namespace bathyal {
 
 struct Sonar::State {
+  State(SonarOptions described, std::vector<sonar::BeamRays> rays)
+      : options(std::move(described)), fans(std::move(rays)) {}
+
   SonarOptions options;
   std::vector<sonar::BeamRays> fans;
-  mutable sonar::ScatterCache scatter = {};
+  mutable sonar::ScatterCache scatter;
 };
 
 namespace sonar {

@@ -53,8 +53,7 @@ void survey(const Sonar& sonar, const World& world, const Trajectory& world_from
     }
     const Pose world_from_sonar =
         ping.world_from_vehicle * options.vehicle_from_sonar * head_pose(options, k);
-    ping.received = receive(options, ping.echo, {seed, world_from_sonar, ping.time},
-                            num_threads);
+    ping.received = receive(options, ping.echo, {seed, world_from_sonar, ping.time}, num_threads);
     if (!keep(std::move(ping))) return;
   }
 }

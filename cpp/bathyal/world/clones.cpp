@@ -113,8 +113,8 @@ std::vector<ClonePlace> clone_places(const TriangleMesh& mesh, std::int64_t coun
   const Bounds around = bounds_of(ground);
   const Bounds own = bounds_of(mesh);
   if (mesh.vertex_count() == 0) throw_argument("mesh", "a mesh with vertices", "none");
-  const std::array<double, 4> region = options.region.value_or(std::array<double, 4>{
-      around.low.x(), around.low.y(), around.high.x(), around.high.y()});
+  const std::array<double, 4> region = options.region.value_or(
+      std::array<double, 4>{around.low.x(), around.low.y(), around.high.x(), around.high.y()});
   const double above = around.high.z() + 1.0;
   Neighbours neighbours(options.apart);
   std::vector<ClonePlace> places;

@@ -17,8 +17,8 @@ struct CloneOptions {
   std::optional<std::array<double, 4>> region;  ///< low x, low y, high x, high y [m]; else all
   std::array<double, 2> scale = {0.7, 1.4};     ///< drawn evenly between, above 0
   bool turned = true;                           ///< about the vertical, by any angle
-  double tilt = 0.2;   ///< at most, about a horizontal axis [rad], 0 to π
-  double sunk = 0.15;  ///< part of its height that lies below the ground, 0 to 1
+  double tilt = 0.2;                            ///< at most, about a horizontal axis [rad], 0 to π
+  double sunk = 0.15;  ///< part of its height, untilted, below the ground under its origin, 0 to 1
   double apart = 0.0;  ///< least distance of two of them, seen from above [m]
 
   void check() const;

@@ -10,11 +10,11 @@ namespace bathyal {
 /// What a model of scattering at a rough, penetrable bottom takes (Jackson, Winebrenner, Ishimaru
 /// 1986; APL-UW TR 9407, 1994): ratios to the water above it.
 struct Sediment {
-  double density_ratio = 1.845;       ///< ρ of the bottom over ρ of the water
-  double speed_ratio = 1.1782;        ///< c of the bottom over c of the water
-  double loss = 0.01624;              ///< imaginary over real wave number
-  double volume = 0.002;              ///< σ₂: scattering in the volume over its absorption
-  double spectral_exponent = 3.25;    ///< γ of the relief's spectrum, 2.4 to 3.9
+  double density_ratio = 1.845;         ///< ρ of the bottom over ρ of the water
+  double speed_ratio = 1.1782;          ///< c of the bottom over c of the water
+  double loss = 0.01624;                ///< imaginary over real wave number
+  double volume = 0.002;                ///< σ₂: scattering in the volume over its absorption
+  double spectral_exponent = 3.25;      ///< γ of the relief's spectrum, 2.4 to 3.9
   double spectral_strength = 0.004446;  ///< w₂ of the relief's spectrum [cm⁴], at 1 cm⁻¹
 };
 

@@ -17,9 +17,15 @@ struct World::Built {
 
 namespace {
 
+constexpr std::size_t kMostMaterials = 32767;  // numbered by 16 bits where painted
+
 std::string quoted(const std::string& text) {
   std::string result = "\"";
   return result.append(text).append("\"");
+}
+
+std::string numbered(std::string name, std::size_t number) {
+  return name.append("_").append(std::to_string(number));
 }
 
 std::vector<Pose> poses_at(const std::vector<WorldObject>& objects, double time) {
@@ -46,7 +52,7 @@ bool at_identity(const WorldObject& object) {
          object.pose.at(0.0).matrix() == Pose::Identity().matrix();
 }
 
-Scene scene_of(const std::vector<WorldObject>& objects, double time, int num_threads) {
+Scene scene_of(const std::vector<WorldObject>& objects, std::vector<Pose> poses, int num_threads) {
   std::vector<TriangleMesh> meshes;
   std::vector<double> scales;
   for (const WorldObject& object : objects) {
@@ -57,7 +63,7 @@ Scene scene_of(const std::vector<WorldObject>& objects, double time, int num_thr
   if (std::all_of(objects.begin(), objects.end(), at_identity)) {
     return Scene(std::move(meshes), num_threads);
   }
-  return Scene(std::move(meshes), poses_at(objects, time), scales, num_threads);
+  return Scene(std::move(meshes), std::move(poses), scales, num_threads);
 }
 
 }  // namespace
@@ -67,7 +73,8 @@ World::World() : materials_(std::make_shared<const std::vector<Material>>(materi
 World::World(const World& other)
     : objects_(other.objects_),
       rows_(other.rows_),
-      materials_(other.materials_), water_(other.water_) {}
+      materials_(other.materials_),
+      water_(other.water_) {}
 
 World& World::operator=(const World& other) {
   if (this == &other) return *this;
@@ -99,10 +106,13 @@ Index World::add_clones(const TriangleMesh& mesh, std::int64_t count, const std:
   const TriangleMesh shared = mesh.snapshot();
   const auto first = static_cast<Index>(objects_.size());
   const std::vector<ClonePlace> places = clone_places(shared, count, at(0.0).scene, options);
+  material_row(material);
+  for (std::size_t i = 0; i < places.size(); ++i) {  // all of them, or none
+    const std::string one = numbered(name, i);
+    if (rows_.count(one) != 0) throw_argument("name", "a name that is not taken", quoted(one));
+  }
   for (std::size_t i = 0; i < places.size(); ++i) {
-    std::string one = name;
-    add(shared, places[i].world_from_object, material, one.append("_").append(std::to_string(i)),
-        places[i].scale);
+    add(shared, places[i].world_from_object, material, numbered(name, i), places[i].scale);
   }
   return first;
 }
@@ -111,6 +121,10 @@ Index World::paint(const std::string& object, const std::vector<Eigen::Vector2d>
                    const std::string& material) {
   if (polygon.size() < 3) {
     throw_argument("polygon", "three corners or more", std::to_string(polygon.size()));
+  }
+  for (const Eigen::Vector2d& corner : polygon) {
+    check_finite("polygon", corner.x());
+    check_finite("polygon", corner.y());
   }
   WorldObject& painted = objects_[static_cast<std::size_t>(row_of(object))];
   const auto colour = static_cast<std::int16_t>(material_row(material));
@@ -141,6 +155,9 @@ void World::set_material(Material material) {
   const auto found = std::find_if(materials->begin(), materials->end(),
                                   [&](const Material& m) { return m.name == material.name; });
   if (found == materials->end()) {
+    if (materials->size() == kMostMaterials) {
+      throw_argument("material", "at most 32767 of them", "one more");
+    }
     materials->push_back(std::move(material));
   } else {
     *found = std::move(material);
@@ -170,13 +187,15 @@ bool World::moves() const {
                      [](const WorldObject& object) { return object.pose.moves(); });
 }
 
-std::shared_ptr<const World::Built> World::built(double time, int num_threads) const {
+std::shared_ptr<const World::Built> World::built(const std::vector<Pose>& poses,
+                                                 int num_threads) const {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (!built_) {
     std::vector<SurfaceMaterial> surfaces;
     for (const WorldObject& object : objects_) surfaces.push_back(object.surface);
     built_ = std::make_shared<const Built>(
-        Built{scene_of(objects_, time, num_threads), std::move(surfaces)});
+        Built{scene_of(objects_, poses.empty() ? poses_at(objects_, 0.0) : poses, num_threads),
+              std::move(surfaces)});
   }
   return built_;
 }
@@ -184,9 +203,14 @@ std::shared_ptr<const World::Built> World::built(double time, int num_threads) c
 WorldSnapshot World::at(double time, int num_threads) const {
   check_finite("time", time);
   if (objects_.empty()) throw_argument("world", "one object or more", "none");
-  const std::shared_ptr<const Built> now = built(time, num_threads);
-  const Scene scene =
-      moves() ? now->scene.with_poses(poses_at(objects_, time), num_threads) : now->scene;
+  if (!moves()) {
+    const std::shared_ptr<const Built> still = built({}, num_threads);
+    return {still->scene, still->surfaces, materials_, time};
+  }
+  // Outside of the lock: a function of time may itself ask this world.
+  const std::vector<Pose> poses = poses_at(objects_, time);
+  const std::shared_ptr<const Built> now = built(poses, num_threads);
+  const Scene scene = now->scene.with_poses(poses, num_threads);
   return {scene, now->surfaces, materials_, time};
 }
 

@@ -42,7 +42,7 @@ class World {
             std::string name = {}, double scale = 1.0);
 
   /// Scatters copies of a mesh over what is there at time 0: rows that share the mesh, named
-  /// name_0, name_1 …
+  /// name_0, name_1 …; all of them, or after an error none.
   /// \return The first of their rows.
   /// \throw std::invalid_argument as add and clone_places.
   Index add_clones(const TriangleMesh& mesh, std::int64_t count, const std::string& material,
@@ -77,7 +77,8 @@ class World {
 
  private:
   struct Built;
-  std::shared_ptr<const Built> built(double time, int num_threads) const;
+  /// \param poses At which it is built where it is not yet; empty for a world at rest.
+  std::shared_ptr<const Built> built(const std::vector<Pose>& poses, int num_threads) const;
 
   std::vector<WorldObject> objects_;
   std::unordered_map<std::string, Index> rows_;  ///< by name

@@ -3,7 +3,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from typing import Any
 
 import numpy as np
@@ -34,6 +35,15 @@ class WorldBuilder(DocumentFiles):
     """One document's world."""
 
     root: Place = ()
+
+    @contextmanager
+    def placed(self, place: Place) -> Iterator[None]:
+        """Keywords that a function does not take are mistakes of the file, too."""
+        with super().placed(place):
+            try:
+                yield
+            except TypeError as error:
+                raise ValueError(str(error)) from error
 
     def world(self, sections: own.WorldSections) -> World:
         """All of it, from top to bottom."""
@@ -139,6 +149,8 @@ class WorldBuilder(DocumentFiles):
 
     def school(self, world: World, section: own.FishSection, place: Place) -> None:
         with self.placed(place):
+            if "seed" in section.options:
+                raise ValueError("`options`: expected seed next to them, got it among them")
             mesh = _core.make_fish(section.length)
             paths = _core.fish_paths(
                 world.scene,

@@ -28,6 +28,7 @@ from bathyal.io.yaml_sections import (
 Value = bool | int | Number | Name | list[Number] | list[list[Number]]
 Keywords = dict[Name, Value]
 Point = tuple[Number, Number]
+Length = Annotated[Positive, Field(le=1e6)]
 Count = Annotated[int, Field(strict=True, ge=1, le=1_000_000)]
 
 SHAPES = ("mesh", "boulder", "mine", "wreck", "fish", "box")
@@ -41,7 +42,7 @@ class ShapeSection(Section):
     mine: Keywords | None = None
     wreck: Keywords | None = None
     fish: Keywords | None = None
-    box: tuple[Positive, Positive, Positive] | None = None
+    box: tuple[Length, Length, Length] | None = None
 
     @model_validator(mode="after")
     def _one_shape(self) -> ShapeSection:
@@ -64,7 +65,7 @@ class MaterialSection(Section):
     """Of its own: Lambert's strength, linear or in dB."""
 
     strength: NotNegative | None = None
-    strength_db: Number | None = None
+    strength_db: Annotated[Number, Field(ge=-200, le=100)] | None = None
 
     @model_validator(mode="after")
     def _one_strength(self) -> MaterialSection:
@@ -101,8 +102,8 @@ class ObjectSection(ShapeSection):
     name: Name
     material: Name | None = None
     pose: PoseSection | None = None
-    trajectory: list[PoseAtSection] | None = None
-    scale: Positive = 1.0
+    trajectory: Annotated[list[PoseAtSection], Field(min_length=1)] | None = None
+    scale: Annotated[Positive, Field(le=1e6)] = 1.0
     on_ground: bool = False
 
     @model_validator(mode="after")

@@ -284,6 +284,29 @@ TEST(Physics, MotionShiftsTheRangeByTheWayBack) {
   }
 }
 
+TEST(Physics, MotionMovesAllOfARaysCell) {
+  // One ray 5° off straight down, whose cell is cut off at the nearest place of the bottom.
+  const WorldSnapshot world = world_of({flat(0.0, 4000.0)}, {1.0});
+  SonarOptions options = pencil(radians(85.0), radians(10.0), 200.0);
+  options.rays_across_beam = options.rays_along_fan = 1;
+  options.samples = 20000;
+  options.motion = true;
+  const auto middle = [&](const Vec3& velocity) {
+    const Echo echo =
+        Sonar(options).echo(world, Water(), at(0, 0, 100), 0, 1, {velocity, Vec3::Zero()});
+    double energy = 0.0, mean = 0.0;
+    for (std::size_t i = 0; i < echo.power.size(); ++i) {
+      energy += echo.power[i];
+      mean += echo.power[i] * (static_cast<double>(i) + 0.5);
+    }
+    return mean / energy;
+  };
+  const double speed = 20.0, c = Water().sound_speed(100.0);
+  const double towards = speed * std::cos(radians(5.0));
+  EXPECT_NEAR(middle(Vec3(0, 0, -speed)) / middle(Vec3::Zero()),
+              c * (c - towards) / (c * c - speed * speed), 1e-4);
+}
+
 TEST(Physics, ATurningBeamLosesWhatItNoLongerLooksAt) {
   const WorldSnapshot world = world_of({flat(0.0, 4000.0)}, {1.0});
   SonarOptions options;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 namespace bathyal::sonar {
 namespace {
@@ -10,7 +11,8 @@ namespace {
 /// On the border of a sample, where rounding alone keeps it off.
 double snapped(double place) {
   constexpr double kRounding = 1e-9;
-  const double border = std::round(place);
+  if (!(place > 0.0 && place < 1e9)) return place;
+  const auto border = static_cast<double>(static_cast<std::int64_t>(place + 0.5));
   return std::abs(place - border) < kRounding ? border : place;
 }
 
@@ -37,7 +39,8 @@ void EchoRow::add(const Return& back) {
   const auto count = static_cast<double>(power_.size());
   const double middle = back.range / sample_length_;
   const double half = back.half / sample_length_;
-  const double low = snapped(middle - half);
+  const double low =
+      snapped(std::max(middle - half, std::min(middle, back.least / sample_length_)));
   const double high = snapped(middle + half);
   if (!(low < count) || high < 0.0) return;
   const double first = std::floor(std::max(low, 0.0));

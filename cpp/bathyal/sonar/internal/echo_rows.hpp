@@ -14,7 +14,8 @@ namespace bathyal::sonar {
 struct Return {
   double weight = 0.0;  ///< power
   double range = 0.0;   ///< of its middle [m]
-  double half = 0.0;    ///< of the ranges that its cell covers [m]
+  double half = 0.0;    ///< of the ranges that its cell covers [m], to first order
+  double least = 0.0;   ///< distance of the facet's plane: nothing of it is nearer [m]
   double incidence_cosine = 0.0;
   std::int32_t material = -1;
   Vec3 point = Vec3::Zero();

@@ -17,10 +17,14 @@ class Facets {
   /// area.
   Vec3 normal(const RayHit& hit) const;
 
+  /// Its longest edge [m].
+  double longest_edge(const RayHit& hit) const;
+
  private:
   struct Mesh {
     const double* vertices;
     const std::int32_t* triangles;
+    double scale = 1.0;
     std::ptrdiff_t turned = -1;  ///< row of turns_; −1 at the identity
   };
   std::vector<Mesh> meshes_;

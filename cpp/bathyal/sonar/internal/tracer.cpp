@@ -161,8 +161,12 @@ void Tracer::spread(const BeamRays& fan, const Arrival& arrival, double against,
   const double steep_phi = -arrival.normal.dot(arrival.by_phi) / facing;
   const double half_psi = std::abs(steep_psi) * fan.half_psi;
   const double half_phi = std::abs(steep_phi) * fan.half_phi;
-  const double nearest = 1.0 - back.incidence_cosine;  // no place of the plane is nearer
-  back.half = arrival.range * std::min(std::max(half_psi, half_phi), nearest);
+  back.half = arrival.range * std::max(half_psi, half_phi);
+  constexpr double kGrazing = 0.1;  // a facet nearly on edge ends within the cell
+  if (back.incidence_cosine < kGrazing && arrival.hit.mesh >= 0) {
+    back.half = std::min(back.half, 0.5 * facets_.longest_edge(arrival.hit));
+  }
+  back.least = arrival.range * std::abs(against);
   if (half_psi >= half_phi && steep_psi != 0.0)
     back.slide = arrival.direction + arrival.by_psi / steep_psi;
   else if (steep_phi != 0.0)
@@ -178,6 +182,8 @@ double Tracer::received(const Reception& reception, const Vec3& launch, Return& 
   const double time =
       2.0 * range * (c - launch.dot(motion.velocity)) / (c * c - motion.velocity.squaredNorm());
   back.range = 0.5 * c * time;
+  back.half *= back.range / range;
+  back.least *= back.range / range;
   const Vec3 from = (range * launch - time * motion.velocity).normalized();
   const Vec3 turned = (-time) * motion.rate;  // Rodrigues, for the small angles of a ping
   const double square = turned.squaredNorm();
