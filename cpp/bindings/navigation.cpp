@@ -82,10 +82,8 @@ NavigationErrors replaced_errors(NavigationErrors errors, const py::dict& given)
       }
     }
     if (known) continue;
-    std::string names;
-    for (const auto& field : fields())
-      names += (names.empty() ? "" : ", ") + std::string(field.name);
-    throw_argument(name, "one of " + names, "none of them");
+    throw_argument(name, "a field of NavigationErrors, such as heading_bias (to_dict() lists them)",
+                   "none of them");
   }
   errors.check();
   return errors;

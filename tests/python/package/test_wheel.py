@@ -100,7 +100,7 @@ def test_plans_with_the_heavy_libraries_hidden(
     environment = {k: v for k, v in os.environ.items() if not k.startswith("PYTHON")}
     survey, aims = tmp_path / "survey.xyz", tmp_path / "aims.csv"
     bathyal = [*hidden, bare / "bathyal"]
-    run(*bathyal, "survey", survey, "--aims-out", aims, env=environment, cwd=tmp_path)
+    run(*bathyal, "soundings", survey, "--aims-out", aims, env=environment, cwd=tmp_path)
     out = tmp_path / "plan"
     run(*bathyal, "plan", survey, "--aims", aims, "--out", out, env=environment, cwd=tmp_path)
     names = {"path.csv", "path.json", "path.vtp", "seabed.vtp", "plan.png", "plan.html"}

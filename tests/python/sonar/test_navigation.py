@@ -38,7 +38,7 @@ def test_a_wrong_field_is_refused_by_name(name: str, value) -> None:
 
 
 def test_an_unknown_field_or_class_is_refused() -> None:
-    with pytest.raises(ValueError, match="`drift`: expected one of fix_interval"):
+    with pytest.raises(ValueError, match="`drift`: expected a field of NavigationErrors"):
         bathyal.NavigationErrors(drift=1.0)
     with pytest.raises(ValueError, match="`name`: expected"):
         bathyal.NavigationErrors.preset("perfect")
