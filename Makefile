@@ -77,7 +77,8 @@ demo: $(STAMPS)/venv
 	$(BIN)/bathyal sample demo/scene/scenario.yaml --out demo/sample
 	$(BIN)/bathyal world demo/sea/world.yaml --example --picture demo/sea/world.png
 	$(BIN)/bathyal survey demo/sea/world.yaml --track demo/sea/track.csv --speed 2 --range 40 --out demo/sea/survey
-	@echo "The side-scan is demo/sea/survey/survey.xtf; its picture is demo/sea/survey/survey.png."
+	$(BIN)/bathyal xtf demo/sea/survey/survey.xtf --out demo/sea/image
+	@echo "The side-scan is demo/sea/survey/survey.xtf; its picture is demo/sea/survey/survey.png, from above demo/sea/image/mosaic.png."
 	@echo "The sample's motion is demo/sample/motion.csv; its picture is demo/sample/motion.png, and demo/sample/motion.html plays."
 
 # C++ tests, the same under ASan and UBSan with the fuzzers' short run, then Python, notebooks, docs.

@@ -10,6 +10,8 @@ import sys
 import tempfile
 from pathlib import Path
 
+from small_png import save_png
+
 import bathyal
 from bathyal.world.example import write_example
 
@@ -20,10 +22,10 @@ def main(folder: str) -> None:
         file, track = write_example(Path(scratch) / "world.yaml")
         world = bathyal.read_world(file)
         trajectory = bathyal.read_track(track, speed=2.0)
-    world.show().savefig(out / "sea_world.png", dpi=85)
+    save_png(world.show(), out / "sea_world.png", dpi=80)
     sonar = bathyal.sonars.side_scan(physics="real").replace(range=40.0)
     record = sonar.survey(world, trajectory)
-    record.plot().savefig(out / "sea_survey.png", dpi=42)
+    save_png(record.plot(), out / "sea_survey.png", dpi=38)
 
 
 if __name__ == "__main__":

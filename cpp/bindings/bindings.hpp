@@ -28,6 +28,7 @@ void bind_survey(pybind11::module_& module);  // of the room world, as the next 
 void bind_generate(pybind11::module_& module);
 void bind_workspace(pybind11::module_& module);
 void bind_sonar(pybind11::module_& module);
+void bind_sidescan(pybind11::module_& module);
 void bind_navigation(pybind11::module_& module);  // the second file of sonar
 void bind_identify(pybind11::module_& module);
 void bind_plan_touches(pybind11::module_& module);  // of the room identify, as the next one

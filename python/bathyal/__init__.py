@@ -122,6 +122,7 @@ from bathyal.sonar import methods as _sonar_methods  # noqa: F401
 from bathyal.sonar.files import read_sonar
 from bathyal.sonar.navigation import Navigation
 from bathyal.sonar.record import RecordTruth, SonarRecord
+from bathyal.sonar.sidescan import BottomTrack, GroundRows, Mosaic
 from bathyal.sonar.tracks import read_track
 from bathyal.toolpath import methods as _toolpath_methods  # noqa: F401
 from bathyal.toolpath.aims import read_aims
@@ -146,6 +147,7 @@ __version__ = _version("bathyal")
 __all__ = [
     "Arm",
     "ArmFit",
+    "BottomTrack",
     "Capsule",
     "CleanReport",
     "CleanResult",
@@ -156,6 +158,7 @@ __all__ = [
     "Eigenray",
     "Error",
     "FollowedPath",
+    "GroundRows",
     "Hits",
     "Hull",
     "HullReport",
@@ -163,6 +166,7 @@ __all__ = [
     "KeepOut",
     "Link",
     "MeshReport",
+    "Mosaic",
     "MotionCheck",
     "MotionPlan",
     "Navigation",

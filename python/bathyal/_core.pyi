@@ -12,7 +12,7 @@ import numpy.typing
 import os
 import plotly.graph_objects
 import typing
-__all__: list[str] = ['Arm', 'ArmFit', 'BEYOND_NOISE', 'Capsule', 'Cause', 'CleanReport', 'CleanResult', 'Clearances', 'CorrectedArm', 'Current', 'DhTable', 'Diagnosis', 'Effect', 'EffectRange', 'EffectRows', 'Eigenray', 'Error', 'Estimate', 'FitParameter', 'FollowedPath', 'FoundEffect', 'HeldOut', 'HeldOutPart', 'Hits', 'Hull', 'HullReport', 'InverseResult', 'KeepOut', 'Link', 'MeshReport', 'MotionCheck', 'MotionPlan', 'NamedEffect', 'NavigationErrors', 'NavigationReport', 'Nearest', 'NearestSegments', 'Outlier', 'Ping', 'PingTruth', 'Pipeline', 'Plane', 'PlaneFit', 'PointCloud', 'Polyline', 'Profile', 'ReachMap', 'RigidBody', 'SamplingPhase', 'SamplingPlan', 'Scene', 'SeabedModel', 'Shape', 'SheetPatch', 'SheetReport', 'SidescanPings', 'Sonar', 'SoundPath', 'Standpoint', 'StaticTrim', 'Structure', 'Support', 'TargetChecks', 'Targets', 'TextTable', 'Tide', 'TipMove', 'ToolPath', 'TouchForecast', 'TouchPlan', 'Touches', 'TracedSound', 'Tracked', 'Trade', 'Trajectory', 'TriangleMesh', 'Verification', 'Voxels', 'Water', 'Waves', 'Workspace', 'World', 'WorldSnapshot', 'XtfFile', 'absorption', 'ambient_noise', 'arm_from_chain', 'arm_from_parts', 'arm_parts', 'best_standpoint', 'chain_from_arm', 'check_bytes', 'clean_cloud', 'cover_polygon', 'depth_from_pressure', 'diagnose', 'eigenrays', 'find_effect_with', 'find_sheets', 'find_targets', 'fish_paths', 'fit_plane', 'forecast_touches', 'generate_survey', 'identify_arm', 'intersect_moller_trumbore', 'library_effects', 'make_boulder', 'make_cable', 'make_fish', 'make_mine', 'make_pipeline', 'make_seabed', 'make_wreck', 'make_xtf', 'mesh_report', 'parse_xtf', 'plan_sampling', 'plan_toolpath', 'plan_touches', 'practical_salinity', 'pressure_from_depth', 'read_mesh_with', 'read_pcd', 'read_text_table', 'seawater_density', 'set_simd_level', 'simd_level', 'sound_speed', 'sound_speed_teos10_with', 'survey_height', 'trace_sound', 'triangle_material', 'triangulate', 'triangulate_delaunay', 'verify_positions', 'warn_of_range_with', 'warn_of_support_with', 'with_link_radii', 'write_xyz']
+__all__: list[str] = ['Arm', 'ArmFit', 'BEYOND_NOISE', 'Capsule', 'Cause', 'CleanReport', 'CleanResult', 'Clearances', 'CorrectedArm', 'Current', 'DhTable', 'Diagnosis', 'Effect', 'EffectRange', 'EffectRows', 'Eigenray', 'Error', 'Estimate', 'FitParameter', 'FollowedPath', 'FoundEffect', 'HeldOut', 'HeldOutPart', 'Hits', 'Hull', 'HullReport', 'InverseResult', 'KeepOut', 'Link', 'MeshReport', 'MotionCheck', 'MotionPlan', 'NamedEffect', 'NavigationErrors', 'NavigationReport', 'Nearest', 'NearestSegments', 'Outlier', 'Ping', 'PingTruth', 'Pipeline', 'Plane', 'PlaneFit', 'PointCloud', 'Polyline', 'Profile', 'ReachMap', 'RigidBody', 'SamplingPhase', 'SamplingPlan', 'Scene', 'SeabedModel', 'Shape', 'SheetPatch', 'SheetReport', 'SidescanPings', 'Sonar', 'SoundPath', 'Standpoint', 'StaticTrim', 'Structure', 'Support', 'TargetChecks', 'Targets', 'TextTable', 'Tide', 'TipMove', 'ToolPath', 'TouchForecast', 'TouchPlan', 'Touches', 'TracedSound', 'Tracked', 'Trade', 'Trajectory', 'TriangleMesh', 'Verification', 'Voxels', 'Water', 'Waves', 'Workspace', 'World', 'WorldSnapshot', 'XtfFile', 'absorption', 'ambient_noise', 'arm_from_chain', 'arm_from_parts', 'arm_parts', 'best_standpoint', 'chain_from_arm', 'check_bytes', 'clean_cloud', 'cover_polygon', 'depth_from_pressure', 'diagnose', 'eigenrays', 'find_effect_with', 'find_sheets', 'find_targets', 'fish_paths', 'fit_plane', 'forecast_touches', 'generate_survey', 'identify_arm', 'intersect_moller_trumbore', 'library_effects', 'make_boulder', 'make_cable', 'make_fish', 'make_mine', 'make_pipeline', 'make_seabed', 'make_wreck', 'make_xtf', 'mesh_report', 'parse_xtf', 'plan_sampling', 'plan_toolpath', 'plan_touches', 'practical_salinity', 'pressure_from_depth', 'read_mesh_with', 'read_pcd', 'read_text_table', 'seawater_density', 'set_simd_level', 'sidescan_bottom', 'sidescan_ground', 'sidescan_mosaic', 'simd_level', 'sound_speed', 'sound_speed_teos10_with', 'survey_height', 'trace_sound', 'triangle_material', 'triangulate', 'triangulate_delaunay', 'verify_positions', 'warn_of_range_with', 'warn_of_support_with', 'with_link_radii', 'write_xyz']
 class Error(RuntimeError):
     """
     A broken file, a solver that failed or a part that is not installed.
@@ -8646,6 +8646,86 @@ def seawater_density(temperature: numpy.typing.ArrayLike, salinity: numpy.typing
 def set_simd_level(level: str) -> None:
     """
     Choose a lower instruction set, for tests and benchmarks: results are the same bytes.
+    """
+def sidescan_bottom(power: numpy.typing.ArrayLike, *, method: str = 'likelihood', first_sample: typing.SupportsInt | typing.SupportsIndex = 0, threshold_db: typing.SupportsFloat | typing.SupportsIndex = 6.0) -> numpy.ndarray:
+    """
+    Sample of the bottom's first return in each row; −1 where there is none.
+    
+    `bathyal.SonarRecord.track_bottom` is the way to it.
+    
+    Parameters
+    ----------
+    power : (P, beams, samples) array
+        Near to far; rows may end in NaN.
+    method : str
+        "likelihood" or "threshold".
+    first_sample : int
+        Nothing nearer is taken for the bottom.
+    threshold_db : float
+        Of "threshold", above the water before it.
+    
+    Returns
+    -------
+    (P, beams) array of int64
+    
+    Raises
+    ------
+    ValueError
+        For wrong shapes, or a method that is neither.
+    """
+def sidescan_ground(power: numpy.typing.ArrayLike, *, sample_length: typing.SupportsFloat | typing.SupportsIndex, first: numpy.typing.ArrayLike, spacing: typing.SupportsFloat | typing.SupportsIndex) -> numpy.ndarray:
+    """
+    Rows laid on a level bottom.
+    
+    Parameters
+    ----------
+    power : (P, beams, samples) array
+    sample_length : float
+        [m]
+    first : (P, beams) array
+        Slant range of the first return [m]; NaN gives a row of NaN.
+    spacing : float
+        Of the bins on the ground [m].
+    
+    Returns
+    -------
+    (P, beams, bins) array of float32
+        Mean power of what came from each bin; bin k is from k to k + 1 times the spacing.
+    
+    Raises
+    ------
+    ValueError
+        For wrong shapes, or a spacing that is not above 0 or gives more than 4·10⁸ bins.
+    """
+def sidescan_mosaic(power: numpy.typing.ArrayLike, *, bin_length: typing.SupportsFloat | typing.SupportsIndex, sides: collections.abc.Sequence[str], place: numpy.typing.ArrayLike, spacing: typing.SupportsFloat | typing.SupportsIndex, gap: typing.SupportsFloat | typing.SupportsIndex = 1.0) -> tuple:
+    """
+    An image of the bottom from above, of rows on the ground.
+    
+    Parameters
+    ----------
+    power : (P, beams, bins) array
+    bin_length : float
+        [m]
+    sides : list of str
+        "port" or "starboard", of each beam.
+    place : (P, 3) array
+        x, y [m] of each row's middle, and the heading clockwise from y [rad]; NaN leaves a ping out.
+    spacing : float
+        Of the cells [m].
+    gap : float
+        The widest between neighbouring pings that is filled [m].
+    
+    Returns
+    -------
+    (rows, columns) array of float32, west, north, left_out
+        North up; outer corner of the first cell [m]; pings without a place.
+    
+    Raises
+    ------
+    ValueError
+        For wrong shapes, or a spacing that is not above 0 or gives more than 4·10⁸ cells.
+    bathyal.Error
+        Where no ping has a place.
     """
 def simd_level() -> str:
     """

@@ -27,6 +27,7 @@ from bathyal.cli.touches_example import example
 from bathyal.cli.touches_plan import plan as plan_of_touches
 from bathyal.cli.triangulate import triangulate
 from bathyal.cli.world import world
+from bathyal.cli.xtf import xtf
 
 _EXIT_CODES = (
     "Exit codes: 0 done (warnings are printed, they do not fail a job), 1 the job failed or a file "
@@ -44,7 +45,7 @@ app = typer.Typer(
 )
 for command in (
     plan, triangulate, info, soundings, identify, diagnose, check, reach, sample, profile, world,
-    survey,
+    survey, xtf,
 ):  # fmt: skip
     app.command(epilog=_EXIT_CODES)(spread(command))
 
@@ -99,6 +100,8 @@ def main(
       bathyal world sea/world.yaml --example
 
       bathyal survey sea/world.yaml --track sea/track.csv --speed 2 --out sea/survey
+
+      bathyal xtf sea/survey/survey.xtf --out sea/image
     """
     if show_version:
         typer.echo(f"bathyal {version('bathyal')}")

@@ -11,7 +11,7 @@ import numpy as np
 from bathyal._core import Error, Trajectory
 from bathyal.errors import argument_error
 from bathyal.io.files import PathLike, opened
-from bathyal.sonar.navigation import Floats
+from bathyal.sonar.navigation import Floats, Navigation
 
 _NEEDED = ("x", "y", "z")
 _ANGLES = ("heading_deg", "pitch_deg", "roll_deg")
@@ -74,6 +74,42 @@ def poses_of(position: Floats, heading: Floats, pitch: Floats, roll: Floats) -> 
     pose[:, :3, 3] = position
     pose[:, 3, 3] = 1.0
     return pose
+
+
+def places_of(navigation: Navigation) -> tuple[Floats, str | None]:
+    """(P, 3) x, y [m] and the heading clockwise from grid north [rad], and the reference system; in
+    UTM where there are longitudes.
+
+    Raises
+    ------
+    bathyal.Error
+        Where longitudes are to be projected and rasterio is not installed.
+    """
+    heading = np.asarray(navigation.heading, float)
+    if navigation.longitude is None or navigation.latitude is None:
+        return np.column_stack([np.asarray(navigation.position)[:, :2], heading]), None
+    from bathyal.io.formats.geotiff_image import to_utm
+
+    x, y, north, crs = to_utm(np.degrees(navigation.longitude), np.degrees(navigation.latitude))
+    return np.column_stack([x, y, heading + north]), crs
+
+
+def reported_trajectory(time: Floats, navigation: Navigation) -> Trajectory:
+    """`SonarRecord.trajectory`."""
+    place, _ = places_of(navigation)
+    height = np.asarray(navigation.position, float)[:, 2]
+    height = np.where(np.isfinite(height), height, -np.asarray(navigation.depth, float))
+    parts = np.column_stack([time, place, height, navigation.pitch, navigation.roll])
+    known = np.isfinite(parts).all(axis=1)
+    known[1:] &= np.diff(np.fmax.accumulate(time)) > 0.0  # the clock did not run
+    if known.sum() < 2:
+        raise Error(f"expected two pings or more with a place and a pose, got {known.sum()}")
+    parts = parts[known]
+    new = np.ones(len(parts), bool)  # a vehicle may report less often than its sonar pings
+    new[1:-1] = (np.diff(parts[:-1, 1:], axis=0) != 0.0).any(axis=1)
+    parts = parts[new]
+    position = np.column_stack([parts[:, 1:3], parts[:, 4]])
+    return Trajectory(parts[:, 0], poses_of(position, parts[:, 3], parts[:, 5], parts[:, 6]))
 
 
 def _headings(points: Floats) -> Floats:

@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
@@ -15,6 +17,7 @@ _TALLEST_IN, _LOWEST_IN = 24.0, 3.0
 _DPI = 130
 _MOST_ROWS = 4000
 _PERCENTILES = (0.5, 99.3)
+_LINES = ("cyan", "lime")
 
 
 def waterfall_figure(
@@ -23,7 +26,7 @@ def waterfall_figure(
     distance: Floats,
     *,
     title: str = "",
-    altitude: Floats | None = None,
+    lines: Mapping[str, Floats] | None = None,
     axis: str = "slant range [m]",
 ) -> Figure:
     """Draw the rows of a side-scan.
@@ -38,8 +41,8 @@ def waterfall_figure(
     distance : (P,) array
         Along the track [m].
     title : str
-    altitude : (P,) array, optional
-        Drawn as a line where it is given [m].
+    lines : mapping, optional
+        Ranges (P, 2) by name, drawn on both sides [m].
     axis : str
         What `ranges` are.
 
@@ -63,10 +66,12 @@ def waterfall_figure(
         image, cmap="copper", vmin=0.0 if low == high else low, vmax=high, aspect="auto",
         extent=(-reach, reach, length, 0.0), interpolation="nearest",
     )  # fmt: skip
-    if altitude is not None:
-        along = distance - distance[0]
-        for side in (-1, 1):
-            axes.plot(side * np.asarray(altitude), along, color="cyan", lw=0.6)
+    along = distance - distance[0]
+    for colour, (name, values) in zip(_LINES, (lines or {}).items(), strict=False):
+        axes.plot(-values[:, 0], along, color=colour, lw=0.6, label=name)
+        axes.plot(values[:, -1], along, color=colour, lw=0.6)
+    if lines:
+        axes.legend(loc="upper right", fontsize=8)
     axes.set_xlim(-reach, reach)
     axes.set_ylim(length, 0.0)
     axes.set_xlabel(f"port    {axis}    starboard")

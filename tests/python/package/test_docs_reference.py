@@ -100,6 +100,7 @@ def test_every_command_is_in_the_reference(sections: dict[str, str]) -> None:
         "profile",
         "world",
         "survey",
+        "xtf",
     ]
     expected = [*verbs, "touches example", "touches plan", "scenario example"]
     assert set(sections) == {f"bathyal {verb}" for verb in expected}
