@@ -114,6 +114,7 @@ from bathyal.diagnosis import methods as _diagnosis_methods  # noqa: F401
 from bathyal.identify import methods as _identify_methods  # noqa: F401
 from bathyal.identify.touch_files import read_touches, read_tracked
 from bathyal.identify.verify import verify_arm
+from bathyal.io.formats.gsf import MultibeamPings, read_gsf
 from bathyal.seabed import methods as _seabed_methods  # noqa: F401
 from bathyal.seabed.clouds import read_cloud, write_cloud
 from bathyal.seabed.meshes import read_mesh, write_mesh
@@ -169,6 +170,7 @@ __all__ = [
     "Mosaic",
     "MotionCheck",
     "MotionPlan",
+    "MultibeamPings",
     "Navigation",
     "NavigationErrors",
     "Nearest",
@@ -253,6 +255,7 @@ __all__ = [
     "read_aims",
     "read_arm",
     "read_cloud",
+    "read_gsf",
     "read_mesh",
     "read_profile",
     "read_reach_map",

@@ -20,8 +20,8 @@ def plan(
         Path,
         typer.Argument(
             metavar="CLOUD",
-            help="Soundings (.xyz .txt .csv .asc .ply .pcd .las .laz .bag .tif .vtp) or a mesh "
-            "(.ply .stl .obj .dae .vtp).",
+            help="Soundings (.xyz .txt .csv .asc .ply .pcd .las .laz .bag .tif .vtp .gsf) or a "
+            "mesh (.ply .stl .obj .dae .vtp .glb .gltf .3ds).",
         ),
     ],
     aims: Annotated[

@@ -16,6 +16,7 @@ from bathyal.errors import argument_error
 from bathyal.io.files import PathLike, known_suffix, opened, reading
 from bathyal.io.formats.attributes import canonical_attributes, columns_of
 from bathyal.io.formats.crs import check_metric, check_scale, units_of
+from bathyal.io.formats.gsf import read_gsf_soundings
 from bathyal.io.formats.meshes.ply import read_ply, write_ply
 from bathyal.io.formats.notes import notes_of, notes_of_fields
 from bathyal.io.formats.points.bag import read_bag
@@ -47,7 +48,7 @@ def read_cloud(
     ----------
     path : path
         Text in columns or an ESRI grid (``.xyz .txt .csv .asc``), ``.ply``, ``.pcd``, ``.las``,
-        ``.laz``, ``.vtp``, BAG (``.bag``) or GeoTIFF (``.tif .tiff``).
+        ``.laz``, ``.vtp``, BAG (``.bag``), GeoTIFF (``.tif .tiff``) or GSF (``.gsf``).
     columns : sequence of int or str, or dict, optional
         For text: where x, y, z are, and after them what rides along, by number from 0 or by name;
         or a dict of names to columns with ``x``, ``y`` and ``z`` among them. By default found by
@@ -255,6 +256,7 @@ def _write_csv(cloud: PointCloud, path: PathLike) -> None:
 # Of the formats that take no keyword of their own.
 _READERS: dict[str, Callable[[PathLike], Soundings]] = {
     ".bag": read_bag,
+    ".gsf": read_gsf_soundings,
     ".las": read_las,
     ".laz": read_las,
     ".pcd": _read_pcd,

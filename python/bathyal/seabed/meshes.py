@@ -15,6 +15,7 @@ from bathyal.errors import argument_error
 from bathyal.io.files import PathLike, known_suffix, reading
 from bathyal.io.formats.attributes import canonical_attributes, columns_of
 from bathyal.io.formats.crs import check_scale, units_of
+from bathyal.io.formats.meshes.assimp import read_with_assimp
 from bathyal.io.formats.meshes.collada import read_collada
 from bathyal.io.formats.meshes.obj import read_obj, write_obj
 from bathyal.io.formats.meshes.ply import read_ply, write_ply
@@ -49,20 +50,22 @@ def read_mesh(path: PathLike, *, scale: float | None = None, up: str | None = No
     Parameters
     ----------
     path : path
-        ``.ply``, ``.stl``, ``.obj``, ``.dae`` (COLLADA) or ``.vtp``.
+        ``.ply``, ``.stl``, ``.obj``, ``.dae`` (COLLADA), ``.vtp``, ``.glb``, ``.gltf`` or ``.3ds``.
     scale : float, optional
         Metres in one unit of the file. COLLADA says its unit; the others are taken as metres. To be
         said where the file's reference system has another unit, and that system is not kept then.
     up : {"x", "y", "z"}, optional
-        The axis of the file that points up. COLLADA says it; the others are taken as z up.
+        The axis of the file that points up. COLLADA says it, and glTF is y up; the others are taken
+        as z up.
 
     Returns
     -------
     TriangleMesh
         [m], z up. Polygons are cut into triangles. Vertices are those of the file, row for row; in
-        STL and COLLADA, where neighbours do not share vertices, equal ones are merged. Properties
-        of the vertices, colours (0 to 255), the coordinate reference system and the vertical datum
-        ride along where the file has them; properties of faces, normals and textures do not.
+        STL, COLLADA, glTF and 3DS, where neighbours need not share vertices, equal ones are merged.
+        Properties of the vertices, colours (0 to 255), the coordinate reference system and the
+        vertical datum ride along where the file has them, but not of glTF and 3DS; properties of
+        faces, normals and textures do not.
 
     Raises
     ------
@@ -195,6 +198,15 @@ def _read_collada(path: PathLike) -> _Surface:
     return _Surface(*surface, unit=scene.unit, up=scene.up_axis[0].lower())
 
 
+def _read_gltf(path: PathLike) -> _Surface:
+    return _Surface(*merged(*read_with_assimp(path)), up="y")
+
+
+def _read_3ds(path: PathLike) -> _Surface:
+    points, triangles = read_with_assimp(path)  # which has turned the file's z up to y up
+    return _Surface(*merged(points @ _Z_UP_FROM["y"].T, triangles))
+
+
 def _read_vtp(path: PathLike) -> _Surface:
     data = read_vtp(path)
     with reading(path, "VTK PolyData"):
@@ -204,7 +216,10 @@ def _read_vtp(path: PathLike) -> _Surface:
 
 
 _READERS: dict[str, Callable[[PathLike], _Surface]] = {
+    ".3ds": _read_3ds,
     ".dae": _read_collada,
+    ".glb": _read_gltf,
+    ".gltf": _read_gltf,
     ".obj": _read_obj,
     ".ply": _read_ply,
     ".stl": _read_stl,
