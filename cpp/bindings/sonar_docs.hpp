@@ -186,6 +186,8 @@ inline const std::vector<std::pair<std::string, std::string>>& fields() {
        "and scatters as well."},
       {"wind_speed", "At 10 m, by which the sea surface scatters [m/s]."},
       {"motion", "Whether the vehicle moves between transmission and reception."},
+      {"side_lobes",
+       "Whether each beam of a multibeam or an imaging sonar hears its far side lobes, too."},
       {"layover", "Whether what is nearer than a lower part of its fan is heard as well."},
       {"pulse", "None, \"rectangle\" (its length) or \"chirp\" (compressed to c / 2B)."},
       {"speckle", "None, \"rayleigh\" or \"k\"."},

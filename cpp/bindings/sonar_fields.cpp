@@ -175,6 +175,7 @@ std::vector<SonarField> make_fields() {
       count("multiples", &O::multiples),
       number("wind_speed", &O::wind_speed),
       flag("motion", &O::motion),
+      flag("side_lobes", &O::side_lobes),
       flag("layover", &O::layover),
       choice<PulseModel>("pulse", &O::pulse,
                          {{"none", PulseModel::kNone},

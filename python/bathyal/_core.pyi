@@ -5301,6 +5301,11 @@ class Sonar:
         Between the axes of the outer beams [rad].
         """
     @property
+    def side_lobes(self) -> bool:
+        """
+        Whether each beam of a multibeam or an imaging sonar hears its far side lobes, too.
+        """
+    @property
     def source_level(self) -> float:
         """
         [dB re 1 µPa at 1 m]

@@ -14,6 +14,7 @@
 #include "bathyal/sonar/internal/echo_rows.hpp"
 #include "bathyal/sonar/internal/ray_fan.hpp"
 #include "bathyal/sonar/internal/scatter_tables.hpp"
+#include "bathyal/sonar/internal/side_lobes.hpp"
 #include "bathyal/sonar/internal/surroundings.hpp"
 #include "bathyal/sonar/internal/tracer.hpp"
 
@@ -21,10 +22,11 @@ namespace bathyal {
 
 struct Sonar::State {
   State(SonarOptions described, std::vector<sonar::BeamRays> rays)
-      : options(std::move(described)), fans(std::move(rays)) {}
+      : options(std::move(described)), fans(std::move(rays)), side_lobes(options) {}
 
   SonarOptions options;
   std::vector<sonar::BeamRays> fans;
+  sonar::SideLobes side_lobes;
   mutable sonar::ScatterCache scatter;
 };
 
@@ -166,6 +168,7 @@ Echo Sonar::echo(const WorldSnapshot& world, const Water& water, const Pose& wor
     for (; i < tasks.size() && tasks[i].beam == beam; ++i) row.add(parts[i]);
     sonar::write_row(row.take(), beam, echo);
   }
+  state_->side_lobes.add(echo, num_threads);
   if (options.absorption) {
     const double z = world_from_head.translation().z();
     sonar::absorb(options, water.absorption(options.frequency, z, world.time, *options.absorption),

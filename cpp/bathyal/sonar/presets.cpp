@@ -145,6 +145,7 @@ SonarOptions with_real_physics(SonarOptions options) {
   options.absorption = AbsorptionFormula::kFrancoisGarrison;
   options.backscatter = BackscatterModel::kMaterial;
   options.beam_pattern = BeamPattern::kUniform;
+  options.side_lobes = true;
   options.pixel_solid_angle = true;
   options.refraction = true;
   options.multiples = 2;

@@ -84,6 +84,8 @@ struct SonarOptions : ReceiverOptions {
                             ///< surface, that one reflects and scatters as well
   double wind_speed = 5.0;  ///< at 10 m, by which the sea surface scatters [m/s], 0 to 50
   bool motion = false;      ///< of the vehicle, between transmission and reception
+  bool side_lobes = false;  ///< each beam of a multibeam or an imaging sonar hears the far side
+                            ///< lobes of its pattern: what comes from all other beams' sectors
   bool layover = true;      ///< what is nearer than a lower part of its fan is heard as well
 
   /// \throw std::invalid_argument that names the field.
