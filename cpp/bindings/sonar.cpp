@@ -5,6 +5,7 @@
 #include <cmath>
 #include <memory>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -26,17 +27,18 @@
 namespace bathyal::python {
 namespace {
 
+struct PingTruth {
+  py::array range, incidence, material, point;
+};
+
 /// One ping, after the receiver.
 struct Ping {
-  py::array intensity, range, truth_range, incidence, material, point;
+  py::array intensity, range;
+  std::optional<PingTruth> truth;
   std::vector<std::string> beam_names, warnings, notes;
   double time = 0.0, altitude = 0.0, sound_speed = 0.0;
   std::int64_t clipped = 0;
   bool dropped = false;
-};
-
-struct PingTruth {
-  py::array range, incidence, material, point;
 };
 
 py::array in_rows(std::vector<double> values, const Echo& echo,
@@ -74,10 +76,13 @@ Ping made_ping(const Sonar& sonar, double time, Echo echo, Received received) {
   Ping made;
   made.intensity = in_rows(std::move(received.intensity), echo);
   made.range = to_numpy(sample_middles(sonar.options()));
-  made.truth_range = in_rows(std::move(echo.truth.range), echo);
-  made.incidence = in_rows(std::move(echo.truth.incidence), echo);
-  made.material = to_numpy(std::move(echo.truth.material), {echo.samples});
-  made.point = in_rows(std::move(echo.truth.point), echo, {3});
+  if (!echo.truth.range.empty()) {
+    made.truth.emplace();
+    made.truth->range = in_rows(std::move(echo.truth.range), echo);
+    made.truth->incidence = in_rows(std::move(echo.truth.incidence), echo);
+    made.truth->material = to_numpy(std::move(echo.truth.material), {echo.samples});
+    made.truth->point = in_rows(std::move(echo.truth.point), echo, {3});
+  }
   made.beam_names = beam_names(sonar.options());
   made.warnings = std::move(echo.warnings);
   made.notes = std::move(echo.notes);
@@ -114,7 +119,7 @@ py::array backscatter_of(const Sonar& sonar, const World& world, const std::stri
 
 Ping ping_of(const Sonar& sonar, const std::shared_ptr<World>& world, const ArrayLike& pose,
              double time, const OptionalArray& velocity, const OptionalArray& angular_velocity,
-             std::uint64_t seed, std::int64_t ping, int num_threads) {
+             std::uint64_t seed, std::int64_t ping, bool truth, int num_threads) {
   const Pose world_from_vehicle = pose_argument("world_from_vehicle", pose);
   const VehicleMotion motion{rate_argument("velocity", velocity),
                              rate_argument("angular_velocity", angular_velocity)};
@@ -123,7 +128,7 @@ Ping ping_of(const Sonar& sonar, const std::shared_ptr<World>& world, const Arra
   {
     const py::gil_scoped_release unlocked;
     echo = sonar.echo(world->at(time, num_threads), world->water(), world_from_vehicle, ping,
-                      num_threads, motion);
+                      num_threads, motion, truth);
     const SonarOptions& options = sonar.options();
     const Pose world_from_sonar =
         world_from_vehicle * options.vehicle_from_sonar * head_pose(options, ping);
@@ -137,7 +142,7 @@ using KeepPing = py::typing::Callable<py::bool_(Ping, py::int_, py::array)>;
 
 void hear(const Sonar& sonar, const std::shared_ptr<World>& world, const Trajectory& trajectory,
           const KeepPing& keep, std::uint64_t seed, std::int64_t first, std::int64_t count,
-          int num_threads) {
+          bool truth, int num_threads) {
   const py::gil_scoped_release unlocked;
   survey(
       sonar, *world, trajectory, seed, {first, count},
@@ -148,7 +153,7 @@ void hear(const Sonar& sonar, const std::shared_ptr<World>& world, const Traject
             keep(made_ping(sonar, one.time, std::move(one.echo), std::move(one.received)),
                  one.number, to_numpy(pose)));
       },
-      num_threads);
+      num_threads, truth);
 }
 
 void bind_ping(py::module_& module) {
@@ -168,9 +173,10 @@ void bind_ping(py::module_& module) {
       .def_property_readonly(
           "truth",
           [](const Ping& p) {
-            return PingTruth{p.truth_range, p.incidence, p.material, p.point};
+            if (!p.truth) throw_argument("truth", "a ping heard with truth=True", "one without");
+            return *p.truth;
           },
-          "PingTruth: of each sample, what contributed most.")
+          "PingTruth: of each sample, what contributed most; a `ValueError` without it.")
       .def_readonly("beam_names", &Ping::beam_names, "Of the rows.")
       .def_readonly("time", &Ping::time, "[s]")
       .def_readonly("altitude", &Ping::altitude,
@@ -222,12 +228,12 @@ void bind_sonar(py::module_& module) {
       .def("ping", &ping_of, py::arg("world"), py::arg("world_from_vehicle"), py::arg("time") = 0.0,
            py::kw_only(), py::arg("velocity") = py::none(),
            py::arg("angular_velocity") = py::none(), py::arg("seed") = 0, py::arg("ping") = 0,
-           py::arg("num_threads") = 0, sonar_docs::kPingCall)
+           py::arg("truth") = true, py::arg("num_threads") = 0, sonar_docs::kPingCall)
       .def("scattering_strength", &backscatter_of, py::arg("world"), py::arg("material"),
            py::arg("incidence"), sonar_docs::kBackscatter)
       .def("hear", &hear, py::arg("world"), py::arg("trajectory"), py::arg("keep"), py::kw_only(),
            py::arg("seed") = 0, py::arg("first") = 0, py::arg("count") = -1,
-           py::arg("num_threads") = 0, sonar_docs::kHear)
+           py::arg("truth") = true, py::arg("num_threads") = 0, sonar_docs::kHear)
       .def(
           "ping_times",
           [](const Sonar& sonar, const Trajectory& trajectory) {

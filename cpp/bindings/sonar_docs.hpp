@@ -87,6 +87,8 @@ seed : int
     Of speckle, noise and dropouts. Speckle belongs to the place, noise and dropouts to the time.
 ping : int
     Counts the pings of a scanning head.
+truth : bool
+    Whether the ping has its truth: 48 bytes a sample.
 num_threads : int
     0 means all; any number gives the same bytes.
 
@@ -138,6 +140,8 @@ seed : int
     Of all random numbers.
 first, count : int
     Which of the pings at `ping_times`; −1 is to the end. Parts join to the bytes of the whole.
+truth : bool
+    Whether pings have their truth.
 num_threads : int
     0 means all.
 

@@ -4912,7 +4912,7 @@ class Ping:
     @property
     def truth(self) -> PingTruth:
         """
-        PingTruth: of each sample, what contributed most.
+        PingTruth: of each sample, what contributed most; a `ValueError` without it.
         """
     @property
     def warnings(self) -> list[str]:
@@ -4978,7 +4978,7 @@ class Sonar:
         ...
     def __setstate__(self, arg0: dict) -> None:
         ...
-    def hear(self, world: World, trajectory: Trajectory, keep: collections.abc.Callable[[Ping, int, numpy.ndarray], bool], *, seed: typing.SupportsInt | typing.SupportsIndex = 0, first: typing.SupportsInt | typing.SupportsIndex = 0, count: typing.SupportsInt | typing.SupportsIndex = -1, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> None:
+    def hear(self, world: World, trajectory: Trajectory, keep: collections.abc.Callable[[Ping, int, numpy.ndarray], bool], *, seed: typing.SupportsInt | typing.SupportsIndex = 0, first: typing.SupportsInt | typing.SupportsIndex = 0, count: typing.SupportsInt | typing.SupportsIndex = -1, truth: bool = True, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> None:
         """
         A survey, ping after ping; `survey` keeps it as a record.
         
@@ -4993,6 +4993,8 @@ class Sonar:
             Of all random numbers.
         first, count : int
             Which of the pings at `ping_times`; −1 is to the end. Parts join to the bytes of the whole.
+        truth : bool
+            Whether pings have their truth.
         num_threads : int
             0 means all.
         
@@ -5001,7 +5003,7 @@ class Sonar:
         ValueError
             As `ping`, with the ping's number.
         """
-    def ping(self, world: World, world_from_vehicle: numpy.typing.ArrayLike, time: typing.SupportsFloat | typing.SupportsIndex = 0.0, *, velocity: numpy.typing.ArrayLike | None = None, angular_velocity: numpy.typing.ArrayLike | None = None, seed: typing.SupportsInt | typing.SupportsIndex = 0, ping: typing.SupportsInt | typing.SupportsIndex = 0, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> Ping:
+    def ping(self, world: World, world_from_vehicle: numpy.typing.ArrayLike, time: typing.SupportsFloat | typing.SupportsIndex = 0.0, *, velocity: numpy.typing.ArrayLike | None = None, angular_velocity: numpy.typing.ArrayLike | None = None, seed: typing.SupportsInt | typing.SupportsIndex = 0, ping: typing.SupportsInt | typing.SupportsIndex = 0, truth: bool = True, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> Ping:
         """
         One ping.
         
@@ -5018,6 +5020,8 @@ class Sonar:
             Of speckle, noise and dropouts. Speckle belongs to the place, noise and dropouts to the time.
         ping : int
             Counts the pings of a scanning head.
+        truth : bool
+            Whether the ping has its truth: 48 bytes a sample.
         num_threads : int
             0 means all; any number gives the same bytes.
         

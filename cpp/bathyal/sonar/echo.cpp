@@ -38,7 +38,7 @@ void write_row(const EchoPart& row, std::size_t beam, Echo& echo) {
     const std::size_t at = beam * static_cast<std::size_t>(echo.samples) + row.first + i;
     const Strongest& best = row.strongest[i];
     echo.power[at] = row.power[i];
-    if (!(best.weight > 0.0)) continue;
+    if (echo.truth.range.empty() || !(best.weight > 0.0)) continue;
     echo.truth.range[at] = best.range;
     echo.truth.incidence[at] = std::acos(best.incidence_cosine);
     echo.truth.material[at] = best.material;
@@ -90,12 +90,13 @@ std::pair<double, double> steepest_launches(const std::vector<BeamRays>& fans,
   return {std::asin(std::clamp(low, -1.0, 1.0)), std::asin(std::clamp(high, -1.0, 1.0))};
 }
 
-Echo empty_echo(const SonarOptions& options) {
+Echo empty_echo(const SonarOptions& options, bool truth) {
   Echo echo;
   echo.beams = options.beams;
   echo.samples = options.samples;
   const auto size = static_cast<std::size_t>(echo.beams * echo.samples);
   echo.power.assign(size, 0.0);
+  if (!truth) return echo;
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   echo.truth = {std::vector<double>(size, kNone), std::vector<double>(size, kNone),
                 std::vector<std::int32_t>(size, -1), std::vector<double>(3 * size, kNone)};
@@ -122,7 +123,8 @@ std::int64_t Sonar::ray_count() const {
 }
 
 Echo Sonar::echo(const WorldSnapshot& world, const Water& water, const Pose& world_from_vehicle,
-                 std::int64_t ping, int num_threads, const VehicleMotion& motion) const {
+                 std::int64_t ping, int num_threads, const VehicleMotion& motion,
+                 bool truth) const {
   const SonarOptions& options = state_->options;
   check_rigid("world_from_vehicle", world_from_vehicle);
   motion.check();
@@ -131,7 +133,7 @@ Echo Sonar::echo(const WorldSnapshot& world, const Water& water, const Pose& wor
       world_from_vehicle * options.vehicle_from_sonar * head_pose(options, ping);
   const Vec3 head = world_from_head.translation();
 
-  Echo echo = sonar::empty_echo(options);
+  Echo echo = sonar::empty_echo(options, truth);
   echo.altitude = sonar::checked_altitude(world, water, head);
   echo.sound_speed = water.sound_speed(head.z(), world.time);
   const auto scatter = state_->scatter.tables(options, world.materials);

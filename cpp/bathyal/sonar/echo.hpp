@@ -61,11 +61,13 @@ class Sonar {
   const SonarOptions& options() const;
 
   /// The echo of one ping. `ping` counts the pings of a scanning head. `motion` counts where
-  /// SonarOptions::motion is on. The same bytes for any number of threads.
-  /// \throw std::invalid_argument for a pose that is not rigid, a sonar above the surface, below
+  /// SonarOptions::motion is on. Without `truth` that of the echo is empty. The same bytes for any
+  /// number of threads. \throw std::invalid_argument for a pose that is not rigid, a sonar above
+  /// the surface, below
   ///        the bottom or inside a body.
   Echo echo(const WorldSnapshot& world, const Water& water, const Pose& world_from_vehicle,
-            std::int64_t ping = 0, int num_threads = 0, const VehicleMotion& motion = {}) const;
+            std::int64_t ping = 0, int num_threads = 0, const VehicleMotion& motion = {},
+            bool truth = true) const;
 
   /// Rays of a ping.
   std::int64_t ray_count() const;

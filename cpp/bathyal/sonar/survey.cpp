@@ -28,7 +28,7 @@ std::vector<double> ping_times(const SonarOptions& options, const Trajectory& wo
 
 void survey(const Sonar& sonar, const World& world, const Trajectory& world_from_vehicle,
             std::uint64_t seed, const PingRange& range,
-            const std::function<bool(SurveyPing&&)>& keep, int num_threads) {
+            const std::function<bool(SurveyPing&&)>& keep, int num_threads, bool truth) {
   const SonarOptions& options = sonar.options();
   const std::vector<double> times = ping_times(options, world_from_vehicle);
   const auto total = static_cast<std::int64_t>(times.size());
@@ -46,7 +46,7 @@ void survey(const Sonar& sonar, const World& world, const Trajectory& world_from
     try {
       ping.echo =
           sonar.echo(world.at(ping.time, num_threads), world.water(), ping.world_from_vehicle, k,
-                     num_threads, motion_at(world_from_vehicle, ping.time));
+                     num_threads, motion_at(world_from_vehicle, ping.time), truth);
     } catch (const std::invalid_argument& error) {
       throw std::invalid_argument("ping " + std::to_string(k) + " at " + to_text(ping.time) +
                                   " s: " + error.what());

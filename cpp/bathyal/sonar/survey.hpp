@@ -37,6 +37,6 @@ struct PingRange {
 /// \throw std::invalid_argument as Sonar::echo, with the ping's number.
 void survey(const Sonar& sonar, const World& world, const Trajectory& world_from_vehicle,
             std::uint64_t seed, const PingRange& range,
-            const std::function<bool(SurveyPing&&)>& keep, int num_threads = 0);
+            const std::function<bool(SurveyPing&&)>& keep, int num_threads = 0, bool truth = true);
 
 }  // namespace bathyal

@@ -75,7 +75,7 @@ class _Survey:
 
         self.sonar.hear(
             self.world, self.trajectory, keep, seed=self.seed, first=first, count=count,
-            num_threads=self.num_threads,
+            truth=self.truth, num_threads=self.num_threads,
         )  # fmt: skip
         return done
 

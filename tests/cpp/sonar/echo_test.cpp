@@ -221,5 +221,15 @@ TEST(Echo, RefusesAPlaceWithoutWater) {
   EXPECT_EQ(sum(far.power, 0, far.power.size()), 0.0);
 }
 
+TEST(Echo, WithoutTruthIsTheSamePower) {
+  const WorldSnapshot world = world_of({flat(0.0)}, {1.0});
+  const Sonar sonar;
+  const Echo with = sonar.echo(world, Water(), at(0, 0, 10));
+  const Echo without = sonar.echo(world, Water(), at(0, 0, 10), 0, 0, {}, false);
+  EXPECT_EQ(with.power, without.power);
+  EXPECT_EQ(with.truth.point.size(), 3 * with.power.size());
+  EXPECT_TRUE(without.truth.range.empty() && without.truth.point.empty());
+}
+
 }  // namespace
 }  // namespace bathyal

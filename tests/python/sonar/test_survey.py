@@ -151,3 +151,16 @@ def test_a_broken_track_is_refused(text: str, speed, message: str, tmp_path) -> 
     path.write_text(text)
     with pytest.raises((ValueError, bathyal.Error), match=message):
         bathyal.read_track(path, speed=speed)
+
+
+def test_a_ping_without_truth() -> None:
+    world = bathyal.World()
+    corners = [[-99, -99, 0], [99, -99, 0], [99, 99, 0], [-99, 99, 0]]
+    world.add(bathyal.TriangleMesh(corners, [[0, 1, 2], [0, 2, 3]]), material="sand")
+    pose = np.eye(4)
+    pose[2, 3] = 10.0
+    sonar = bathyal.sonars.multibeam(physics="real").replace(beams=16, samples=500)
+    ping = sonar.ping(world, pose, truth=False)
+    assert np.array_equal(ping.intensity, sonar.ping(world, pose).intensity)
+    with pytest.raises(ValueError, match="`truth`: expected a ping heard with truth=True"):
+        _ = ping.truth
