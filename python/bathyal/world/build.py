@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bathyal import _core
-from bathyal._core import Trajectory, TriangleMesh, Water, World
+from bathyal._core import Tide, Trajectory, TriangleMesh, Water, Waves, World
 from bathyal.io.yaml_documents import Place
 from bathyal.io.yaml_files import DocumentFiles
 from bathyal.seabed.clouds import read_cloud
@@ -50,9 +50,13 @@ class WorldBuilder(DocumentFiles):
         world = World()
         for name, material in sections.materials.items():
             with self.placed((*self.root, "materials", name)):
-                decibels = material.strength_db
-                linear = material.strength or 0.0
-                world.set_material(name, linear if decibels is None else 10 ** (0.1 * decibels))
+                if material.table is not None:
+                    angle, level = np.array(material.table, float).T
+                    world.set_material(name, angle=np.radians(angle), backscatter=level)
+                elif material.strength_db is not None:
+                    world.set_material(name, 10 ** (0.1 * material.strength_db))
+                else:
+                    world.set_material(name, material.strength or 0.0)
         world.water = self.water(sections.water)
         self.terrain(world, sections.terrain)
         for kind, make in (("pipelines", _core.make_pipeline), ("cables", _core.make_cable)):
@@ -77,11 +81,17 @@ class WorldBuilder(DocumentFiles):
     def water(self, section: own.WaterSection) -> Water:
         """Its profile read from a file, where it names one."""
         place = (*self.root, "water")
-        given = section.model_dump(exclude_none=True, exclude={"profile"})
+        given = section.model_dump(exclude_none=True, exclude={"profile", "tide", "waves"})
         if section.profile is not None:
             path = self.file(section.profile, (*place, "profile"))
             with self.placed((*place, "profile")):
                 given["profile"] = read_profile(path)
+        if section.tide is not None:
+            with self.placed((*place, "tide")):
+                given["tide"] = Tide(list(section.tide.items()))
+        if section.waves is not None:
+            with self.placed((*place, "waves")):
+                given["waves"] = Waves(**_keywords(section.waves))
         with self.placed(place):
             return Water(**given)
 

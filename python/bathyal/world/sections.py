@@ -59,17 +59,20 @@ class WaterSection(Section):
     sound_speed: Positive | None = None
     profile: FileName | None = None
     current: Vector | None = None
+    tide: dict[Name, tuple[NotNegative, Number]] | None = None
+    waves: Keywords | None = None
 
 
 class MaterialSection(Section):
-    """Of its own: Lambert's strength, linear or in dB."""
+    """Of its own: Lambert's strength, linear or in dB, or a table of angle [deg] and σ₀ [dB]."""
 
     strength: NotNegative | None = None
     strength_db: Annotated[Number, Field(ge=-200, le=100)] | None = None
+    table: Annotated[list[tuple[Number, Number]], Field(min_length=2)] | None = None
 
     @model_validator(mode="after")
     def _one_strength(self) -> MaterialSection:
-        one_of(self, "strength", "strength_db", needed=True)
+        one_of(self, "strength", "strength_db", "table", needed=True)
         return self
 
 

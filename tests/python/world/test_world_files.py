@@ -126,7 +126,10 @@ REFUSED = [
     ),
     ("terrain: {seabed: {size: [1e9, 1e9], spacing: 1e-3}}\n", "terrain.seabed: `size`"),
     (FLAT + "materials: {a: {strength_db: 1e6}}\n", "2:17: materials.a.strength_db"),
-    (FLAT + "materials: {a: {}}\n", "materials.a: expected one of strength, strength_db, got none"),
+    (
+        FLAT + "materials: {a: {}}\n",
+        "materials.a: expected one of strength, strength_db, table, got none",
+    ),
     (FLAT + BOX % ", material: cheese", "2:11: objects[0]: `material`: expected one of rock"),
     (FLAT + BOX % ", fish: {length: 1}", "got fish and box"),
     (FLAT + BOX % ", colour: red", "objects[0].colour"),
@@ -182,3 +185,36 @@ def test_files_elsewhere_are_read_where_that_is_meant(folder):
     with pytest.raises(bathyal.Error, match="lies outside"):
         read(below, text)
     assert len(read(below, text, inside=folder)) == 1
+
+
+def test_tide_waves_and_tables(tmp_path) -> None:
+    path = tmp_path / "world.yaml"
+    path.write_text(
+        "terrain: {seabed: {size: [20, 20], spacing: 1}}\nwater:\n  surface: 10\n  tide: {M2: [1.2, 0.0]}\n"
+        "  waves: {height: 1.5, period: 7, seed: 1}\n"
+        "materials:\n  measured: {table: [[0, -8], [60, -26]]}\n"
+    )
+    world = bathyal.read_world(path)
+    assert world.water.tide.height(0.0) == pytest.approx(1.2)
+    assert world.water.waves is not None
+    sonar = bathyal.sonars.side_scan_100khz().replace(backscatter="material")
+    found = sonar.scattering_strength(world, "measured", np.radians([0, 30, 60]))
+    assert 10 * np.log10(found) == pytest.approx([-8, -17, -26])
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("water: {tide: {M9: [1, 0]}}\n", "water.tide"),
+        ("water: {tide: {M2: 1}}\n", "water.tide.M2"),
+        ("water: {waves: {heights: 1}}\n", "water.waves"),
+        ("materials: {a: {table: [[0, -8]]}}\n", "materials.a.table"),
+        ("materials: {a: {table: [[60, -8], [0, -9]]}}\n", "materials.a"),
+        ("materials: {a: {table: [[0, -8], [9, 1]], strength: 1}}\n", "materials.a"),
+    ],
+)
+def test_mistakes_of_tide_waves_and_tables(tmp_path, text, message) -> None:
+    path = tmp_path / "world.yaml"
+    path.write_text(FLAT + text)
+    with pytest.raises(bathyal.Error, match=message.replace(".", r"\.")):
+        bathyal.read_world(path)
