@@ -251,3 +251,18 @@ def test_a_moving_object_is_where_it_is_then():
         assert ping.intensity.tobytes() == sonar.ping(still, at(z=8)).intensity.tobytes()
         heard.append(ping.intensity.tobytes())
     assert len(set(heard)) == 3
+
+
+def test_pixels_of_the_papers_camera():
+    """They carry cos³ of the angle off the axis, −1.03 dB at 22.5°: counted, angles come out."""
+    plain = bathyal.sonars.paper_side_scan().replace(rays_across_beam=10)
+    pings = [
+        plain.replace(pixel_solid_angle=on).ping(flat_world(), at(z=10)) for on in (False, True)
+    ]
+    ratio = []
+    for down in np.radians([22.5, 43.0]):
+        r = 10 / np.sin(down)
+        heard = [cut(ping, 0, r - 0.15, r + 0.15) for ping in pings]
+        ratio.append(heard[1] / heard[0])
+    paper = 30 * np.log10(np.cos(np.radians(20.5)))
+    assert decibel(ratio[1] / ratio[0]) == pytest.approx(paper, abs=0.02)
