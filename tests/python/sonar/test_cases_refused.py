@@ -104,6 +104,14 @@ def test_none_is_no_pose():
         small().ping(full_world(), None)
 
 
+@pytest.mark.xfail(strict=True, reason="None is taken for a pose")
+def test_a_function_that_forgets_its_pose():
+    world = full_world()
+    world.add(plate((-1, -1), (1, 1)), lambda time: None, material="white")
+    with pytest.raises((ValueError, TypeError), match="pose"):
+        small().ping(world, at(30, 0, 8))
+
+
 @pytest.mark.xfail(strict=True, reason="ping and hear end by SIGSEGV, survey by an AttributeError")
 @pytest.mark.parametrize("name", ["ping", "hear", "survey"])
 def test_none_is_no_world(name, tmp_path):

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import ctypes
 import struct
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -12,7 +13,7 @@ import pytest
 import bathyal
 from bathyal import _core
 from tests.support import alone
-from tests.support.sea_cases import at, ball, plate, world_of
+from tests.support.sea_cases import at, ball, flat_world, plate, world_of
 
 pyxtf = pytest.importorskip("pyxtf", reason="pyxtf is not installed")
 
@@ -232,7 +233,15 @@ def test_records_of_another_size_than_they_say(size):
     assert found.lost_bytes + found.damaged > 0
 
 
+def own_of_no_pings():
+    sonar = bathyal.sonars.side_scan().replace(samples=50, rays_along_fan=50)
+    track = bathyal.Trajectory([0, 1.0], np.stack([at(0, 0, 9), at(1, 0, 9)]))
+    sonar.survey(flat_world(), track, count=0).write("own.xtf")
+    return Path("own.xtf").read_bytes()
+
+
 EMPTY = {
+    "own": own_of_no_pings,
     "no pings": lambda: made(pings=0),
     "no samples": lambda: made(pings=3, samples=0),
     "every ping damaged": lambda: made(pings=3).replace(struct.pack("<I", 64), bytes(4)),
