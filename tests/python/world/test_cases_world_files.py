@@ -11,13 +11,17 @@ from tests.support.sea_cases import at
 
 FILE = """
 materials:
-  paint: {strength: 0.25}
+  chalk: {strength: 0.25}
 terrain: {seabed: {size: [40, 40], spacing: 0.5, seed: 1, ripple_height: 0.05}, material: sand}
 objects:
   - {name: mine, mine: {kind: manta}, material: steel, pose: {position: [5, 3, 0.2]}}
 clones:
-  - {name: boulder, boulder: {radius: 0.4}, count: 20}
+  - {name: stone, boulder: {radius: 0.4}, count: 20}
 """
+PLAIN = "terrain: {seabed: {size: [9, 9], spacing: 1}}\n"
+LAUGHS = "a: &a [x,x,x,x,x,x,x,x,x]\n" + "".join(
+    f"{c}: &{c} [{','.join(['*' + p] * 9)}]\n" for p, c in zip("abcdefgh", "bcdefghi", strict=True)
+)
 
 
 @pytest.fixture
@@ -49,44 +53,42 @@ def test_a_seabed_by_file_and_by_script(read):
 
 
 HOSTILE = {
-    "tag": "terrain: !!python/object/apply:os.system ['true']",
-    "unknown key": FILE + "\nsharks: 3\n",
-    "unknown inner key": FILE.replace("spacing:", "spacingg:"),
-    "not a number": FILE.replace("0.5, seed", "far, seed"),
-    "nan": FILE.replace("spacing: 0.5", "spacing: .nan"),
-    "negative": FILE.replace("spacing: 0.5", "spacing: -0.5"),
-    "endless": FILE.replace("count: 20", "count: 100000000000"),
-    "fine": FILE.replace("spacing: 0.5", "spacing: 1e-9"),
-    "list": "- a\n- b\n",
-    "unclosed": "terrain: {seabed: {size: [40, 40",
-    "tabs": "terrain:\n\tseabed: 1\n",
-    "outside": "objects:\n  - {name: a, file: ../../../../etc/passwd}\n",
-    "twice": "terrain: {seabed: {size: [9, 9], spacing: 1}}\n" * 2,
-    "unknown material": FILE.replace("material: steel", "material: cheese"),
-    "same name": FILE.replace("objects:", "objects:\n  - {name: mine, mine: {kind: manta}}"),
-    "binary": "\x00\x01\x02",
-    "laughs": "a: &a [x,x,x,x,x,x,x,x,x]\n"
-    + "".join(
-        f"{c}: &{c} [{','.join(['*' + p] * 9)}]\n"
-        for p, c in zip("abcdefgh", "bcdefghi", strict=True)
+    "tag": ("terrain: !!python/object/apply:os.system ['true']", "1:.*tags"),
+    "unknown key": (FILE + "\nsharks: 3\n", "sharks"),
+    "unknown inner key": (FILE.replace("spacing:", "spacingg:"), "4:.*spacingg"),
+    "not a number": (FILE.replace("0.5, seed", "far, seed"), "4:.*spacing"),
+    "nan": (FILE.replace("spacing: 0.5", "spacing: .nan"), "4:.*spacing"),
+    "negative": (FILE.replace("spacing: 0.5", "spacing: -0.5"), "4:.*spacing.*above 0.*-0.5"),
+    "endless": (FILE.replace("count: 20", "count: 100000000000"), "8:.*count"),
+    "fine": (FILE.replace("spacing: 0.5", "spacing: 1e-9"), "4:.*spacing"),
+    "list": ("- a\n- b\n", "1:1.*section"),
+    "unclosed": ("terrain: {seabed: {size: [40, 40", "YAML"),
+    "tabs": ("terrain:\n\tseabed: 1\n", "2:1.*YAML"),
+    "outside": (PLAIN + "objects:\n  - {name: a, mesh: ../../../../etc/passwd}\n", "3:.*outside"),
+    "twice": (PLAIN + PLAIN, "2:1.*terrain.*twice"),
+    "unknown material": (FILE.replace("material: steel", "material: cheese"), "6:.*cheese"),
+    "same name": (
+        FILE.replace("objects:", "objects:\n  - {name: mine, mine: {kind: manta}}"),
+        "7:.*mine",
     ),
+    "binary": ("\x00\x01\x02", "YAML"),
+    "laughs": (LAUGHS, "200,000"),
 }
 
 
 @pytest.mark.parametrize("name", HOSTILE)
 def test_hostile_files(read, name):
-    with pytest.raises(bathyal.Error) as caught:
-        read(HOSTILE[name])
-    assert "world.yaml" in str(caught.value)
+    text, fault = HOSTILE[name]
+    with pytest.raises(bathyal.Error, match=rf"world\.yaml.*{fault}"):
+        read(text)
 
 
-@pytest.mark.parametrize(
-    ("name", "line"),
-    [("unknown inner key", 4), ("negative", 4), ("unknown material", 6), ("not a number", 4)],
+@pytest.mark.xfail(
+    strict=True, reason="a NaN for a number is refused as 'expected a valid boolean'"
 )
-def test_the_line_of_a_fault(read, name, line):
-    with pytest.raises(bathyal.Error, match=rf"\b{line}\b"):
-        read(HOSTILE[name])
+def test_a_nan_is_named_as_no_number(read):
+    with pytest.raises(bathyal.Error, match="spacing: expected a finite number"):
+        read(HOSTILE["nan"][0])
 
 
 def test_nesting_without_end(read):
