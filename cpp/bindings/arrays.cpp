@@ -189,6 +189,11 @@ Pose pose_argument(std::string_view name, const py::object& object) {
   return pose;
 }
 
+Pose given_pose_argument(std::string_view name, const py::object& object) {
+  if (object.is_none()) throw_argument(name, "real numbers of shape (4, 4)", "None");
+  return pose_argument(name, object);
+}
+
 std::vector<Pose> poses_argument(std::string_view name, const py::object& object) {
   constexpr const char* kExpected = "real numbers of shape (K, 4, 4)";
   const py::array array = array_argument(name, object, kExpected);

@@ -59,6 +59,9 @@ Vec3 vector_argument(std::string_view name, const py::object& object);
 /// to say.
 Pose pose_argument(std::string_view name, const py::object& object);
 
+/// The same, and no None.
+Pose given_pose_argument(std::string_view name, const py::object& object);
+
 /// (K, 4, 4), likewise.
 std::vector<Pose> poses_argument(std::string_view name, const py::object& object);
 

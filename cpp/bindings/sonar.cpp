@@ -120,7 +120,7 @@ py::array backscatter_of(const Sonar& sonar, const World& world, const std::stri
 Ping ping_of(const Sonar& sonar, const std::shared_ptr<World>& world, const ArrayLike& pose,
              double time, const OptionalArray& velocity, const OptionalArray& angular_velocity,
              std::uint64_t seed, std::int64_t ping, bool truth, int num_threads) {
-  const Pose world_from_vehicle = pose_argument("world_from_vehicle", pose);
+  const Pose world_from_vehicle = given_pose_argument("world_from_vehicle", pose);
   const VehicleMotion motion{rate_argument("velocity", velocity),
                              rate_argument("angular_velocity", angular_velocity)};
   Echo echo;
@@ -225,14 +225,14 @@ void bind_sonar(py::module_& module) {
           "from_dict",
           [](const SonarValues& fields) { return Sonar(replaced(SonarOptions(), fields)); },
           py::arg("fields"), "The sonar that `to_dict` describes.")
-      .def("ping", &ping_of, py::arg("world"), py::arg("world_from_vehicle"), py::arg("time") = 0.0,
-           py::kw_only(), py::arg("velocity") = py::none(),
+      .def("ping", &ping_of, py::arg("world").none(false), py::arg("world_from_vehicle"),
+           py::arg("time") = 0.0, py::kw_only(), py::arg("velocity") = py::none(),
            py::arg("angular_velocity") = py::none(), py::arg("seed") = 0, py::arg("ping") = 0,
            py::arg("truth") = true, py::arg("num_threads") = 0, sonar_docs::kPingCall)
       .def("scattering_strength", &backscatter_of, py::arg("world"), py::arg("material"),
            py::arg("incidence"), sonar_docs::kBackscatter)
-      .def("hear", &hear, py::arg("world"), py::arg("trajectory"), py::arg("keep"), py::kw_only(),
-           py::arg("seed") = 0, py::arg("first") = 0, py::arg("count") = -1,
+      .def("hear", &hear, py::arg("world").none(false), py::arg("trajectory"), py::arg("keep"),
+           py::kw_only(), py::arg("seed") = 0, py::arg("first") = 0, py::arg("count") = -1,
            py::arg("truth") = true, py::arg("num_threads") = 0, sonar_docs::kHear)
       .def(
           "ping_times",

@@ -50,7 +50,7 @@ Motion function_motion(const py::object& function) {
   return Motion(std::function<Pose(double)>([kept](double time) {
     const py::gil_scoped_acquire lock;
     const Nested nested;
-    return pose_argument("pose", (*kept)(time));
+    return given_pose_argument("pose", (*kept)(time));
   }));
 }
 

@@ -3,6 +3,7 @@
 
 #include <pybind11/stl.h>
 
+#include <memory>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -49,7 +50,9 @@ py::bytes formatted(const XtfFile& file) {
 }
 
 py::array amplitude_of(const SidescanPings& pings) {
-  return to_numpy(std::vector<float>(pings.amplitude), {pings.rows(), pings.samples});
+  auto owned = std::make_shared<const std::vector<float>>(pings.amplitude);
+  return read_only_array(
+      owned->data(), {static_cast<py::ssize_t>(pings.count()), pings.rows(), pings.samples}, owned);
 }
 
 using Column = std::vector<double> SidescanPings::*;

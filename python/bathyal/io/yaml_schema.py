@@ -52,8 +52,12 @@ def _lines(error: ValidationError, document: Document) -> list[str]:
     found: dict[tuple[str | int, ...], str] = {}
     for one in error.errors(include_url=False):
         place = _place(one["loc"], document, missing=one["type"] == "missing")
-        # Of a value that may be one of two kinds there is an error for each: the first says it.
-        found.setdefault(place, f"{document.where(place)}: {name_of(place)}: {_reason(one)}")
+        line = f"{document.where(place)}: {name_of(place)}: {_reason(one)}"
+        # Of a value that may be one of two kinds there is an error for each: the first says it,
+        # unless it is a number that is not finite.
+        if one["type"] == "finite_number":
+            found[place] = line
+        found.setdefault(place, line)
     marks = {place: document.marks.get(place) or document.marks.get(place[:-1]) for place in found}
     order = sorted(found, key=lambda p: (m.line, m.column) if (m := marks[p]) else (0, 0))
     lines = [found[place] for place in order]

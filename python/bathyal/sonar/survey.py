@@ -132,10 +132,14 @@ def survey(
     num_threads: int = 0,
 ) -> SonarRecord:
     """`Sonar.survey`."""
+    if not isinstance(world, World):
+        raise argument_error("world", "a World", type(world).__name__)
     job = _Survey(sonar, world, trajectory, seed, truth, navigation, num_threads)
     pings = job.shape[0]
-    if not (0 <= first <= pings and -1 <= count <= pings - first):
-        raise argument_error("first", f"pings within the survey's {pings}", f"{count} from {first}")
+    if not 0 <= first <= pings:
+        raise argument_error("first", f"one of the survey's {pings} pings", first)
+    if not -1 <= count <= pings - first:
+        raise argument_error("count", f"-1 or at most the {pings - first} pings left", count)
     end = pings if count < 0 else first + count
     if out is None:
         return _in_memory(job, first, end, progress)

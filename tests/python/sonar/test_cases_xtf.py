@@ -98,10 +98,6 @@ def test_a_record_comes_back(survey, written):
     assert found.navigation.position[:, :2] == pytest.approx(survey.navigation.position[:, :2])
 
 
-@pytest.mark.xfail(
-    strict=True,
-    reason="read_sonar takes 1500 m/s where the file's SoundVelocity (half of it, by XTF) is 740",
-)
 def test_the_sound_speed_comes_back(survey, written):
     assert survey.sound_speed == SPEED
     assert bathyal.read_sonar(written).sound_speed == pytest.approx(SPEED)
@@ -248,9 +244,6 @@ EMPTY = {
 }
 
 
-@pytest.mark.xfail(
-    strict=True, reason="read_sonar ends by SIGFPE where no ping with samples is left"
-)
 @pytest.mark.parametrize("name", EMPTY)
 def test_files_without_a_ping(name, tmp_path):
     """An `Error` or an empty record, but no end of the process."""
@@ -266,9 +259,6 @@ def test_files_without_a_ping(name, tmp_path):
     alone.check(alone.works(name, read), tmp_path)
 
 
-@pytest.mark.xfail(
-    strict=True, reason="read_sonar ends by SIGFPE where no ping with samples is left"
-)
 def test_random_damage_is_an_error_or_a_record(tmp_path):
     """2 000 files with bytes turned over: an `Error`, or arrays that fit each other."""
 

@@ -83,9 +83,6 @@ def test_hostile_files(read, name):
         read(text)
 
 
-@pytest.mark.xfail(
-    strict=True, reason="a NaN for a number is refused as 'expected a valid boolean'"
-)
 def test_a_nan_is_named_as_no_number(read):
     with pytest.raises(bathyal.Error, match="spacing: expected a finite number"):
         read(HOSTILE["nan"][0])

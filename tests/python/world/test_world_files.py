@@ -190,7 +190,8 @@ def test_files_elsewhere_are_read_where_that_is_meant(folder):
 def test_tide_waves_and_tables(tmp_path) -> None:
     path = tmp_path / "world.yaml"
     path.write_text(
-        "terrain: {seabed: {size: [20, 20], spacing: 1}}\nwater:\n  surface: 10\n  tide: {M2: [1.2, 0.0]}\n"
+        "terrain: {seabed: {size: [20, 20], spacing: 1}}\n"
+        "water:\n  surface: 10\n  tide: {M2: [1.2, 0.0]}\n"
         "  waves: {height: 1.5, period: 7, seed: 1}\n"
         "materials:\n  measured: {table: [[0, -8], [60, -26]]}\n"
     )
