@@ -21,7 +21,7 @@ def plan(
         typer.Argument(
             metavar="CLOUD",
             help="Soundings (.xyz .txt .csv .asc .ply .pcd .las .laz .bag .tif .vtp) or a mesh "
-            "(.ply .stl .obj .dae .vtp).",
+            "(.ply .stl .obj .dae .vtp .glb .gltf .3ds).",
         ),
     ],
     aims: Annotated[

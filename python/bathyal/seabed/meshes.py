@@ -15,6 +15,7 @@ from bathyal.errors import argument_error
 from bathyal.io.files import PathLike, known_suffix, reading
 from bathyal.io.formats.attributes import canonical_attributes, columns_of
 from bathyal.io.formats.crs import check_scale, units_of
+from bathyal.io.formats.meshes.assimp import read_assimp
 from bathyal.io.formats.meshes.collada import read_collada
 from bathyal.io.formats.meshes.obj import read_obj, write_obj
 from bathyal.io.formats.meshes.ply import read_ply, write_ply
@@ -49,18 +50,21 @@ def read_mesh(path: PathLike, *, scale: float | None = None, up: str | None = No
     Parameters
     ----------
     path : path
-        ``.ply``, ``.stl``, ``.obj``, ``.dae`` (COLLADA) or ``.vtp``.
+        ``.ply``, ``.stl``, ``.obj``, ``.dae`` (COLLADA) or ``.vtp``; with the extra ``meshes``
+        also ``.glb``, ``.gltf`` and ``.3ds``.
     scale : float, optional
         Metres in one unit of the file. COLLADA says its unit; the others are taken as metres. To be
         said where the file's reference system has another unit, and that system is not kept then.
     up : {"x", "y", "z"}, optional
-        The axis of the file that points up. COLLADA says it; the others are taken as z up.
+        The axis of the file that points up. COLLADA says it, in glTF it is y; the others are taken
+        as z up.
 
     Returns
     -------
     TriangleMesh
         [m], z up. Polygons are cut into triangles. Vertices are those of the file, row for row; in
-        STL and COLLADA, where neighbours do not share vertices, equal ones are merged. Properties
+        STL, COLLADA, glTF and 3DS, where neighbours do not share vertices, equal ones are merged.
+        Of the last three all meshes of the scene become one, each in its place. Properties
         of the vertices, colours (0 to 255), the coordinate reference system and the vertical datum
         ride along where the file has them; properties of faces, normals and textures do not.
 
@@ -73,7 +77,7 @@ def read_mesh(path: PathLike, *, scale: float | None = None, up: str | None = No
         Where there is no such file, or it may not be read.
     Error
         For a file that is broken, empty, of another format than its suffix says, or without faces,
-        and for positions in longitude and latitude.
+        for positions in longitude and latitude, and where the extra is missing.
 
     Examples
     --------
@@ -195,6 +199,14 @@ def _read_collada(path: PathLike) -> _Surface:
     return _Surface(*surface, unit=scene.unit, up=scene.up_axis[0].lower())
 
 
+def _read_3ds(path: PathLike) -> _Surface:
+    return _Surface(*merged(*read_assimp(path)))
+
+
+def _read_gltf(path: PathLike) -> _Surface:
+    return _Surface(*merged(*read_assimp(path)), up="y")
+
+
 def _read_vtp(path: PathLike) -> _Surface:
     data = read_vtp(path)
     with reading(path, "VTK PolyData"):
@@ -204,7 +216,10 @@ def _read_vtp(path: PathLike) -> _Surface:
 
 
 _READERS: dict[str, Callable[[PathLike], _Surface]] = {
+    ".3ds": _read_3ds,
     ".dae": _read_collada,
+    ".glb": _read_gltf,
+    ".gltf": _read_gltf,
     ".obj": _read_obj,
     ".ply": _read_ply,
     ".stl": _read_stl,
