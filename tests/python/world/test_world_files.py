@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 import pytest
 
@@ -182,3 +184,70 @@ def test_files_elsewhere_are_read_where_that_is_meant(folder):
     with pytest.raises(bathyal.Error, match="lies outside"):
         read(below, text)
     assert len(read(below, text, inside=folder)) == 1
+
+
+def test_tides_and_waves_come_from_the_file(folder):
+    world = read(
+        folder,
+        FLAT
+        + """
+water:
+  surface: 1.5
+  waves: {height: 0.8, period: 6, direction: 0.3, seed: 4}
+  tide: {constituents: {M2: {amplitude: 1.2, phase_deg: 30}, K1: {amplitude: 0.4, phase: 0.5}}}
+""",
+    )
+    times = np.linspace(0, 90000, 50)
+    tide = bathyal.Tide([("M2", (1.2, math.radians(30))), ("K1", (0.4, 0.5))])
+    waves = bathyal.Waves(height=0.8, period=6, direction=0.3, seed=4)
+    np.testing.assert_array_equal(
+        world.water.surface_height(2.0, 3.0, times),
+        bathyal.Water(surface=1.5, tide=tide, waves=waves).surface_height(2.0, 3.0, times),
+    )
+    table = read(
+        folder, FLAT + "water: {surface: 0, tide: {time: [0, 600, 900], height: [0, 2, 1]}}\n"
+    )
+    assert table.water.surface_height(0, 0, [300, 750, 5000]).tolist() == [1, 1.5, 1]
+
+
+def test_laws_of_materials_come_from_the_file(folder):
+    world = read(
+        folder,
+        FLAT
+        + """
+materials:
+  shell: {strength: 0.02, sediment: {density_ratio: 2.2, spectral_exponent: 3.0}}
+  net: {strength_db: -20, angle_deg: [0, 60], backscatter_db: [-5, -25]}
+""",
+    )
+    sediment = bathyal.Sediment(density_ratio=2.2, spectral_exponent=3.0)
+    assert world.material("shell") == bathyal.Material("shell", 0.02, sediment=sediment)
+    net = world.material("net")
+    assert net.strength == pytest.approx(0.01)
+    np.testing.assert_allclose(net.angle, [0, math.pi / 3])
+    assert net.backscatter.tolist() == [-5, -25]
+
+
+@pytest.mark.parametrize(
+    ("text", "reason"),
+    [
+        ("water: {tide: {constituents: {M2: {amplitude: 1}}}}", "surface"),
+        ("water: {surface: 0, tide: {}}", "one of constituents, time"),
+        ("water: {surface: 0, tide: {time: [0, 1]}}", "time and height together"),
+        ("water: {surface: 0, tide: {time: [1, 0], height: [0, 0]}}", r"water\.tide: `time`"),
+        ("water: {surface: 0, tide: {constituents: {X9: {amplitude: 1}}}}", "M2"),
+        (
+            "water: {tide: {constituents: {M2: {amplitude: 1, phase: 1, phase_deg: 3}}}}",
+            "one of phase, phase_deg",
+        ),
+        ("water: {surface: 0, waves: {height: -1}}", r"water\.waves: `height`"),
+        ("water: {surface: 0, waves: {hight: 1}}", r"water\.waves"),
+        ("materials: {a: {strength: 1, angle: [0, 1]}}", "backscatter_db together"),
+        ("materials: {a: {strength: 1, angle: [1, 0], backscatter_db: [0, 0]}}", "`angle`"),
+        ("materials: {a: {strength: 1, sediment: {spectral_exponent: 9}}}", "`spectral_exponent`"),
+        ("materials: {a: {sediment: {}}}", "one of strength, strength_db"),
+    ],
+)
+def test_mistakes_in_tides_and_materials_are_found_by_line(folder, text, reason):
+    with pytest.raises(bathyal.Error, match=rf"world\.yaml:\d+:\d+: .*{reason}"):
+        read(folder, FLAT + text + "\n")
