@@ -18,12 +18,14 @@ import bathyal
 from bathyal.world.example import write_example
 
 
-def save(figure: Figure, path: Path, dpi: int) -> None:
-    """In 256 colours of its own, which the eye cannot tell from all: half the bytes."""
+def save(figure: Figure, path: Path, *, dpi: int, colours: int = 0) -> None:
+    """Without transparency; in so many colours where there are hardly more."""
     drawn = io.BytesIO()
     figure.savefig(drawn, dpi=dpi)
     picture = Image.open(drawn).convert("RGB")
-    picture.quantize(256, dither=Image.Dither.NONE).save(path, optimize=True)
+    if colours:
+        picture = picture.quantize(colours, dither=Image.Dither.NONE)
+    picture.save(path, optimize=True)
 
 
 def main(folder: str) -> None:
@@ -32,10 +34,10 @@ def main(folder: str) -> None:
         file, track = write_example(Path(scratch) / "world.yaml")
         world = bathyal.read_world(file)
         trajectory = bathyal.read_track(track, speed=2.0)
-    save(world.show(), out / "sea_world.png", dpi=85)
+    save(world.show(), out / "sea_world.png", dpi=72)
     sonar = bathyal.sonars.side_scan(physics="real").replace(range=40.0)
     record = sonar.survey(world, trajectory)
-    save(record.plot(), out / "sea_survey.png", dpi=42)
+    save(record.plot(), out / "sea_survey.png", dpi=42, colours=256)
 
 
 if __name__ == "__main__":

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "arrays.hpp"
+#include "bathyal/base/error.hpp"
 #include "bathyal/base/text.hpp"
 #include "world_docs.hpp"
 #include "world_parts.hpp"

@@ -68,7 +68,7 @@ bool has(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
-TEST(WorldTest, ObjectsAreAddedWithTheirSurface) {
+TEST(World, ObjectsAreAddedWithTheirSurface) {
   const auto painted = std::make_shared<const std::vector<std::int16_t>>(8, std::int16_t{3});
   World world;
   const WorldObject object{"bottom", plane(1), moved(0, 0, 2), 2.0, {1, painted}};
