@@ -177,11 +177,23 @@ TriangleMesh(3 vertices, 1 triangle)
       .def_property_readonly(
           "vertical_datum", [](const TriangleMesh& m) { return m.datum().vertical; },
           "What z is measured from; empty if unknown.")
-      .def("__repr__", [](const TriangleMesh& m) {
-        return "TriangleMesh(" + std::to_string(m.vertex_count()) +
-               (m.vertex_count() == 1 ? " vertex, " : " vertices, ") +
-               count_text(m.triangle_count(), "triangle") + ")";
-      });
+      .def("__repr__",
+           [](const TriangleMesh& m) {
+             return "TriangleMesh(" + std::to_string(m.vertex_count()) +
+                    (m.vertex_count() == 1 ? " vertex, " : " vertices, ") +
+                    count_text(m.triangle_count(), "triangle") + ")";
+           })
+      .def(py::pickle(
+          [](const TriangleMesh& m) {
+            return py::make_tuple(to_numpy(m.shared_vertices()), to_numpy(m.shared_triangles()),
+                                  to_python(m.attributes()), m.datum().crs, m.datum().vertical);
+          },
+          [](const py::tuple& state) {
+            return TriangleMesh(shared_points_argument("vertices", state[0]),
+                                triangles_argument("triangles", state[1]),
+                                attributes_argument(state[2].cast<PythonAttributes>()),
+                                {state[3].cast<std::string>(), state[4].cast<std::string>()});
+          }));
 }
 
 }  // namespace

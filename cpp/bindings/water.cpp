@@ -318,7 +318,8 @@ void bind_water(py::module_& module) {
           },
           py::arg("x"), py::arg("y"), py::arg("time") = 0.0,
           "z of the sea surface [m]: mean, tide and waves.")
-      .def("__repr__", &water_text);
+      .def("__repr__", &water_text)
+      .def(py::pickle(&water_state, &water_from_state));
   bind_fields(water);
 }
 

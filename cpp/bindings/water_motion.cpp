@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <array>
 #include <cmath>
 
 #include "bathyal/base/error.hpp"
@@ -50,12 +51,31 @@ void bind_current(py::module_& module) {
           },
           py::arg("depth"), py::arg("time") = 0.0,
           "(…, 2) velocity [m/s] at depths [m] and times [s], which broadcast.")
-      .def("__repr__", [](const Current& c) {
-        return "Current(" + counted(static_cast<long>(c.depth().size()), "depth") +
-               (c.time().empty() ? ""
-                                 : ", " + counted(static_cast<long>(c.time().size()), "time")) +
-               ")";
-      });
+      .def("__repr__",
+           [](const Current& c) {
+             return "Current(" + counted(static_cast<long>(c.depth().size()), "depth") +
+                    (c.time().empty()
+                         ? ""
+                         : ", " + counted(static_cast<long>(c.time().size()), "time")) +
+                    ")";
+           })
+      .def(py::pickle(
+          [](const Current& c) {
+            py::list velocity;
+            for (const Eigen::Vector2d& v : c.velocity()) {
+              velocity.append(py::make_tuple(v.x(), v.y()));
+            }
+            return py::make_tuple(c.depth(), velocity, c.time());
+          },
+          [](const py::tuple& s) {
+            auto depth = s[0].cast<std::vector<double>>();
+            if (depth.empty()) return Current();
+            std::vector<Eigen::Vector2d> velocity;
+            for (const auto& v : s[1].cast<std::vector<std::array<double, 2>>>()) {
+              velocity.emplace_back(v[0], v[1]);
+            }
+            return Current(std::move(depth), std::move(velocity), s[2].cast<std::vector<double>>());
+          }));
 }
 
 Waves waves_of_components(const ArrayLike& amplitude, const ArrayLike& period,
@@ -172,12 +192,30 @@ void bind_waves(py::module_& module) {
           },
           "(K, 2) of each component, the way it travels [rad/m].")
       .def_property_readonly("depth", &Waves::depth, "Of the water [m].")
-      .def("__repr__", [](const Waves& w) {
-        double variance = 0.0;
-        for (const WaveComponent& c : w.components()) variance += 0.5 * c.amplitude * c.amplitude;
-        return "Waves(" + counted(static_cast<long>(w.components().size()), "component") +
-               ", significant height " + three_digits(4.0 * std::sqrt(variance)) + " m)";
-      });
+      .def("__repr__",
+           [](const Waves& w) {
+             double variance = 0.0;
+             for (const WaveComponent& c : w.components())
+               variance += 0.5 * c.amplitude * c.amplitude;
+             return "Waves(" + counted(static_cast<long>(w.components().size()), "component") +
+                    ", significant height " + three_digits(4.0 * std::sqrt(variance)) + " m)";
+           })
+      .def(py::pickle(
+          [](const Waves& w) {
+            py::list components;
+            for (const WaveComponent& c : w.components()) {
+              components.append(
+                  py::make_tuple(c.amplitude, c.frequency, c.number.x(), c.number.y(), c.phase));
+            }
+            return py::make_tuple(components, w.depth());
+          },
+          [](const py::tuple& s) {
+            std::vector<WaveComponent> components;
+            for (const auto& c : s[0].cast<std::vector<std::array<double, 5>>>()) {
+              components.push_back({c[0], c[1], {c[2], c[3]}, c[4]});
+            }
+            return Waves::of(std::move(components), s[1].cast<double>());
+          }));
 }
 
 void bind_tide(py::module_& module) {
@@ -209,9 +247,27 @@ void bind_tide(py::module_& module) {
             return given.result(std::move(values));
           },
           py::arg("time"), "Above the mean surface [m] at times [s].")
-      .def("__repr__", [](const Tide& t) {
-        return "Tide(up to " + three_digits(t.highest()) + " m above the mean)";
-      });
+      .def("__repr__",
+           [](const Tide& t) {
+             return "Tide(up to " + three_digits(t.highest()) + " m above the mean)";
+           })
+      .def(py::pickle(
+          [](const Tide& t) {
+            py::list constituents;
+            for (const TideConstituent& c : t.constituents()) {
+              constituents.append(py::make_tuple(c.amplitude, c.rate, c.phase));
+            }
+            return py::make_tuple(constituents, t.table_time(), t.table_height());
+          },
+          [](const py::tuple& s) {
+            auto time = s[1].cast<std::vector<double>>();
+            if (!time.empty()) return Tide(std::move(time), s[2].cast<std::vector<double>>());
+            std::vector<TideConstituent> constituents;
+            for (const auto& c : s[0].cast<std::vector<std::array<double, 3>>>()) {
+              constituents.push_back({.amplitude = c[0], .rate = c[1], .phase = c[2]});
+            }
+            return Tide(std::move(constituents));
+          }));
 }
 
 }  // namespace

@@ -70,6 +70,10 @@ void warn_of_range(const std::string& formula, std::size_t outside, std::size_t 
 using SpeedSource = py::typing::Union<Water, WaterProfile>;
 SpeedProfile speed_source_argument(const py::object& source, double time);
 
+/// All of a water, its columns filled: nothing is computed anew.
+py::tuple water_state(const Water& water);
+Water water_from_state(const py::tuple& state);
+
 /// (N,) or empty for None.
 std::vector<double> column_argument(std::string_view name, const py::object& object);
 

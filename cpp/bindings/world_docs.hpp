@@ -103,11 +103,119 @@ inline constexpr const char* kSetMaterial = R"(Adds a material, or replaces the 
 
 Parameters
 ----------
-name : str
+name : str or Material
+    A Material alone says it all.
 strength : float
     μ of Lambert's law σ₀ = μ cos²θ, linear; the paper's K_d.
 angle, backscatter : (K,) arrays, optional
     A measured law: σ₀ [dB] by the angle of incidence [rad], rising.
+sediment : Sediment, optional
+    For the models that compute σ₀ from it.
+
+Raises
+------
+ValueError
+    For an empty name, numbers out of their range, a Material and more.
+
+Examples
+--------
+>>> import bathyal
+>>> world = bathyal.World()
+>>> world.set_material("shell", 0.02, sediment=world.material("gravel").sediment)
+>>> world.material("shell")
+Material("shell", -17 dB, sediment)
+)";
+
+inline constexpr const char* kMaterialOf = R"(A material by its name, or its row in `materials`.
+
+Returns
+-------
+Material
+
+Raises
+------
+ValueError
+    For a name or a row of none.
+)";
+
+inline constexpr const char* kHitMaterial = R"(Of what each of N rays is made that it met.
+
+Parameters
+----------
+hits : Hits
+    Of ``scene.cast``.
+
+Returns
+-------
+(N,) array of int
+    Rows of `materials`, −1 where the ray met nothing.
+
+Raises
+------
+ValueError
+    For hits of another scene, where they name rows or triangles that there are not.
+
+Examples
+--------
+>>> import bathyal
+>>> world = bathyal.World()
+>>> floor = bathyal.TriangleMesh([[0, 0, 0], [4, 0, 0], [0, 4, 0]], [[0, 1, 2]])
+>>> world.add(floor, material="mud")
+0
+>>> now = world.at(0)
+>>> row = now.material(now.scene.cast((1, 1, 3), [[0, 0, -1], [0, 0, 1]]))
+>>> row.tolist(), now.materials[row[0]].name
+([6, -1], 'mud')
+)";
+
+inline constexpr const char* kSediment =
+    R"(What the model of a rough, penetrable bottom takes (APL-UW TR 9407, 1994).
+
+Ratios are to the water above it; see docs/sonar_model.md. Sand unless given.
+
+Parameters
+----------
+density_ratio, speed_ratio : float
+    Of density and sound speed.
+loss : float
+    Imaginary over real wave number.
+volume : float
+    Scattering in the volume over its absorption, σ₂.
+spectral_exponent : float
+    γ of the relief's spectrum, 2.4 to 3.9.
+spectral_strength : float
+    w₂ of the relief's spectrum [cm⁴], at 1 cm⁻¹.
+
+Raises
+------
+ValueError
+    For a number out of its range.
+)";
+
+inline constexpr const char* kMaterial = R"(How a surface scatters sound back.
+
+By its table where it has one, else by its sediment, else by Lambert's law σ₀ = μ cos²θ; which of
+them a sonar takes is its switch ``backscatter``.
+
+Parameters
+----------
+name : str
+strength : float
+    μ, linear.
+angle, backscatter : (K,) arrays, optional
+    A measured law: σ₀ [dB] by the angle of incidence [rad], rising.
+sediment : Sediment, optional
+
+Raises
+------
+ValueError
+    For an empty name, numbers out of their range.
+
+Examples
+--------
+>>> import bathyal
+>>> bathyal.World().material("sand")
+Material("sand", -22 dB, sediment)
 )";
 
 inline constexpr const char* kAt = R"(What there is at a time.

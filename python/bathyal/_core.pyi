@@ -12,7 +12,7 @@ import numpy.typing
 import os
 import plotly.graph_objects
 import typing
-__all__: list[str] = ['Arm', 'ArmFit', 'BEYOND_NOISE', 'Capsule', 'Cause', 'CleanReport', 'CleanResult', 'Clearances', 'CorrectedArm', 'Current', 'DhTable', 'Diagnosis', 'Effect', 'EffectRange', 'EffectRows', 'Eigenray', 'Error', 'Estimate', 'FitParameter', 'FollowedPath', 'FoundEffect', 'HeldOut', 'HeldOutPart', 'Hits', 'Hull', 'HullReport', 'InverseResult', 'KeepOut', 'Link', 'MeshReport', 'MotionCheck', 'MotionPlan', 'NamedEffect', 'NavigationErrors', 'NavigationReport', 'Nearest', 'NearestSegments', 'Outlier', 'Ping', 'PingTruth', 'Pipeline', 'Plane', 'PlaneFit', 'PointCloud', 'Polyline', 'Profile', 'ReachMap', 'RigidBody', 'SamplingPhase', 'SamplingPlan', 'Scene', 'SeabedModel', 'Shape', 'SheetPatch', 'SheetReport', 'SidescanPings', 'Sonar', 'SoundPath', 'Standpoint', 'StaticTrim', 'Structure', 'Support', 'TargetChecks', 'Targets', 'TextTable', 'Tide', 'TipMove', 'ToolPath', 'TouchForecast', 'TouchPlan', 'Touches', 'TracedSound', 'Tracked', 'Trade', 'Trajectory', 'TriangleMesh', 'Verification', 'Voxels', 'Water', 'Waves', 'Workspace', 'World', 'WorldSnapshot', 'XtfFile', 'absorption', 'ambient_noise', 'arm_from_chain', 'arm_from_parts', 'arm_parts', 'best_standpoint', 'chain_from_arm', 'check_bytes', 'clean_cloud', 'cover_polygon', 'depth_from_pressure', 'diagnose', 'eigenrays', 'find_effect_with', 'find_sheets', 'find_targets', 'fish_paths', 'fit_plane', 'forecast_touches', 'generate_survey', 'identify_arm', 'intersect_moller_trumbore', 'library_effects', 'make_boulder', 'make_cable', 'make_fish', 'make_mine', 'make_pipeline', 'make_seabed', 'make_wreck', 'make_xtf', 'mesh_report', 'parse_xtf', 'plan_sampling', 'plan_toolpath', 'plan_touches', 'practical_salinity', 'pressure_from_depth', 'read_mesh_with', 'read_pcd', 'read_text_table', 'seawater_density', 'set_simd_level', 'sidescan_bottom', 'sidescan_ground', 'sidescan_mosaic', 'simd_level', 'sound_speed', 'sound_speed_teos10_with', 'survey_height', 'trace_sound', 'triangle_material', 'triangulate', 'triangulate_delaunay', 'verify_positions', 'warn_of_range_with', 'warn_of_support_with', 'with_link_radii', 'write_xyz']
+__all__: list[str] = ['Arm', 'ArmFit', 'BEYOND_NOISE', 'Capsule', 'Cause', 'CleanReport', 'CleanResult', 'Clearances', 'CorrectedArm', 'Current', 'DhTable', 'Diagnosis', 'Effect', 'EffectRange', 'EffectRows', 'Eigenray', 'Error', 'Estimate', 'FitParameter', 'FollowedPath', 'FoundEffect', 'HeldOut', 'HeldOutPart', 'Hits', 'Hull', 'HullReport', 'InverseResult', 'KeepOut', 'Link', 'Material', 'MeshReport', 'MotionCheck', 'MotionPlan', 'NamedEffect', 'NavigationErrors', 'NavigationReport', 'Nearest', 'NearestSegments', 'Outlier', 'Ping', 'PingTruth', 'Pipeline', 'Plane', 'PlaneFit', 'PointCloud', 'Polyline', 'Profile', 'ReachMap', 'RigidBody', 'SamplingPhase', 'SamplingPlan', 'Scene', 'SeabedModel', 'Sediment', 'Shape', 'SheetPatch', 'SheetReport', 'SidescanPings', 'Sonar', 'SoundPath', 'Standpoint', 'StaticTrim', 'Structure', 'Support', 'TargetChecks', 'Targets', 'TextTable', 'Tide', 'TipMove', 'ToolPath', 'TouchForecast', 'TouchPlan', 'Touches', 'TracedSound', 'Tracked', 'Trade', 'Trajectory', 'TriangleMesh', 'Verification', 'Voxels', 'Water', 'Waves', 'Workspace', 'World', 'WorldObject', 'WorldSnapshot', 'XtfFile', 'absorption', 'ambient_noise', 'arm_from_chain', 'arm_from_parts', 'arm_parts', 'best_standpoint', 'chain_from_arm', 'check_bytes', 'clean_cloud', 'cover_polygon', 'depth_from_pressure', 'diagnose', 'eigenrays', 'find_effect_with', 'find_sheets', 'find_targets', 'fish_paths', 'fit_plane', 'forecast_touches', 'generate_survey', 'identify_arm', 'intersect_moller_trumbore', 'library_effects', 'make_boulder', 'make_cable', 'make_fish', 'make_mine', 'make_pipeline', 'make_seabed', 'make_wreck', 'make_xtf', 'mesh_report', 'parse_xtf', 'plan_sampling', 'plan_toolpath', 'plan_touches', 'practical_salinity', 'pressure_from_depth', 'read_mesh_with', 'read_pcd', 'read_text_table', 'seawater_density', 'set_simd_level', 'sidescan_bottom', 'sidescan_ground', 'sidescan_mosaic', 'simd_level', 'sound_speed', 'sound_speed_teos10_with', 'survey_height', 'trace_sound', 'triangle_material', 'triangulate', 'triangulate_delaunay', 'verify_positions', 'warn_of_range_with', 'warn_of_support_with', 'with_link_radii', 'write_xyz']
 class Error(RuntimeError):
     """
     A broken file, a solver that failed or a part that is not installed.
@@ -141,9 +141,13 @@ class TriangleMesh:
     >>> bathyal.TriangleMesh([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])
     TriangleMesh(3 vertices, 1 triangle)
     """
+    def __getstate__(self) -> tuple[numpy.ndarray, numpy.ndarray, dict, str, str]:
+        ...
     def __init__(self, vertices: numpy.typing.ArrayLike, triangles: numpy.typing.ArrayLike, *, attributes: collections.abc.Mapping[str, numpy.typing.ArrayLike] = {}, crs: str = '', vertical_datum: str = '') -> None:
         ...
     def __repr__(self) -> str:
+        ...
+    def __setstate__(self, arg0: tuple) -> None:
         ...
     def show(self) -> plotly.graph_objects.Figure:
         """
@@ -1069,9 +1073,13 @@ class Current:
         """
         The same everywhere and always: x and y of the world [m/s].
         """
+    def __getstate__(self) -> tuple[list[float], list, list[float]]:
+        ...
     def __init__(self, depth: numpy.typing.ArrayLike, velocity: numpy.typing.ArrayLike, *, time: numpy.typing.ArrayLike | None = None) -> None:
         ...
     def __repr__(self) -> str:
+        ...
+    def __setstate__(self, arg0: tuple) -> None:
         ...
     def at(self, depth: numpy.typing.ArrayLike, time: numpy.typing.ArrayLike = 0.0) -> numpy.ndarray:
         """
@@ -1118,9 +1126,13 @@ class Waves:
         """
         One wave, long-crested: height from trough to crest [m], period [s], direction it travels to about z from x [rad], depth of the water [m], phase at the origin at time 0 [rad].
         """
+    def __getstate__(self) -> tuple[list, float]:
+        ...
     def __init__(self, height: typing.SupportsFloat | typing.SupportsIndex = 1.0, period: typing.SupportsFloat | typing.SupportsIndex = 8.0, *, peak_enhancement: typing.SupportsFloat | typing.SupportsIndex = 3.3, direction: typing.SupportsFloat | typing.SupportsIndex = 0.0, spreading: typing.SupportsFloat | typing.SupportsIndex = 10.0, components: typing.SupportsInt | typing.SupportsIndex = 200, depth: typing.SupportsFloat | typing.SupportsIndex = ..., seed: typing.SupportsInt | typing.SupportsIndex = 0) -> None:
         ...
     def __repr__(self) -> str:
+        ...
+    def __setstate__(self, arg0: tuple) -> None:
         ...
     def acceleration(self, point: numpy.typing.ArrayLike, time: numpy.typing.ArrayLike) -> numpy.ndarray:
         """
@@ -1176,9 +1188,13 @@ class Tide:
         """
         Of (K,) rising times [s] and heights above the mean [m]: linear between, at the ends as there.
         """
+    def __getstate__(self) -> tuple[list, list[float], list[float]]:
+        ...
     def __init__(self, constituents: collections.abc.Sequence[tuple[str, tuple[typing.SupportsFloat | typing.SupportsIndex, typing.SupportsFloat | typing.SupportsIndex]]]) -> None:
         ...
     def __repr__(self) -> str:
+        ...
+    def __setstate__(self, arg0: tuple) -> None:
         ...
     def height(self, time: numpy.typing.ArrayLike) -> float | numpy.ndarray:
         """
@@ -1234,9 +1250,13 @@ class Water:
     >>> round(water.absorption(100e3, depth=50), 1)
     33.5
     """
+    def __getstate__(self) -> tuple:
+        ...
     def __init__(self, profile: Profile | list[Profile] | None = None, *, surface: typing.SupportsFloat | typing.SupportsIndex | None = None, time: numpy.typing.ArrayLike | None = None, reference_depth: typing.SupportsFloat | typing.SupportsIndex = 50.0, temperature: typing.SupportsFloat | typing.SupportsIndex = 10.0, salinity: typing.SupportsFloat | typing.SupportsIndex = 35.0, sound_speed: typing.SupportsFloat | typing.SupportsIndex | None = None, formula: str = 'mackenzie', ph: typing.SupportsFloat | typing.SupportsIndex = 8.0, latitude: typing.SupportsFloat | typing.SupportsIndex | None = None, current: Current | numpy.typing.ArrayLike | None = None, waves: Waves | None = None, tide: Tide | None = None) -> None:
         ...
     def __repr__(self) -> str:
+        ...
+    def __setstate__(self, arg0: tuple) -> None:
         ...
     def absorption(self, frequency: numpy.typing.ArrayLike, z: numpy.typing.ArrayLike | None = None, time: numpy.typing.ArrayLike = 0.0, *, depth: numpy.typing.ArrayLike | None = None, formula: str = 'francois_garrison') -> float | numpy.ndarray:
         """
@@ -2717,12 +2737,178 @@ class Arm:
         """
         (n,) greatest speed of the joint that leads each coordinate [rad/s] or [m/s].
         """
+class Sediment:
+    """
+    What the model of a rough, penetrable bottom takes (APL-UW TR 9407, 1994).
+    
+    Ratios are to the water above it; see docs/sonar_model.md. Sand unless given.
+    
+    Parameters
+    ----------
+    density_ratio, speed_ratio : float
+        Of density and sound speed.
+    loss : float
+        Imaginary over real wave number.
+    volume : float
+        Scattering in the volume over its absorption, σ₂.
+    spectral_exponent : float
+        γ of the relief's spectrum, 2.4 to 3.9.
+    spectral_strength : float
+        w₂ of the relief's spectrum [cm⁴], at 1 cm⁻¹.
+    
+    Raises
+    ------
+    ValueError
+        For a number out of its range.
+    """
+    def __eq__(self, arg0: Sediment) -> bool:
+        ...
+    def __getstate__(self) -> tuple:
+        ...
+    def __hash__(self) -> int:
+        ...
+    def __init__(self, *, density_ratio: typing.SupportsFloat | typing.SupportsIndex = 1.845, speed_ratio: typing.SupportsFloat | typing.SupportsIndex = 1.1782, loss: typing.SupportsFloat | typing.SupportsIndex = 0.01624, volume: typing.SupportsFloat | typing.SupportsIndex = 0.002, spectral_exponent: typing.SupportsFloat | typing.SupportsIndex = 3.25, spectral_strength: typing.SupportsFloat | typing.SupportsIndex = 0.004446) -> None:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def __setstate__(self, arg0: tuple) -> None:
+        ...
+    @property
+    def density_ratio(self) -> float:
+        """
+        Of the bottom over the water.
+        """
+    @property
+    def loss(self) -> float:
+        """
+        Imaginary over real wave number.
+        """
+    @property
+    def spectral_exponent(self) -> float:
+        """
+        Of the relief's spectrum, γ.
+        """
+    @property
+    def spectral_strength(self) -> float:
+        """
+        Of the relief's spectrum, w₂ [cm⁴].
+        """
+    @property
+    def speed_ratio(self) -> float:
+        """
+        Sound speed of the bottom over that of the water.
+        """
+    @property
+    def volume(self) -> float:
+        """
+        Scattering in the volume over its absorption, σ₂.
+        """
+class Material:
+    """
+    How a surface scatters sound back.
+    
+    By its table where it has one, else by its sediment, else by Lambert's law σ₀ = μ cos²θ; which of
+    them a sonar takes is its switch ``backscatter``.
+    
+    Parameters
+    ----------
+    name : str
+    strength : float
+        μ, linear.
+    angle, backscatter : (K,) arrays, optional
+        A measured law: σ₀ [dB] by the angle of incidence [rad], rising.
+    sediment : Sediment, optional
+    
+    Raises
+    ------
+    ValueError
+        For an empty name, numbers out of their range.
+    
+    Examples
+    --------
+    >>> import bathyal
+    >>> bathyal.World().material("sand")
+    Material("sand", -22 dB, sediment)
+    """
+    def __eq__(self, arg0: Material) -> bool:
+        ...
+    def __getstate__(self) -> tuple:
+        ...
+    def __hash__(self) -> int:
+        ...
+    def __init__(self, name: str, strength: typing.SupportsFloat | typing.SupportsIndex = 1.0, *, angle: numpy.typing.ArrayLike | None = None, backscatter: numpy.typing.ArrayLike | None = None, sediment: Sediment | None = None) -> None:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def __setstate__(self, arg0: tuple) -> None:
+        ...
+    @property
+    def angle(self) -> numpy.ndarray | None:
+        """
+        (K,) angles of incidence of its table [rad], or None.
+        """
+    @property
+    def backscatter(self) -> numpy.ndarray | None:
+        """
+        (K,) σ₀ of its table [dB], or None.
+        """
+    @property
+    def name(self) -> str:
+        """
+        Of the material.
+        """
+    @property
+    def sediment(self) -> Sediment | None:
+        """
+        Sediment, or None.
+        """
+    @property
+    def strength(self) -> float:
+        """
+        μ of Lambert's law σ₀ = μ cos²θ, linear.
+        """
 class WorldSnapshot:
     """
     A world at one moment: what rays meet, and of what it is made.
     """
     def __repr__(self) -> str:
         ...
+    def material(self, hits: Hits) -> numpy.ndarray:
+        """
+        Of what each of N rays is made that it met.
+        
+        Parameters
+        ----------
+        hits : Hits
+            Of ``scene.cast``.
+        
+        Returns
+        -------
+        (N,) array of int
+            Rows of `materials`, −1 where the ray met nothing.
+        
+        Raises
+        ------
+        ValueError
+            For hits of another scene, where they name rows or triangles that there are not.
+        
+        Examples
+        --------
+        >>> import bathyal
+        >>> world = bathyal.World()
+        >>> floor = bathyal.TriangleMesh([[0, 0, 0], [4, 0, 0], [0, 4, 0]], [[0, 1, 2]])
+        >>> world.add(floor, material="mud")
+        0
+        >>> now = world.at(0)
+        >>> row = now.material(now.scene.cast((1, 1, 3), [[0, 0, -1], [0, 0, 1]]))
+        >>> row.tolist(), now.materials[row[0]].name
+        ([6, -1], 'mud')
+        """
+    @property
+    def materials(self) -> list[Material]:
+        """
+        Material of each row.
+        """
     @property
     def scene(self) -> Scene:
         """
@@ -2732,6 +2918,46 @@ class WorldSnapshot:
     def time(self) -> float:
         """
         [s]
+        """
+class WorldObject:
+    """
+    One of a world's objects, as it was when it was asked for.
+    """
+    def __repr__(self) -> str:
+        ...
+    def pose(self, time: typing.SupportsFloat | typing.SupportsIndex = 0.0) -> numpy.ndarray:
+        """
+        (4, 4) world_from_object at a time [s].
+        """
+    @property
+    def material(self) -> str:
+        """
+        Name of its material; painted regions have others.
+        """
+    @property
+    def mesh(self) -> TriangleMesh:
+        """
+        TriangleMesh: in its own frame.
+        """
+    @property
+    def moves(self) -> bool:
+        """
+        Whether its pose changes with time.
+        """
+    @property
+    def name(self) -> str:
+        """
+        Of the object.
+        """
+    @property
+    def painted(self) -> bool:
+        """
+        Whether regions of it have other materials.
+        """
+    @property
+    def scale(self) -> float:
+        """
+        Of the mesh.
         """
 class World:
     """
@@ -2750,11 +2976,15 @@ class World:
     >>> world.scene.cast([[0, 0, 5]], [[0, 0, -1]]).range
     array([5.])
     """
+    def __getstate__(self) -> tuple:
+        ...
     def __init__(self) -> None:
         ...
     def __len__(self) -> int:
         ...
     def __repr__(self) -> str:
+        ...
+    def __setstate__(self, arg0: tuple) -> None:
         ...
     def add(self, mesh: TriangleMesh, pose: Trajectory | numpy.typing.ArrayLike | collections.abc.Callable[[float], numpy.typing.ArrayLike] | None = None, material: str = 'sand', name: str = '', *, scale: typing.SupportsFloat | typing.SupportsIndex = 1.0) -> int:
         """
@@ -2838,6 +3068,19 @@ class World:
         -------
         WorldSnapshot
         """
+    def material(self, name: str | int) -> Material:
+        """
+        A material by its name, or its row in `materials`.
+        
+        Returns
+        -------
+        Material
+        
+        Raises
+        ------
+        ValueError
+            For a name or a row of none.
+        """
     def paint(self, name: str, polygon: numpy.typing.ArrayLike, material: str) -> int:
         """
         Gives those triangles of an object another material whose middle lies within a polygon.
@@ -2855,17 +3098,33 @@ class World:
         int
             How many triangles.
         """
-    def set_material(self, name: str, strength: typing.SupportsFloat | typing.SupportsIndex = 1.0, *, angle: numpy.typing.ArrayLike | None = None, backscatter: numpy.typing.ArrayLike | None = None) -> None:
+    def set_material(self, name: str | Material, strength: typing.SupportsFloat | typing.SupportsIndex = 1.0, *, angle: numpy.typing.ArrayLike | None = None, backscatter: numpy.typing.ArrayLike | None = None, sediment: Sediment | None = None) -> None:
         """
         Adds a material, or replaces the one of that name.
         
         Parameters
         ----------
-        name : str
+        name : str or Material
+            A Material alone says it all.
         strength : float
             μ of Lambert's law σ₀ = μ cos²θ, linear; the paper's K_d.
         angle, backscatter : (K,) arrays, optional
             A measured law: σ₀ [dB] by the angle of incidence [rad], rising.
+        sediment : Sediment, optional
+            For the models that compute σ₀ from it.
+        
+        Raises
+        ------
+        ValueError
+            For an empty name, numbers out of their range, a Material and more.
+        
+        Examples
+        --------
+        >>> import bathyal
+        >>> world = bathyal.World()
+        >>> world.set_material("shell", 0.02, sediment=world.material("gravel").sediment)
+        >>> world.material("shell")
+        Material("shell", -17 dB, sediment)
         """
     def show(self, time: float = 0.0) -> matplotlib.figure.Figure:
         """
@@ -2889,6 +3148,11 @@ class World:
     def names(self) -> list[str]:
         """
         Names of the objects, in the order of the scene's rows.
+        """
+    @property
+    def objects(self) -> list[WorldObject]:
+        """
+        WorldObject of each row of `scene`, as they are now.
         """
     @property
     def scene(self) -> Scene:

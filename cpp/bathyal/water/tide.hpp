@@ -33,6 +33,10 @@ class Tide {
   double height(double time) const;  ///< [m]
   double rate(double time) const;    ///< of the height [m/s]
   double highest() const;            ///< a bound of it, 0 or more [m]
+
+  const std::vector<TideConstituent>& constituents() const { return constituents_; }
+  const std::vector<double>& table_time() const { return time_; }      ///< empty without a table
+  const std::vector<double>& table_height() const { return height_; }  ///< at each time [m]
   bool none() const { return constituents_.empty() && time_.empty(); }
 
  private:

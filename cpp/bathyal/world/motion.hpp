@@ -26,6 +26,7 @@ class Motion {
 
   const Trajectory& trajectory() const { return trajectory_; }  ///< the identity for a function
   bool is_function() const { return static_cast<bool>(function_); }
+  const std::function<Pose(double)>& function() const { return function_; }  ///< empty for others
 
  private:
   Trajectory trajectory_;

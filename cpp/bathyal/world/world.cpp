@@ -47,6 +47,22 @@ bool contains(const std::vector<Eigen::Vector2d>& polygon, const Eigen::Vector2d
   return inside;
 }
 
+void check_surface(const WorldObject& object, std::size_t materials) {
+  const auto check_row = [&](std::int32_t row) {
+    if (row >= 0 && static_cast<std::size_t>(row) < materials) return;
+    throw_argument("surface", "rows of the " + std::to_string(materials) + " materials",
+                   std::to_string(row));
+  };
+  check_row(object.surface.whole);
+  if (!object.surface.of_triangle) return;
+  const std::vector<std::int16_t>& painted = *object.surface.of_triangle;
+  if (painted.size() != static_cast<std::size_t>(object.mesh.triangle_count())) {
+    throw_argument("surface", "a material for each of its triangles",
+                   std::to_string(painted.size()));
+  }
+  for (const std::int16_t row : painted) check_row(row);
+}
+
 bool at_identity(const WorldObject& object) {
   return !object.pose.moves() && object.scale == 1.0 &&
          object.pose.at(0.0).matrix() == Pose::Identity().matrix();
@@ -90,13 +106,22 @@ World::~World() = default;
 
 Index World::add(TriangleMesh mesh, Motion pose, const std::string& material, std::string name,
                  double scale) {
-  check_positive("scale", scale);
   const std::int32_t row = material_row(material);
   if (name.empty()) name = "object_" + std::to_string(objects_.size());
-  if (rows_.count(name) != 0) throw_argument("name", "a name that is not taken", quoted(name));
+  return add(WorldObject{std::move(name), std::move(mesh), std::move(pose), scale, {row, nullptr}});
+}
+
+Index World::add(WorldObject object) {
+  check_positive("scale", object.scale);
+  if (object.name.empty()) throw_argument("name", "a name", "none");
+  if (rows_.count(object.name) != 0) {
+    throw_argument("name", "a name that is not taken", quoted(object.name));
+  }
+  check_surface(object, materials_->size());
   const auto at = static_cast<Index>(objects_.size());
-  rows_.emplace(name, at);
-  objects_.push_back({std::move(name), mesh.snapshot(), std::move(pose), scale, {row, nullptr}});
+  rows_.emplace(object.name, at);
+  object.mesh = object.mesh.snapshot();
+  objects_.push_back(std::move(object));
   built_.reset();
   return at;
 }

@@ -41,6 +41,11 @@ class World {
   Index add(TriangleMesh mesh, Motion pose = {}, const std::string& material = "sand",
             std::string name = {}, double scale = 1.0);
 
+  /// Adds an object with the materials that its surface names by their rows.
+  /// \throw std::invalid_argument for an empty name or one that is taken, a row of no material,
+  ///        another count of triangles, a scale that is not above 0.
+  Index add(WorldObject object);
+
   /// Scatters copies of a mesh over what is there at time 0: rows that share the mesh, named
   /// name_0, name_1 …; all of them, or after an error none.
   /// \return The first of their rows.

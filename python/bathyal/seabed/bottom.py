@@ -28,7 +28,7 @@ from bathyal.seabed.meshes import read_mesh
 from bathyal.seabed.triangulate import triangulate
 
 # Files that hold faces, and files that may hold either.
-MESH_SUFFIXES = (".dae", ".obj", ".stl")
+MESH_SUFFIXES = (".3ds", ".dae", ".glb", ".gltf", ".obj", ".stl")
 EITHER_SUFFIXES = (".ply", ".vtp")
 
 

@@ -15,7 +15,7 @@ from bathyal.errors import argument_error
 from bathyal.io.files import PathLike, known_suffix, reading
 from bathyal.io.formats.attributes import canonical_attributes, columns_of
 from bathyal.io.formats.crs import check_scale, units_of
-from bathyal.io.formats.meshes.assimp import read_with_assimp
+from bathyal.io.formats.meshes.assimp import read_assimp
 from bathyal.io.formats.meshes.collada import read_collada
 from bathyal.io.formats.meshes.obj import read_obj, write_obj
 from bathyal.io.formats.meshes.ply import read_ply, write_ply
@@ -50,22 +50,23 @@ def read_mesh(path: PathLike, *, scale: float | None = None, up: str | None = No
     Parameters
     ----------
     path : path
-        ``.ply``, ``.stl``, ``.obj``, ``.dae`` (COLLADA), ``.vtp``, ``.glb``, ``.gltf`` or ``.3ds``.
+        ``.ply``, ``.stl``, ``.obj``, ``.dae`` (COLLADA) or ``.vtp``; with the extra ``meshes``
+        also ``.glb``, ``.gltf`` and ``.3ds``.
     scale : float, optional
         Metres in one unit of the file. COLLADA says its unit; the others are taken as metres. To be
         said where the file's reference system has another unit, and that system is not kept then.
     up : {"x", "y", "z"}, optional
-        The axis of the file that points up. COLLADA says it, and glTF is y up; the others are taken
+        The axis of the file that points up. COLLADA says it, in glTF it is y; the others are taken
         as z up.
 
     Returns
     -------
     TriangleMesh
         [m], z up. Polygons are cut into triangles. Vertices are those of the file, row for row; in
-        STL, COLLADA, glTF and 3DS, where neighbours need not share vertices, equal ones are merged.
-        Properties of the vertices, colours (0 to 255), the coordinate reference system and the
-        vertical datum ride along where the file has them, but not of glTF and 3DS; properties of
-        faces, normals and textures do not.
+        STL, COLLADA, glTF and 3DS, where neighbours do not share vertices, equal ones are merged.
+        Of the last three all meshes of the scene become one, each in its place. Properties
+        of the vertices, colours (0 to 255), the coordinate reference system and the vertical datum
+        ride along where the file has them; properties of faces, normals and textures do not.
 
     Raises
     ------
@@ -76,7 +77,7 @@ def read_mesh(path: PathLike, *, scale: float | None = None, up: str | None = No
         Where there is no such file, or it may not be read.
     Error
         For a file that is broken, empty, of another format than its suffix says, or without faces,
-        and for positions in longitude and latitude.
+        for positions in longitude and latitude, and where the extra is missing.
 
     Examples
     --------
@@ -198,13 +199,12 @@ def _read_collada(path: PathLike) -> _Surface:
     return _Surface(*surface, unit=scene.unit, up=scene.up_axis[0].lower())
 
 
-def _read_gltf(path: PathLike) -> _Surface:
-    return _Surface(*merged(*read_with_assimp(path)), up="y")
-
-
 def _read_3ds(path: PathLike) -> _Surface:
-    points, triangles = read_with_assimp(path)  # which has turned the file's z up to y up
-    return _Surface(*merged(points @ _Z_UP_FROM["y"].T, triangles))
+    return _Surface(*merged(*read_assimp(path)))
+
+
+def _read_gltf(path: PathLike) -> _Surface:
+    return _Surface(*merged(*read_assimp(path)), up="y")
 
 
 def _read_vtp(path: PathLike) -> _Surface:

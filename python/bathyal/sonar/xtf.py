@@ -46,10 +46,11 @@ def record_of_xtf(data: bytes) -> SonarRecord:
     samples = pings.amplitude.shape[2]
     reach = np.asarray(pings.slant_range)
     range_end = float(np.nanmax(reach)) if np.isfinite(reach).any() else float(samples)
+    step = range_end / max(samples, 1)
     speed = column["sound_speed"]
     speed = speed[np.isfinite(speed) & (speed > 0.0)]
     return SonarRecord(
-        time - start, np.square(pings.amplitude), (np.arange(samples) + 0.5) * range_end / max(samples, 1),
+        time - start, np.square(pings.amplitude), (np.arange(samples) + 0.5) * step,
         tuple(pings.beam_names), navigation, None, None,
         _EPOCH + np.timedelta64(round(1000 * start), "ms"), tuple(_warnings(file, reach)),
         sound_speed=float(np.median(speed)) if len(speed) else 1500.0,

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Any
@@ -11,9 +12,19 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bathyal import _core
-from bathyal._core import Tide, Trajectory, TriangleMesh, Water, Waves, World
+from bathyal._core import (
+    Material,
+    Sediment,
+    Tide,
+    Trajectory,
+    TriangleMesh,
+    Water,
+    Waves,
+    World,
+)
 from bathyal.io.yaml_documents import Place
 from bathyal.io.yaml_files import DocumentFiles
+from bathyal.io.yaml_sections import radians
 from bathyal.seabed.clouds import read_cloud
 from bathyal.seabed.meshes import read_mesh
 from bathyal.seabed.triangulate import triangulate
@@ -50,13 +61,7 @@ class WorldBuilder(DocumentFiles):
         world = World()
         for name, material in sections.materials.items():
             with self.placed((*self.root, "materials", name)):
-                if material.table is not None:
-                    angle, level = np.array(material.table, float).T
-                    world.set_material(name, angle=np.radians(angle), backscatter=level)
-                elif material.strength_db is not None:
-                    world.set_material(name, 10 ** (0.1 * material.strength_db))
-                else:
-                    world.set_material(name, material.strength or 0.0)
+                world.set_material(_material(name, material))
         world.water = self.water(sections.water)
         self.terrain(world, sections.terrain)
         for kind, make in (("pipelines", _core.make_pipeline), ("cables", _core.make_cable)):
@@ -81,17 +86,17 @@ class WorldBuilder(DocumentFiles):
     def water(self, section: own.WaterSection) -> Water:
         """Its profile read from a file, where it names one."""
         place = (*self.root, "water")
-        given = section.model_dump(exclude_none=True, exclude={"profile", "tide", "waves"})
+        given = section.model_dump(exclude_none=True, exclude={"profile", "waves", "tide"})
         if section.profile is not None:
             path = self.file(section.profile, (*place, "profile"))
             with self.placed((*place, "profile")):
                 given["profile"] = read_profile(path)
-        if section.tide is not None:
-            with self.placed((*place, "tide")):
-                given["tide"] = Tide(list(section.tide.items()))
         if section.waves is not None:
             with self.placed((*place, "waves")):
                 given["waves"] = Waves(**_keywords(section.waves))
+        if section.tide is not None:
+            with self.placed((*place, "tide")):
+                given["tide"] = _tide(section.tide)
         with self.placed(place):
             return Water(**given)
 
@@ -171,6 +176,28 @@ class WorldBuilder(DocumentFiles):
             )
             for number, path in enumerate(paths):
                 world.add(mesh, path, "fish", f"{section.name}_{number}")
+
+
+def _material(name: str, section: own.MaterialSection) -> Material:
+    decibels, sediment = section.strength_db, section.sediment
+    return Material(
+        name,
+        (section.strength or 0.0) if decibels is None else 10 ** (0.1 * decibels),
+        angle=radians(section, "angle"),
+        backscatter=section.backscatter_db,
+        sediment=None if sediment is None else Sediment(**sediment.model_dump(exclude_none=True)),
+    )
+
+
+def _tide(section: own.TideSection) -> Tide:
+    if section.constituents is None:
+        return Tide.from_table(section.time or [], section.height or [])
+    return Tide(
+        [
+            (name, (one.amplitude, one.phase or math.radians(one.phase_deg or 0.0)))
+            for name, one in section.constituents.items()
+        ]
+    )
 
 
 def _keywords(values: own.Keywords) -> dict[str, Any]:

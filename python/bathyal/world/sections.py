@@ -50,6 +50,34 @@ class ShapeSection(Section):
         return self
 
 
+class ConstituentSection(Section):
+    """A harmonic of the tide: its amplitude [m] and its phase at time 0."""
+
+    amplitude: NotNegative
+    phase: Number | None = None
+    phase_deg: Number | None = None
+
+    @model_validator(mode="after")
+    def _one_unit(self) -> ConstituentSection:
+        one_of(self, "phase", "phase_deg")
+        return self
+
+
+class TideSection(Section):
+    """Constituents by their names (M2, S2 …), or a table of times [s] and heights [m]."""
+
+    constituents: dict[Name, ConstituentSection] | None = None
+    time: list[Number] | None = None
+    height: list[Number] | None = None
+
+    @model_validator(mode="after")
+    def _one_kind(self) -> TideSection:
+        one_of(self, "constituents", "time", needed=True)
+        if (self.time is None) != (self.height is None):
+            raise ValueError("expected time and height together, got one of them")
+        return self
+
+
 class WaterSection(Section):
     """The water; without `surface` it is out of reach, and the water is the same everywhere."""
 
@@ -59,20 +87,38 @@ class WaterSection(Section):
     sound_speed: Positive | None = None
     profile: FileName | None = None
     current: Vector | None = None
-    tide: dict[Name, tuple[NotNegative, Number]] | None = None
     waves: Keywords | None = None
+    tide: TideSection | None = None
+
+
+class SedimentSection(Section):
+    """Of `bathyal.Sediment`."""
+
+    density_ratio: Positive | None = None
+    speed_ratio: Positive | None = None
+    loss: NotNegative | None = None
+    volume: NotNegative | None = None
+    spectral_exponent: Number | None = None
+    spectral_strength: NotNegative | None = None
 
 
 class MaterialSection(Section):
-    """Of its own: Lambert's strength, linear or in dB, or a table of angle [deg] and σ₀ [dB]."""
+    """Of its own: Lambert's strength, linear or in dB, and for the other models a sediment, or a
+    table of backscatter [dB] by the angle of incidence."""
 
     strength: NotNegative | None = None
     strength_db: Annotated[Number, Field(ge=-200, le=100)] | None = None
-    table: Annotated[list[tuple[Number, Number]], Field(min_length=2)] | None = None
+    angle: list[Number] | None = None
+    angle_deg: list[Number] | None = None
+    backscatter_db: list[Number] | None = None
+    sediment: SedimentSection | None = None
 
     @model_validator(mode="after")
-    def _one_strength(self) -> MaterialSection:
-        one_of(self, "strength", "strength_db", "table", needed=True)
+    def _one_law(self) -> MaterialSection:
+        one_of(self, "strength", "strength_db", needed=True)
+        angle = one_of(self, "angle", "angle_deg")
+        if (angle is None) != (self.backscatter_db is None):
+            raise ValueError("expected angles and backscatter_db together, got one of them")
         return self
 
 

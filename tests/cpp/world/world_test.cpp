@@ -5,7 +5,9 @@
 
 #include <atomic>
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -64,6 +66,35 @@ std::string refusal(const Action& action) {
 
 bool has(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
+}
+
+TEST(World, ObjectsAreAddedWithTheirSurface) {
+  const auto painted = std::make_shared<const std::vector<std::int16_t>>(8, std::int16_t{3});
+  World world;
+  const WorldObject object{"bottom", plane(1), moved(0, 0, 2), 2.0, {1, painted}};
+  EXPECT_EQ(world.add(object), 0);
+  EXPECT_NEAR(height(world.at().scene, 0.3, 0.4), 2.0, kTight);
+  const WorldSnapshot now = world.at();
+  EXPECT_EQ(now.material(now.scene.cast(Vec3(0.3, 0.4, 9.0), -Vec3::UnitZ())), 3);
+
+  const auto said = [&](const auto& change) {
+    WorldObject other = object;
+    other.name = "other";
+    change(other);
+    return refusal([&] { world.add(other); });
+  };
+  EXPECT_NE(said([](WorldObject& o) { o.name = "bottom"; }).find("`name`"), std::string::npos);
+  EXPECT_NE(said([](WorldObject& o) { o.name.clear(); }).find("`name`"), std::string::npos);
+  EXPECT_NE(said([](WorldObject& o) { o.scale = 0.0; }).find("`scale`"), std::string::npos);
+  EXPECT_NE(said([](WorldObject& o) { o.surface.whole = 99; }).find("got 99"), std::string::npos);
+  EXPECT_NE(said([](WorldObject& o) { o.surface.whole = -1; }).find("got -1"), std::string::npos);
+  EXPECT_NE(said([](WorldObject& o) { o.mesh = plane(2); }).find("`surface`"), std::string::npos);
+  EXPECT_NE(said([](WorldObject& o) {
+              o.surface.of_triangle =
+                  std::make_shared<const std::vector<std::int16_t>>(8, std::int16_t{99});
+            }).find("got 99"),
+            std::string::npos);
+  EXPECT_EQ(world.objects().size(), 1U);
 }
 
 TEST(World, ObjectsAreRowsOfTheSceneWithTheirMaterials) {

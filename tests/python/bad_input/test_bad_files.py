@@ -15,7 +15,7 @@ from tests.support.alone import Case, check, refused
 from tests.support.bad_input import ANY, BROKEN, GRID, bottom, written
 
 CLOUDS = (".xyz", ".txt", ".csv", ".asc", ".ply", ".pcd", ".las", ".laz", ".bag", ".tif", ".vtp")
-MESHES = (".ply", ".stl", ".obj", ".dae", ".vtp")
+MESHES = (".ply", ".stl", ".obj", ".dae", ".vtp", ".glb", ".gltf", ".3ds")
 NOISE = bytes(np.random.default_rng(7).integers(0, 256, 5000, dtype=np.uint8))
 TEXT = "".join(f"{x} {y} {z}\n" for x, y, z in GRID.tolist())
 

@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 import pytest
 
@@ -126,10 +128,7 @@ REFUSED = [
     ),
     ("terrain: {seabed: {size: [1e9, 1e9], spacing: 1e-3}}\n", "terrain.seabed: `size`"),
     (FLAT + "materials: {a: {strength_db: 1e6}}\n", "2:17: materials.a.strength_db"),
-    (
-        FLAT + "materials: {a: {}}\n",
-        "materials.a: expected one of strength, strength_db, table, got none",
-    ),
+    (FLAT + "materials: {a: {}}\n", "materials.a: expected one of strength, strength_db, got none"),
     (FLAT + BOX % ", material: cheese", "2:11: objects[0]: `material`: expected one of rock"),
     (FLAT + BOX % ", fish: {length: 1}", "got fish and box"),
     (FLAT + BOX % ", colour: red", "objects[0].colour"),
@@ -187,35 +186,68 @@ def test_files_elsewhere_are_read_where_that_is_meant(folder):
     assert len(read(below, text, inside=folder)) == 1
 
 
-def test_tide_waves_and_tables(tmp_path) -> None:
-    path = tmp_path / "world.yaml"
-    path.write_text(
-        "terrain: {seabed: {size: [20, 20], spacing: 1}}\n"
-        "water:\n  surface: 10\n  tide: {M2: [1.2, 0.0]}\n"
-        "  waves: {height: 1.5, period: 7, seed: 1}\n"
-        "materials:\n  measured: {table: [[0, -8], [60, -26]]}\n"
+def test_tides_and_waves_come_from_the_file(folder):
+    world = read(
+        folder,
+        FLAT
+        + """
+water:
+  surface: 1.5
+  waves: {height: 0.8, period: 6, direction: 0.3, seed: 4}
+  tide: {constituents: {M2: {amplitude: 1.2, phase_deg: 30}, K1: {amplitude: 0.4, phase: 0.5}}}
+""",
     )
-    world = bathyal.read_world(path)
-    assert world.water.tide.height(0.0) == pytest.approx(1.2)
-    assert world.water.waves is not None
-    sonar = bathyal.sonars.side_scan_100khz().replace(backscatter="material")
-    found = sonar.scattering_strength(world, "measured", np.radians([0, 30, 60]))
-    assert 10 * np.log10(found) == pytest.approx([-8, -17, -26])
+    times = np.linspace(0, 90000, 50)
+    tide = bathyal.Tide([("M2", (1.2, math.radians(30))), ("K1", (0.4, 0.5))])
+    waves = bathyal.Waves(height=0.8, period=6, direction=0.3, seed=4)
+    np.testing.assert_array_equal(
+        world.water.surface_height(2.0, 3.0, times),
+        bathyal.Water(surface=1.5, tide=tide, waves=waves).surface_height(2.0, 3.0, times),
+    )
+    table = read(
+        folder, FLAT + "water: {surface: 0, tide: {time: [0, 600, 900], height: [0, 2, 1]}}\n"
+    )
+    assert table.water.surface_height(0, 0, [300, 750, 5000]).tolist() == [1, 1.5, 1]
+
+
+def test_laws_of_materials_come_from_the_file(folder):
+    world = read(
+        folder,
+        FLAT
+        + """
+materials:
+  shell: {strength: 0.02, sediment: {density_ratio: 2.2, spectral_exponent: 3.0}}
+  net: {strength_db: -20, angle_deg: [0, 60], backscatter_db: [-5, -25]}
+""",
+    )
+    sediment = bathyal.Sediment(density_ratio=2.2, spectral_exponent=3.0)
+    assert world.material("shell") == bathyal.Material("shell", 0.02, sediment=sediment)
+    net = world.material("net")
+    assert net.strength == pytest.approx(0.01)
+    np.testing.assert_allclose(net.angle, [0, math.pi / 3])
+    assert net.backscatter.tolist() == [-5, -25]
 
 
 @pytest.mark.parametrize(
-    ("text", "message"),
+    ("text", "reason"),
     [
-        ("water: {tide: {M9: [1, 0]}}\n", "water.tide"),
-        ("water: {tide: {M2: 1}}\n", "water.tide.M2"),
-        ("water: {waves: {heights: 1}}\n", "water.waves"),
-        ("materials: {a: {table: [[0, -8]]}}\n", "materials.a.table"),
-        ("materials: {a: {table: [[60, -8], [0, -9]]}}\n", "materials.a"),
-        ("materials: {a: {table: [[0, -8], [9, 1]], strength: 1}}\n", "materials.a"),
+        ("water: {tide: {constituents: {M2: {amplitude: 1}}}}", "surface"),
+        ("water: {surface: 0, tide: {}}", "one of constituents, time"),
+        ("water: {surface: 0, tide: {time: [0, 1]}}", "time and height together"),
+        ("water: {surface: 0, tide: {time: [1, 0], height: [0, 0]}}", r"water\.tide: `time`"),
+        ("water: {surface: 0, tide: {constituents: {X9: {amplitude: 1}}}}", "M2"),
+        (
+            "water: {tide: {constituents: {M2: {amplitude: 1, phase: 1, phase_deg: 3}}}}",
+            "one of phase, phase_deg",
+        ),
+        ("water: {surface: 0, waves: {height: -1}}", r"water\.waves: `height`"),
+        ("water: {surface: 0, waves: {hight: 1}}", r"water\.waves"),
+        ("materials: {a: {strength: 1, angle: [0, 1]}}", "backscatter_db together"),
+        ("materials: {a: {strength: 1, angle: [1, 0], backscatter_db: [0, 0]}}", "`angle`"),
+        ("materials: {a: {strength: 1, sediment: {spectral_exponent: 9}}}", "`spectral_exponent`"),
+        ("materials: {a: {sediment: {}}}", "one of strength, strength_db"),
     ],
 )
-def test_mistakes_of_tide_waves_and_tables(tmp_path, text, message) -> None:
-    path = tmp_path / "world.yaml"
-    path.write_text(FLAT + text)
-    with pytest.raises(bathyal.Error, match=message.replace(".", r"\.")):
-        bathyal.read_world(path)
+def test_mistakes_in_tides_and_materials_are_found_by_line(folder, text, reason):
+    with pytest.raises(bathyal.Error, match=rf"world\.yaml:\d+:\d+: .*{reason}"):
+        read(folder, FLAT + text + "\n")
