@@ -97,7 +97,7 @@ def test_arguments_are_named(tmp_path):
     path = tmp_path / "a.obj"
     bathyal.write_mesh(cube(), path)
     with pytest.raises(
-        ValueError, match=r"`path`: expected a mesh file \(.dae .obj .ply .stl .vtp"
+        ValueError, match=r"`path`: expected a mesh file \(.3ds .dae .glb .gltf .obj .ply .stl .vtp"
     ):
         bathyal.read_mesh("a.xyz")
     with pytest.raises(ValueError, match="`path`: expected a mesh file"):
