@@ -177,6 +177,8 @@ class SonarRecord:
     ) -> GroundRows:
         """Rows with their slant range corrected, the bottom taken as level across the track.
 
+        First returns that were not found are interpolated over the pings.
+
         Parameters
         ----------
         bottom : BottomTrack, optional

@@ -48,6 +48,18 @@ class BottomTrack:
         return nearest
 
 
+def filled(ranges: Floats) -> Floats:
+    """(P, beams) first returns, those that were not found interpolated over the pings of their
+    beam; a beam without any stays NaN."""
+    made = ranges.copy()
+    rows = np.arange(len(made))
+    for column in made.T:
+        known = np.isfinite(column)
+        if known.any():
+            column[~known] = np.interp(rows[~known], rows[known], column[known])
+    return made
+
+
 @dataclass(frozen=True)
 class GroundRows:
     """Rows of a side-scan laid on a level bottom.
@@ -97,7 +109,7 @@ class Mosaic:
     crs
         Reference system of the coordinates, as "EPSG:32619"; None in a world's own.
     left_out
-        Pings without a position, heading or first return.
+        Pings without a position or heading, or of a record without any first return.
     """
 
     intensity: NDArray[np.float32]
@@ -176,7 +188,7 @@ def to_ground(record: SonarRecord, bottom: BottomTrack, spacing: float | None) -
     length = 2.0 * float(record.range[0])
     step = length if spacing is None else spacing
     power = sidescan_ground(
-        np.asarray(record.intensity), sample_length=length, first=bottom.range, spacing=step
+        np.asarray(record.intensity), sample_length=length, first=filled(bottom.range), spacing=step
     )
     middles = (np.arange(power.shape[2]) + 0.5) * np.float64(step)
     return GroundRows(
@@ -190,7 +202,8 @@ def mosaic_of(record: SonarRecord, bottom: BottomTrack, spacing: float, gap: flo
     ground = to_ground(record, bottom, spacing)
     place, crs = places_of(record.navigation)
     lift = np.nan_to_num(record.navigation.pitch)
-    ahead = bottom.altitude * np.sin(lift)  # with the bow down the fan meets the bottom astern
+    nearest = np.fmin.reduce(filled(bottom.range), axis=1)
+    ahead = nearest * np.sin(lift)  # with the bow down the fan meets the bottom astern
     place = place + np.column_stack(
         [ahead * np.sin(place[:, 2]), ahead * np.cos(place[:, 2]), np.zeros(len(ahead))]
     )

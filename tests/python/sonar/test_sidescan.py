@@ -97,6 +97,19 @@ def test_a_mine_is_where_it_lies(simulated) -> None:
     assert behind.min() < 0.1 * beside
 
 
+def test_first_returns_that_were_not_found_leave_no_stripes(simulated) -> None:
+    bottom = simulated.track_bottom()
+    ranges = bottom.range.copy()
+    ranges[20:30, 0] = np.nan
+    ranges[0] = np.nan
+    holes = bathyal.BottomTrack(ranges, "likelihood")
+    whole, patched = (simulated.mosaic(bottom=b, spacing=0.3) for b in (bottom, holes))
+    known = np.isfinite(patched.intensity).sum()
+    assert known == pytest.approx(np.isfinite(whole.intensity).sum(), rel=0.002)
+    nothing = bathyal.BottomTrack(np.full_like(ranges, np.nan), "likelihood")
+    assert simulated.to_ground(bottom=nothing).intensity.shape[2] == 0
+
+
 @real
 def test_the_mosaic_opens_as_geotiff_in_utm(measured, tmp_path) -> None:
     rasterio = pytest.importorskip("rasterio", reason="rasterio is not installed")
