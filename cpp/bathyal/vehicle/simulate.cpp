@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bathyal/vehicle/simulate.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <array>
+#include <cmath>
+#include <complex>
+#include <limits>
+#include <string>
+
+#include "bathyal/base/check.hpp"
+#include "bathyal/base/error.hpp"
+
+namespace bathyal {
+namespace {
+
+constexpr std::array<const char*, 6> kAxisNames{"surge", "sway", "heave", "roll", "pitch", "yaw"};
+constexpr double kMostSteps = 1e8;
+
+/// Position, quaternion (x, y, z, w) and velocity as one vector.
+using Flat = Eigen::Matrix<double, 13, 1>;
+
+Flat flat_of(const VehicleState& state) {
+  const Eigen::Quaterniond turn(state.world_from_vehicle.linear());
+  Flat flat;
+  flat << state.world_from_vehicle.translation(), turn.coeffs(), state.velocity;
+  return flat;
+}
+
+VehicleState state_of(const Flat& flat) {
+  Eigen::Quaterniond turn(flat.segment<4>(3));
+  turn.normalize();
+  VehicleState state;
+  state.world_from_vehicle.linear() = turn.toRotationMatrix();
+  state.world_from_vehicle.translation() = flat.head<3>();
+  state.velocity = flat.tail<6>();
+  return state;
+}
+
+class Equations {
+ public:
+  Equations(const Vehicle& vehicle, const WrenchFunction& wrench, const FlowFunction& flow,
+            const FreeAxes& free)
+      : vehicle_(vehicle), wrench_(wrench), flow_(flow), free_(free) {}
+
+  Flat rate(double time, const Flat& flat) const {
+    const VehicleState state = state_of(flat);
+    const Flow flow = flow_ ? flow_(state.world_from_vehicle.translation(), time) : Flow();
+    const Vec6 wrench = wrench_ ? wrench_(time, state) : Vec6(Vec6::Zero());
+    const Eigen::Quaterniond turn(flat.segment<4>(3));
+    const Vec3 spin = state.velocity.tail<3>();
+    const Eigen::Quaterniond turned = turn * Eigen::Quaterniond(0.0, spin.x(), spin.y(), spin.z());
+    Flat change;
+    change << state.world_from_vehicle.linear() * state.velocity.head<3>(), 0.5 * turned.coeffs(),
+        vehicle_.acceleration(state, wrench, flow, free_);
+    return change;
+  }
+
+ private:
+  const Vehicle& vehicle_;
+  const WrenchFunction& wrench_;
+  const FlowFunction& flow_;
+  FreeAxes free_;
+};
+
+Flat advanced(const Equations& equations, double time, const Flat& flat, double step) {
+  const Flat k1 = equations.rate(time, flat);
+  const Flat k2 = equations.rate(time + 0.5 * step, flat + 0.5 * step * k1);
+  const Flat k3 = equations.rate(time + 0.5 * step, flat + 0.5 * step * k2);
+  const Flat k4 = equations.rate(time + step, flat + step * k3);
+  Flat next = flat + step / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4);
+  next.segment<4>(3).normalize();
+  return next;
+}
+
+/// |1 + z + z²/2 + z³/6 + z⁴/24|: by how much the method multiplies a mode in a step.
+double growth(std::complex<double> z) {
+  return std::abs(1.0 + z * (1.0 + z * (0.5 + z * (1.0 / 6.0 + z / 24.0))));
+}
+
+/// The largest step at which a mode that dies down, or swings, does so in the method as well.
+double largest_step(std::complex<double> rate) {
+  if (std::abs(rate) < 1e-12 || rate.real() > 1e-9 * std::abs(rate)) {
+    return std::numeric_limits<double>::infinity();
+  }
+  double low = 0.0, high = 6.0 / std::abs(rate);
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (low + high);
+    (growth(middle * rate) <= 1.0 + 1e-12 ? low : high) = middle;
+  }
+  return low;
+}
+
+/// d(attitude, velocity)/dt at a small turn and a small change of velocity.
+Eigen::Matrix<double, 9, 1> change_at(const Vehicle& vehicle, const VehicleState& about,
+                                      const Eigen::Matrix<double, 9, 1>& off, const Vec6& wrench,
+                                      const Flow& flow, const FreeAxes& free) {
+  VehicleState state = about;
+  const Vec3 turn = off.head<3>();
+  const double angle = turn.norm();
+  if (angle > 0.0) {
+    state.world_from_vehicle.linear() = about.world_from_vehicle.linear() *
+                                        Eigen::AngleAxisd(angle, turn / angle).toRotationMatrix();
+  }
+  state.velocity += off.tail<6>();
+  Eigen::Matrix<double, 9, 1> change;
+  change << Vec3(off.tail<3>()), vehicle.acceleration(state, wrench, flow, free);
+  return change;
+}
+
+void check_step(const Vehicle& vehicle, const VehicleState& start, const WrenchFunction& wrench,
+                const FlowFunction& flow, const SimulateOptions& options) {
+  const Vec6 first = wrench ? wrench(options.start, start) : Vec6(Vec6::Zero());
+  const Flow water = flow ? flow(start.world_from_vehicle.translation(), options.start) : Flow();
+  const FastestMode mode = fastest_mode(vehicle, start, first, water, options.free);
+  if (options.step <= mode.step) return;
+  throw_argument("step",
+                 "at most " + to_text(std::floor(mode.step * 1e6) / 1e6) +
+                     " s, the limit of the fastest mode, in " +
+                     kAxisNames[static_cast<std::size_t>(mode.axis)],
+                 to_text(options.step));
+}
+
+}  // namespace
+
+void SimulateOptions::check() const {
+  check_not_negative("duration", duration);
+  check_positive("step", step);
+  check_finite("start", start);
+  if (duration / step > kMostSteps) {
+    throw_argument("step", "one that makes at most 10⁸ steps of the duration", to_text(step));
+  }
+}
+
+FastestMode fastest_mode(const Vehicle& vehicle, const VehicleState& state, const Vec6& wrench,
+                         const Flow& flow, const FreeAxes& free) {
+  Eigen::Matrix<double, 9, 9> slope;
+  constexpr double kOff = 1e-6;
+  for (int j = 0; j < 9; ++j) {
+    Eigen::Matrix<double, 9, 1> off = Eigen::Matrix<double, 9, 1>::Zero();
+    off[j] = kOff;
+    slope.col(j) = (change_at(vehicle, state, off, wrench, flow, free) -
+                    change_at(vehicle, state, -off, wrench, flow, free)) /
+                   (2.0 * kOff);
+  }
+  for (int i = 0; i < 6; ++i) {
+    if (free[static_cast<std::size_t>(i)]) continue;
+    slope.row(3 + i).setZero();
+    slope.col(3 + i).setZero();
+  }
+  const Eigen::EigenSolver<Eigen::Matrix<double, 9, 9>> modes(slope);
+  const Vec6 weights = vehicle.mass_matrix().diagonal().cwiseSqrt();  // by energy
+  FastestMode fastest;
+  fastest.step = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < 9; ++k) {
+    const std::complex<double> rate = modes.eigenvalues()[k];
+    const double step = largest_step(rate);
+    if (!(step < fastest.step)) continue;
+    fastest.step = step;
+    fastest.rate = std::abs(rate);
+    modes.eigenvectors().col(k).tail<6>().cwiseAbs().cwiseProduct(weights).maxCoeff(&fastest.axis);
+  }
+  return fastest;
+}
+
+VehicleMotionRecord simulate(const Vehicle& vehicle, const VehicleState& start,
+                             const WrenchFunction& wrench, const FlowFunction& flow,
+                             const SimulateOptions& options) {
+  options.check();
+  check_rigid("state", start.world_from_vehicle);
+  if (!start.velocity.allFinite()) throw_argument("state", "a finite velocity", "another");
+  check_step(vehicle, start, wrench, flow, options);
+  const Equations equations(vehicle, wrench, flow, options.free);
+  const auto count = static_cast<std::int64_t>(std::ceil(options.duration / options.step - 1e-9));
+  VehicleMotionRecord record;
+  Flat flat = flat_of(start);
+  record.time.push_back(options.start);
+  record.state.push_back(start);
+  for (std::int64_t k = 0; k < count; ++k) {
+    const double from = options.start + static_cast<double>(k) * options.step;
+    const double to = k + 1 == count ? options.start + options.duration
+                                     : options.start + static_cast<double>(k + 1) * options.step;
+    flat = advanced(equations, from, flat, to - from);
+    if (!flat.allFinite()) {
+      throw Error("the motion runs away at " + to_text(to) + " s: its numbers are not finite");
+    }
+    record.time.push_back(to);
+    record.state.push_back(state_of(flat));
+  }
+  return record;
+}
+
+}  // namespace bathyal
