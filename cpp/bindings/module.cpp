@@ -28,6 +28,7 @@ PYBIND11_MODULE(_core, module) {
   bind_survey(module);
   bind_generate(module);
   bind_workspace(module);
+  bind_vehicle(module);
   bind_sonar(module);
   bind_sidescan(module);
   bind_navigation(module);
