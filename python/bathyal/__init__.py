@@ -3,7 +3,7 @@
 
 from importlib.metadata import version as _version
 
-from bathyal import arms, effects, sonars
+from bathyal import arms, effects, sonars, vehicles
 from bathyal._core import (
     Arm,
     ArmFit,
@@ -64,6 +64,8 @@ from bathyal._core import (
     Tracked,
     Trajectory,
     TriangleMesh,
+    Vehicle,
+    VehicleMotion,
     Voxels,
     Water,
     Waves,
@@ -79,6 +81,7 @@ from bathyal._core import (
     depth_from_pressure,
     diagnose,
     eigenrays,
+    ellipsoid_added_mass,
     find_sheets,
     find_targets,
     fish_paths,
@@ -130,6 +133,7 @@ from bathyal.sonar.sidescan import BottomTrack, GroundRows, Mosaic
 from bathyal.sonar.tracks import read_track
 from bathyal.toolpath import methods as _toolpath_methods  # noqa: F401
 from bathyal.toolpath.aims import read_aims
+from bathyal.vehicle.files import read_vehicle
 from bathyal.water import methods as _water_methods  # noqa: F401
 from bathyal.water import teos10 as _teos10  # noqa: F401
 from bathyal.water.casts import read_profile
@@ -219,6 +223,8 @@ __all__ = [
     "Tracked",
     "Trajectory",
     "TriangleMesh",
+    "Vehicle",
+    "VehicleMotion",
     "Voxels",
     "Water",
     "Waves",
@@ -236,6 +242,7 @@ __all__ = [
     "diagnose",
     "effects",
     "eigenrays",
+    "ellipsoid_added_mass",
     "find_sheets",
     "find_targets",
     "fish_paths",
@@ -271,6 +278,7 @@ __all__ = [
     "read_touches",
     "read_track",
     "read_tracked",
+    "read_vehicle",
     "read_world",
     "seawater_density",
     "set_simd_level",
@@ -281,6 +289,7 @@ __all__ = [
     "trace_sound",
     "triangle_material",
     "triangulate",
+    "vehicles",
     "verify_arm",
     "with_link_radii",
     "write_cloud",
