@@ -5143,12 +5143,12 @@ class Vehicle:
     linear_drag : (6, 6) array, optional
         D of the force −D ν.
     quadratic_drag : (6,) array, optional
-        c of the force −c |ν| ν along and about each axis; kept as terms.
+        c of the force −c abs(ν) ν along and about each axis; kept as terms.
     terms : list of (row, a, b, absolute, coefficient)
-        Parts of the force in the direction `row`: coefficient · ν_a · ν_b, of |ν_b| where `absolute`;
+        Parts of the force in the direction `row`: coefficient · ν_a · ν_b, of abs(ν_b) where `absolute`;
         0 to 5 are surge, sway, heave, roll, pitch, yaw.
     parts : (P, 5) array, optional
-        Balls that stand for it where it leaves the water or meets the bottom: centre [m], radius [m],
+        Balls that represent it where it leaves the water or meets the bottom: centre [m], radius [m],
         share of the volume. They balance about the origin. Without any it does neither.
     gravity : float
         [m/s²]
@@ -5259,7 +5259,7 @@ class Vehicle:
         ----------
         **changes
             Keywords of `Vehicle`; `quadratic_drag` takes the place of the terms along and about an axis by
-            its own |ν| ν.
+            its own velocity, squared with its sign.
         
         Returns
         -------

@@ -22,7 +22,7 @@ struct ForceTerm {
   double coefficient = 0.0;
 };
 
-/// A ball that stands for a part of a vehicle where it leaves the water or meets the bottom.
+/// A ball that represents a part of a vehicle where it leaves the water or meets the bottom.
 struct VehiclePart {
   Vec3 center = Vec3::Zero();  ///< in the vehicle's frame [m]
   double radius = 0.0;         ///< [m], above 0

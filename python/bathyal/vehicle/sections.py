@@ -30,7 +30,7 @@ Matrix6 = tuple[Six, Six, Six, Six, Six, Six]
 
 
 class TermSection(Section):
-    """A part of the force along or about `force`: coefficient · ν_a · ν_b, of |ν_b| where
+    """A part of the force along or about `force`: coefficient · ν_a · ν_b, of abs(ν_b) where
     `absolute`."""
 
     force: Axis
@@ -46,7 +46,7 @@ class TermSection(Section):
 
 
 class PartSection(Section):
-    """A ball that stands for the vehicle where it leaves the water or meets the bottom."""
+    """A ball that represents the vehicle where it leaves the water or meets the bottom."""
 
     center: Vector
     radius: Positive
