@@ -5,12 +5,14 @@ from importlib.metadata import version as _version
 
 from bathyal import arms, effects, sonars, vehicles
 from bathyal._core import (
+    BehaviorTree,
     Arm,
     ArmFit,
     Capsule,
     CleanReport,
     CleanResult,
     Clearances,
+    Condition,
     CorrectedArm,
     Current,
     Diagnosis,
@@ -155,11 +157,13 @@ __version__ = _version("bathyal")
 __all__ = [
     "Arm",
     "ArmFit",
+    "BehaviorTree",
     "BottomTrack",
     "Capsule",
     "CleanReport",
     "CleanResult",
     "Clearances",
+    "Condition",
     "CorrectedArm",
     "Current",
     "Diagnosis",
