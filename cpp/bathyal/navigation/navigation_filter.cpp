@@ -12,6 +12,7 @@ namespace bathyal {
 namespace {
 
 constexpr int kInertial = 1, kMotion = 2, kReading = 3;
+constexpr double kLongestHold = 1.0;    // [s], of the last input, for a reading after it
 constexpr double kSameTime = 1e-9;      // [s]
 constexpr double kSnapshotsALag = 8.0;  // late readings repeat up to an eighth of the lag more
 
@@ -127,8 +128,8 @@ void check_reading(const SensorOptions& device, const SensorReading& reading, do
                    std::to_string(reading.count));
   }
   check_finite("reading.time", reading.time);
-  if (reading.kind != SensorKind::imu && reading.time > now + kSameTime) {
-    throw_argument("reading.time", "at most " + to_text(now) + " s, the filter's time",
+  if (reading.kind != SensorKind::imu && reading.time > now + kLongestHold) {
+    throw_argument("reading.time", "at most a second after the filter's, " + to_text(now) + " s",
                    to_text(reading.time));
   }
   if (!reading.valid) return;

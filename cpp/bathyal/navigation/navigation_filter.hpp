@@ -109,9 +109,11 @@ class NavigationFilter {
   void predict_motion(NavigationState& state, double time, const Eigen::Quaterniond& attitude,
                       const Vec3& velocity, std::vector<NavigationStep>* record = nullptr) const;
 
-  /// By a reading of a device, at the reading's own time: what came since is done again.
+  /// By a reading of a device, at the reading's own time: what came since is done again; until a
+  /// time ahead of the last input, that input holds. One of an imu predicts. Kinds that say nothing
+  /// of the motion, and readings that are not valid or older than the lag, change nothing.
   /// \throw std::invalid_argument for a device that is none of the options', a reading of another
-  ///        kind, one from the future, or values that are not finite
+  ///        kind, one more than a second ahead, or values that are not finite
   NavigationUpdate update(NavigationState& state, int device, const SensorReading& reading,
                           std::vector<NavigationStep>* record = nullptr) const;
 

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "bathyal/navigation/navigation_state_bytes.hpp"
+#include "bathyal/navigation/navigation_track.hpp"
 #include "navigation/simulated_run.hpp"
 
 namespace bathyal {
@@ -123,25 +125,65 @@ TEST(NavigationFilter, TheGateRefusesOutliers) {
 }
 
 /// A run that is saved in the middle goes on to the same bytes.
-TEST(NavigationFilter, ItsStateIsAllItRemembers) {
+TEST(NavigationFilter, ItsBytesAreAllItRemembers) {
   NavigationOptions options = usual_options();
   options.lag = 1.0;
   const NavigationFilter filter(options);
-  const auto first = [&] {
-    NavigationState state = wrong_start(filter, 5);
-    test::run(filter, state, 5, 4.0, [](const auto&, const auto&, const auto&) {});
-    return state;
-  };
-  NavigationState one = first(), two = first();
+  NavigationState one = wrong_start(filter, 5);
+  test::run(filter, one, 5, 4.0, [](const auto&, const auto&, const auto&) {});
+  const std::string bytes = to_bytes(one);
+  NavigationState two = navigation_state_of(bytes);
+  EXPECT_EQ(to_bytes(two), bytes);
   const NavigationFilter other(options);
   for (int k = 201; k < 400; ++k) {
-    SensorReading imu = ideal_reading(options.devices[0], truth_at(k / 50.0));
+    const SensorReading imu = ideal_reading(options.devices[0], truth_at(k / 50.0));
     filter.update(one, 0, imu);
     other.update(two, 0, imu);
+    if (k % 50 != 0) continue;
+    const SensorReading fix = ideal_reading(options.devices[4], truth_at(k / 50.0 - 0.6));
+    EXPECT_TRUE(filter.update(one, 4, fix).accepted);
+    EXPECT_TRUE(other.update(two, 4, fix).accepted);
   }
-  EXPECT_EQ(one.now.covariance, two.now.covariance);
-  EXPECT_EQ(one.now.position, two.now.position);
+  EXPECT_EQ(to_bytes(one), to_bytes(two));
   EXPECT_LT(one.inputs.size(), 80U);  // of a second, and an eighth more
+}
+
+TEST(NavigationFilter, BytesThatAreNoneOfItsAreRefused) {
+  const NavigationFilter filter(usual_options());
+  const std::string bytes = to_bytes(filter.start(0.0, Pose::Identity()));
+  EXPECT_THROW(navigation_state_of(""), std::invalid_argument);
+  EXPECT_THROW(navigation_state_of(bytes + "x"), std::invalid_argument);
+  for (const std::size_t cut : {std::size_t{40}, bytes.size() / 2, bytes.size() - 1}) {
+    EXPECT_THROW(navigation_state_of(bytes.substr(0, cut)), std::invalid_argument);
+  }
+  std::string many = bytes;  // a count that no memory holds
+  many.replace(many.size() - 8, 8, 8, '\xff');
+  EXPECT_THROW(navigation_state_of(many), std::invalid_argument);
+}
+
+TEST(NavigationFilter, ReadingsAreRunAsTheyArrive) {
+  NavigationOptions options = usual_options();
+  options.lag = 2.0;
+  options.devices[4].latency = 1.3;
+  const NavigationFilter filter(options);
+  NavigationState one = wrong_start(filter, 5), two = one;
+  test::run(filter, one, 5, 6.5, [](const auto&, const auto&, const auto&) {});
+  std::vector<DeviceReadings> readings;
+  for (int d = 0; d < 5; ++d) {
+    const SensorOptions& device = options.devices[static_cast<std::size_t>(d)];
+    DeviceReadings all{d, {}};
+    SensorState sensor;
+    while (next_time(device, sensor) < 6.5001) {
+      const auto reading = sample(device, sensor, truth_at(next_time(device, sensor)), 5);
+      if (reading->arrival < 6.5001) all.readings.push_back(*reading);
+    }
+    readings.push_back(all);
+  }
+  const FilterRun run = run_readings(filter, two, readings, 5);
+  EXPECT_EQ(run.estimate.size(), 66U);
+  EXPECT_LT((one.now.position - two.now.position).norm(), 1e-9);
+  EXPECT_EQ(run.updates[4].accepted, (std::vector<bool>{true, true}));
+  EXPECT_EQ(run.updates[1].nis.size(), 33U);
 }
 
 TEST(NavigationFilter, KindsThatSayNothingOfTheMotionAreNotUsed) {
