@@ -58,8 +58,8 @@ class ByteReader {
 };
 
 template <class Archive, class Value>
-  requires(std::is_arithmetic_v<Value> || std::is_enum_v<Value>)
-void archive(Archive& a, Value& value) {
+requires(std::is_arithmetic_v<Value> || std::is_enum_v<Value>) void archive(Archive& a,
+                                                                            Value& value) {
   a.raw(&value, sizeof value);
 }
 
