@@ -52,11 +52,11 @@ class Condition::Parser {
 
  private:
   [[noreturn]] void fail(const std::string& expected) const {
-    const std::string got =
-        at_ >= text_.size() ? "the end" : "'" + std::string(text_.substr(at_, 20)) + "'";
-    throw_argument("condition", expected,
-                   got + " at column " + std::to_string(at_ + 1) + " of '" +
-                       std::string(text_.substr(0, 80)) + "'");
+    std::string got = "the end";
+    if (at_ < text_.size()) got.assign("'").append(text_.substr(at_, 20)).append("'");
+    got.append(" at column ").append(std::to_string(at_ + 1));
+    got.append(" of '").append(text_.substr(0, 80)).append("'");
+    throw_argument("condition", expected, got);
   }
 
   void skip() {

@@ -41,7 +41,9 @@ FaultKind fault_kind(std::string_view name) {
     all += all.empty() ? "" : ", ";
     all += known;
   }
-  throw_argument("fault", "one of " + all, "'" + std::string(name.substr(0, 60)) + "'");
+  std::string got("'");
+  got.append(name.substr(0, 60)).append("'");
+  throw_argument("fault", all.insert(0, "one of "), got);
 }
 
 RandomStream keyed_stream(std::uint64_t seed, std::string_view device, std::uint64_t channel,

@@ -36,8 +36,9 @@ void check_fault(const MissionPlan& plan, const MissionFault& fault) {
                     (drive && of_drive(fault.kind)) || (battery && fault.kind == FaultKind::kSag) ||
                     (fault.device == "hull" && fault.kind == FaultKind::kLeak);
   const bool known = named(plan.sensors) || drive || battery || fault.device == "hull";
-  if (!known) throw_argument("fault device", "a device of the vehicle", "'" + fault.device + "'");
-  if (!fits) throw_argument("fault kind", "one that " + fault.device + " may have", "another");
+  if (!known) throw_argument("fault device", "a device of the vehicle", fault.device);
+  if (!fits)
+    throw_argument("fault kind", "one that the device may have", "another of " + fault.device);
   check_finite("fault size", fault.size);
   if (std::isnan(fault.at) || fault.at < 0.0) {
     throw_argument("fault at", "a time of 0 or more", to_text(fault.at));
@@ -79,12 +80,12 @@ void MissionPlan::check() const {
   for (const SensorOptions& sensor : sensors) {
     sensor.check();
     if (!names.insert(sensor.name).second) {
-      throw_argument("sensors", "names that differ", "'" + sensor.name + "' twice");
+      throw_argument("sensors", "names that differ", sensor.name);
     }
   }
   for (const ThrusterOptions& thruster : vehicle.thrusters) {
     if (!names.insert(thruster.name).second) {
-      throw_argument("thrusters", "names that differ", "'" + thruster.name + "' twice");
+      throw_argument("thrusters", "names that differ", thruster.name);
     }
   }
   for (const MissionCommand& command : commands) command.check();
@@ -103,7 +104,7 @@ void MissionPlan::check() const {
   check_not_negative("weight_of_leak", weight_of_leak);
   check_rigid("start", start.world_from_vehicle);
   if (!start.velocity.allFinite()) throw_argument("start", "a finite velocity", "another");
-  const double largest = Environment(water, scene).largest_step(Vehicle(vehicle.vehicle));
+  const double largest = Environment(water, scene, contact).largest_step(Vehicle(vehicle.vehicle));
   if (step > largest) {
     throw_argument("step", "at most " + to_text(largest) + " s, the limit of contact",
                    to_text(step));

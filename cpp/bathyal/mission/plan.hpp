@@ -95,7 +95,8 @@ struct MissionPlan {
   std::vector<SensorOptions> sensors = {};
   NavigationOptions navigation = {};  ///< its devices are the sensors
   Water water = {};
-  std::optional<Scene> scene = {};  ///< bottom and objects, at rest
+  std::optional<Scene> scene = {};               ///< bottom and objects, at rest
+  ContactOptions contact = {.frequency = 20.0};  ///< soft enough for the step
   VehicleState start = {};
   std::vector<MissionCommand> commands = {};  ///< leaves, by number
   TreeNode root = {};

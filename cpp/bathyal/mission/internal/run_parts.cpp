@@ -12,6 +12,7 @@
 namespace bathyal {
 namespace {
 
+constexpr double kSilence = 0.5;  // of a velocity log, before its last value is taken again [s]
 constexpr double kTelemetryNoise = 0.005;  // share of a propeller's speed as its motor reports it
 
 NavigationOptions with_devices(const MissionPlan& plan) {
@@ -71,7 +72,7 @@ MissionRun::Parts::Parts(std::shared_ptr<const MissionPlan> given, std::uint64_t
       system(plan->vehicle),
       pilot(*system, plan->pilot),
       filter(with_devices(*plan)),
-      environment(plan->water, plan->scene),
+      environment(plan->water, plan->scene, plan->contact),
       tree(plan->root),
       responses(responses_of(*plan)),
       names(mission_signals(plan->vehicle, plan->sensors)),
@@ -109,7 +110,11 @@ void MissionRun::Parts::emit(const char* kind, std::string text) {
 
 VehicleState MissionRun::Parts::estimated() const {
   VehicleState found;
-  found.world_from_vehicle = state.navigation.now.world_from_vehicle();
+  const NavigationEstimate& now = state.navigation.now;
+  const double since = std::max(0.0, time() - now.time);
+  found.world_from_vehicle.linear() = Eigen::Quaterniond(state.attitude).toRotationMatrix();
+  found.world_from_vehicle.translation() =
+      now.position + since * (found.world_from_vehicle.linear() * state.velocity);
   found.velocity << state.velocity, state.spin;
   return found;
 }
@@ -199,7 +204,13 @@ void MissionRun::Parts::deliver() {
       std::stable_partition(state.pending.begin(), state.pending.end(),
                             [now](const PendingReading& p) { return p.reading.arrival <= now; });
   std::stable_sort(state.pending.begin(), due, [](const auto& a, const auto& b) {
-    return a.reading.arrival < b.reading.arrival;
+    const auto later = [](SensorKind kind) {  // what says how it moves comes first
+      return kind == SensorKind::imu || kind == SensorKind::compass ? 0
+             : kind == SensorKind::dvl                              ? 1
+                                                                    : 2;
+    };
+    return std::pair(a.reading.arrival, later(a.reading.kind)) <
+           std::pair(b.reading.arrival, later(b.reading.kind));
   });
   for (auto at = state.pending.begin(); at != due; ++at) take(*at);
   state.pending.erase(state.pending.begin(), due);
@@ -228,6 +239,7 @@ void MissionRun::Parts::take(const PendingReading& pending) {
         const Vec3 arm = sensor.vehicle_from_sensor.translation();
         state.velocity = mount * first - state.spin.cross(arm);
         state.velocity_time = reading.time;
+        reckon(reading.time);
         break;
       }
       case SensorKind::altimeter:
@@ -244,6 +256,14 @@ void MissionRun::Parts::take(const PendingReading& pending) {
   watchers.reading(state.watchers, pending.device, line.latest, reading,
                    updated ? &update : nullptr, reports);
   line.latest = reading;
+}
+
+/// By a velocity of the log; where it is silent, by the last one again.
+void MissionRun::Parts::reckon(double measured) {
+  const NavigationEstimate& now = state.navigation.now;
+  const double at = measured > now.time || now.input == 0 ? measured : time();
+  if (at <= now.time && now.input != 0) return;
+  filter.predict_motion(state.navigation, at, Eigen::Quaterniond(state.attitude), state.velocity);
 }
 
 void MissionRun::Parts::watch() {
@@ -266,12 +286,14 @@ void MissionRun::Parts::update_signals() {
     state.signals[static_cast<std::size_t>(signal)] = value;
   };
   const NavigationEstimate& now = state.navigation.now;
-  const Eigen::Matrix3d turn = now.world_from_vehicle().linear();
+  const Pose here = estimated().world_from_vehicle;
+  const Vec3 place = here.translation();
+  const Eigen::Matrix3d turn = here.linear();
   set(Signal::kTime, time());
-  set(Signal::kDepth, plan->water.surface().value_or(0.0) - now.position.z());
-  set(Signal::kX, now.position.x());
-  set(Signal::kY, now.position.y());
-  set(Signal::kZ, now.position.z());
+  set(Signal::kDepth, plan->water.surface().value_or(0.0) - place.z());
+  set(Signal::kX, place.x());
+  set(Signal::kY, place.y());
+  set(Signal::kZ, place.z());
   set(Signal::kHeading, std::atan2(turn(1, 0), turn(0, 0)));
   set(Signal::kRoll, std::atan2(turn(2, 1), turn(2, 2)));
   set(Signal::kPitch, std::atan2(-turn(2, 0), std::hypot(turn(2, 1), turn(2, 2))));
@@ -366,7 +388,7 @@ double MissionRun::Parts::height_of(const MissionCommand& command) const {
   if (command.depth) return surface - *command.depth;
   if (command.altitude) {
     const double measured = state.signals[static_cast<std::size_t>(Signal::kAltitude)];
-    const double z = state.navigation.now.position.z();
+    const double z = estimated().world_from_vehicle.translation().z();
     if (!std::isnan(measured)) return std::min(z - measured + *command.altitude, surface);
     return z;
   }
@@ -388,7 +410,7 @@ void MissionRun::Parts::aim_at_points(const MissionCommand& command, const LeafS
 }
 
 NodeStatus MissionRun::Parts::follow(const MissionCommand& command, LeafState& leaf) {
-  const Eigen::Vector2d place = state.navigation.now.position.head<2>();
+  const Eigen::Vector2d place = estimated().world_from_vehicle.translation().head<2>();
   const Eigen::Vector2d line = state.target.to - state.target.from;
   const double length = line.norm();
   const bool near = (state.target.to - place).norm() < command.tolerance;
@@ -406,7 +428,7 @@ NodeStatus MissionRun::Parts::follow(const MissionCommand& command, LeafState& l
 }
 
 NodeStatus MissionRun::Parts::reach_height(const MissionCommand& command, LeafState& leaf) {
-  const double off = std::abs(state.navigation.now.position.z() - state.target.z);
+  const double off = std::abs(estimated().world_from_vehicle.translation().z() - state.target.z);
   return held_for(leaf, off < std::min(command.tolerance, 0.5), 2.0) ? NodeStatus::kSuccess
                                                                      : NodeStatus::kRunning;
 }
@@ -435,7 +457,8 @@ NodeStatus MissionRun::Parts::update(int leaf) {
       const double since = time() - own.since;
       extra = interpolated(command, since);
       sampling = true;
-      const Eigen::Vector2d off = state.navigation.now.position.head<2>() - state.target.to;
+      const Eigen::Vector2d off =
+          estimated().world_from_vehicle.translation().head<2>() - state.target.to;
       if (off.norm() > command.tolerance)
         found = NodeStatus::kFailure;
       else if (since < command.wrench_time.back())
@@ -536,7 +559,7 @@ void MissionRun::Parts::account(double before_x, double before_y, double before_
   sums.distance += (place - Vec3(before_x, before_y, before_z)).norm();
   sums.deepest = std::max(sums.deepest, plan->water.surface().value_or(0.0) - place.z());
   if (!std::isnan(altitude)) sums.least_altitude = std::min(sums.least_altitude, altitude);
-  const double error = (state.navigation.now.position - place).head<2>().norm();
+  const double error = (estimated().world_from_vehicle.translation() - place).head<2>().norm();
   sums.squared_error += error * error;
   sums.largest_error = std::max(sums.largest_error, error);
 }
@@ -566,12 +589,8 @@ bool MissionRun::Parts::step(const LiveInputs& inputs) {
   }
   update_faults_now();
   deliver();
-  const double log_time =
-      state.velocity_time > state.navigation.now.time ? state.velocity_time : time();
-  if (log_time > state.navigation.now.time || state.navigation.now.input == 0) {
-    filter.predict_motion(state.navigation, log_time, Eigen::Quaterniond(state.attitude),
-                          state.velocity);
-  }
+  const bool silent = time() > std::max(0.0, state.velocity_time) + kSilence;
+  if (silent || state.navigation.now.input == 0) reckon(time());
   watch();
   update_signals();
   decide();
@@ -594,11 +613,15 @@ bool MissionRun::Parts::step(const LiveInputs& inputs) {
 }
 
 std::string MissionRun::Parts::fingerprint() const {
-  std::string text = plan->name + "|" + plan->vehicle.vehicle.name;
-  for (const auto& sensor : plan->sensors) text += "|" + sensor.name;
-  for (const auto& command : plan->commands) text += "|" + command.name;
-  for (const auto& fault : plan->faults) text += "|" + fault.device;
-  return text + "|" + to_text(plan->step) + "|" + std::to_string(plan->steps_per_tick);
+  std::string text = plan->name;
+  text.append("|").append(plan->vehicle.vehicle.name);
+  const auto put = [&text](const std::string& part) { text.append("|").append(part); };
+  for (const auto& sensor : plan->sensors) put(sensor.name);
+  for (const auto& command : plan->commands) put(command.name);
+  for (const auto& fault : plan->faults) put(fault.device);
+  put(to_text(plan->step));
+  put(std::to_string(plan->steps_per_tick));
+  return text;
 }
 
 }  // namespace bathyal

@@ -57,6 +57,7 @@ struct MissionRun::Parts final : TreeLeaves {
   void sense(double at, const Vec6& acceleration);
   void deliver();
   void take(const PendingReading& pending);
+  void reckon(double measured);
   void watch();
   void update_signals();
   void decide();
