@@ -27,6 +27,7 @@ void bind_world(pybind11::module_& module);
 void bind_survey(pybind11::module_& module);  // of the room world, as the next one
 void bind_generate(pybind11::module_& module);
 void bind_workspace(pybind11::module_& module);
+void bind_behavior_tree(pybind11::module_& module);
 void bind_vehicle(pybind11::module_& module);
 void bind_sonar(pybind11::module_& module);
 void bind_sidescan(pybind11::module_& module);

@@ -29,6 +29,7 @@ PYBIND11_MODULE(_core, module) {
   bind_generate(module);
   bind_workspace(module);
   bind_vehicle(module);
+  bind_behavior_tree(module);
   bind_sonar(module);
   bind_sidescan(module);
   bind_navigation(module);

@@ -11,8 +11,10 @@
 
 #include "arrays.hpp"
 #include "bathyal/base/error.hpp"
+#include "bathyal/vehicle/from_mesh.hpp"
 #include "bathyal/vehicle/presets.hpp"
 #include "bathyal/vehicle/simulate.hpp"
+#include "bathyal/world/world.hpp"
 #include "bindings.hpp"
 #include "rigid_body.hpp"
 #include "vehicle_docs.hpp"
@@ -21,7 +23,10 @@ namespace bathyal::python {
 namespace {
 
 using TermTuple = std::tuple<int, int, int, bool, double>;
-using FreeList = std::optional<std::array<bool, 6>>;
+using FreeLike = py::typing::Optional<py::typing::Iterable<py::bool_>>;
+using OptionalWorld = py::typing::Optional<World>;
+using KeywordValue =
+    py::typing::Union<py::float_, py::str, ArrayLike, py::typing::List<TermTuple>, py::none>;
 using StateLike = py::typing::Union<ArrayLike, py::typing::Tuple<ArrayLike, ArrayLike>>;
 using ThrustLike =
     py::typing::Union<ArrayLike, py::typing::Callable<ArrayLike(py::float_, py::array, py::array)>>;
@@ -33,7 +38,9 @@ Vec6 vec6_argument(std::string_view name, const py::object& object) {
   if (values.rows() != 6) {
     throw_argument(name, "real numbers of shape (6,)", std::to_string(values.rows()) + " numbers");
   }
-  return Eigen::Map<const Vec6>(values.data());
+  const Vec6 result = Eigen::Map<const Vec6>(values.data());
+  if (!result.allFinite()) throw_argument(name, "finite numbers", "others");
+  return result;
 }
 
 Mat6 mat6_argument(std::string_view name, const py::object& object) {
@@ -53,21 +60,125 @@ py::array mat6_to_numpy(const Mat6& matrix) {
   return to_numpy(std::move(values), {6});
 }
 
+std::vector<VehiclePart> parts_argument(const py::object& object) {
+  std::vector<VehiclePart> parts;
+  if (object.is_none()) return parts;
+  const auto rows = table_argument("parts", object, 5);
+  for (Index i = 0; i < rows.rows(); ++i) {
+    parts.push_back({Vec3(rows(i, 0), rows(i, 1), rows(i, 2)), rows(i, 3), rows(i, 4)});
+  }
+  return parts;
+}
+
 Vehicle made(double mass, const ArrayLike& inertia, const ArrayLike& center_of_mass, double volume,
              const OptionalArray& added_mass, const OptionalArray& linear_drag,
-             const std::vector<TermTuple>& terms, double gravity, double water_density,
-             const std::string& name) {
+             const OptionalArray& quadratic_drag, const std::vector<TermTuple>& terms,
+             const OptionalArray& parts, double gravity, double water_density,
+             const std::string& name, bool z_down) {
   VehicleOptions options;
   options.name = name;
-  options.body = rigid_body_arguments(mass, center_of_mass, inertia, volume, py::none());
+  options.body =
+      rigid_body_arguments(mass, center_of_mass, inertia, volume, py::make_tuple(0.0, 0.0, 0.0));
   options.added_mass = mat6_argument("added_mass", added_mass);
   options.linear_drag = mat6_argument("linear_drag", linear_drag);
+  if (!quadratic_drag.is_none()) {
+    const Vec6 drag = vec6_argument("quadratic_drag", quadratic_drag);
+    for (int i = 0; i < 6; ++i) options.terms.push_back({i, i, i, true, -drag[i]});
+  }
   for (const auto& [row, a, b, absolute, coefficient] : terms) {
     options.terms.push_back({row, a, b, absolute, coefficient});
   }
+  options.parts = parts_argument(parts);
   options.gravity = gravity;
   options.water_density = water_density;
-  return Vehicle(std::move(options));
+  return Vehicle(z_down ? from_z_down(std::move(options)) : std::move(options));
+}
+
+py::list terms_of(const Vehicle& vehicle) {
+  py::list all;
+  for (const ForceTerm& t : vehicle.options().terms) {
+    all.append(py::make_tuple(t.row, t.a, t.b, t.absolute, t.coefficient));
+  }
+  return all;
+}
+
+py::array parts_of(const Vehicle& vehicle) {
+  std::vector<double> values;
+  for (const VehiclePart& part : vehicle.options().parts) {
+    values.insert(values.end(), part.center.begin(), part.center.end());
+    values.push_back(part.radius);
+    values.push_back(part.volume);
+  }
+  return to_numpy(std::move(values), {5});
+}
+
+py::array center_of_mass_of(const Vehicle& vehicle) {
+  const Vec3& center = vehicle.options().body.center_of_mass;
+  return to_numpy(std::vector<double>(center.begin(), center.end()));
+}
+
+/// The keywords that make it anew.
+py::dict keywords_of(const Vehicle& vehicle) {
+  const VehicleOptions& options = vehicle.options();
+  py::dict all;
+  all["mass"] = options.body.mass;
+  all["inertia"] = to_numpy(options.body.inertia);
+  all["center_of_mass"] = center_of_mass_of(vehicle);
+  all["volume"] = options.body.volume;
+  all["added_mass"] = mat6_to_numpy(options.added_mass);
+  all["linear_drag"] = mat6_to_numpy(options.linear_drag);
+  all["terms"] = terms_of(vehicle);
+  all["parts"] = options.parts.empty() ? py::object(py::none()) : py::object(parts_of(vehicle));
+  all["gravity"] = options.gravity;
+  all["water_density"] = options.water_density;
+  all["name"] = options.name;
+  return all;
+}
+
+Vehicle from_keywords(const py::dict& all) {
+  return py::type::of<Vehicle>()(**all).cast<Vehicle>();
+}
+
+py::list terms_but_own_axis(const Vehicle& vehicle) {
+  VehicleOptions options = vehicle.options();
+  std::erase_if(options.terms,
+                [](const ForceTerm& t) { return t.row == t.a && t.a == t.b && t.absolute; });
+  return terms_of(Vehicle(std::move(options)));
+}
+
+Vehicle replaced(const Vehicle& vehicle, const py::KWArgs<KeywordValue>& changes) {
+  py::dict all = keywords_of(vehicle);
+  if (changes.contains("quadratic_drag")) all["terms"] = terms_but_own_axis(vehicle);
+  all["quadratic_drag"] = py::none();
+  for (const auto& [key, value] : changes) {
+    if (!all.contains(key)) {
+      std::string names;
+      for (const auto& entry : all) {
+        names += (names.empty() ? "" : ", ") + entry.first.cast<std::string>();
+      }
+      throw_argument(key.cast<std::string>(), "one of " + names, "a name that is not known");
+    }
+    all[key] = value;
+  }
+  return from_keywords(all);
+}
+
+py::tuple from_mesh(const TriangleMesh& mesh, std::optional<double> mass,
+                    const OptionalArray& center_of_mass, const OptionalArray& inertia,
+                    const OptionalArray& drag_coefficient, double gravity, double water_density) {
+  FromMeshOptions options;
+  options.mass = mass;
+  if (!center_of_mass.is_none()) {
+    options.center_of_mass = vector_argument("center_of_mass", center_of_mass);
+  }
+  if (!inertia.is_none()) options.inertia = square_argument("inertia", inertia, 3);
+  if (!drag_coefficient.is_none()) {
+    options.drag_coefficient = vector_argument("drag_coefficient", drag_coefficient);
+  }
+  options.gravity = gravity;
+  options.water_density = water_density;
+  const VehicleFromMesh found = vehicle_from_mesh(mesh, options);
+  return py::make_tuple(Vehicle(found.options), to_numpy(found.vehicle_from_mesh));
 }
 
 VehicleState state_argument(const py::object& object) {
@@ -110,16 +221,47 @@ FlowFunction flow_argument(const py::object& object) {
   };
 }
 
+FreeAxes free_argument(const py::object& object) {
+  if (object.is_none()) return kAllFree;
+  FreeAxes free{};
+  std::size_t count = 0;
+  if (py::isinstance<py::iterable>(object)) {
+    for (const py::handle value : object) {
+      const bool fits = PyBool_Check(value.ptr()) != 0 ||
+                        py::str(py::type::of(value).attr("__name__")).cast<std::string>() == "bool";
+      if (!fits) throw_argument("free", "six bools", py::repr(value).cast<std::string>());
+      if (count < free.size()) free[count] = py::bool_(py::reinterpret_borrow<py::object>(value));
+      ++count;
+    }
+  }
+  if (count != free.size()) throw_argument("free", "six bools", std::to_string(count) + " of them");
+  return free;
+}
+
+/// As the world is at time 0.
+std::shared_ptr<const Environment> environment_of(const OptionalWorld& given) {
+  if (given.is_none()) return nullptr;
+  const auto world = given.cast<std::shared_ptr<World>>();
+  std::optional<Scene> scene;
+  if (!world->objects().empty()) {
+    const py::gil_scoped_release unlocked;
+    scene = world->at(0.0).scene;
+  }
+  return std::make_shared<Environment>(world->water(), scene);
+}
+
 VehicleMotionRecord simulated(const Vehicle& vehicle, const StateLike& state,
                               const ThrustLike& thrust, double duration, double step,
-                              const CurrentLike& current, const FreeList& free) {
+                              const CurrentLike& current, const FreeLike& free,
+                              const OptionalWorld& world) {
   SimulateOptions options;
   options.duration = duration;
   options.step = step;
-  options.free = free.value_or(kAllFree);
+  options.free = free_argument(free);
   const VehicleState start = state_argument(state);
   const WrenchFunction wrench = wrench_argument(thrust);
   const FlowFunction flow = flow_argument(current);
+  options.environment = environment_of(world);
   const py::gil_scoped_release unlocked;
   return simulate(vehicle, start, wrench, flow, options);
 }
@@ -165,9 +307,15 @@ void bind_vehicle(py::module_& module) {
   py::class_<Vehicle>(module, "Vehicle", vehicle_docs::kVehicle)
       .def(py::init(&made), py::kw_only(), py::arg("mass"), py::arg("inertia"),
            py::arg("center_of_mass"), py::arg("volume"), py::arg("added_mass") = py::none(),
-           py::arg("linear_drag") = py::none(), py::arg("terms") = std::vector<TermTuple>{},
+           py::arg("linear_drag") = py::none(), py::arg("quadratic_drag") = py::none(),
+           py::arg("terms") = std::vector<TermTuple>{}, py::arg("parts") = py::none(),
            py::arg("gravity") = 9.80665, py::arg("water_density") = 1025.0,
-           py::arg("name") = "vehicle")
+           py::arg("name") = "vehicle", py::arg("z_down") = false)
+      .def_static("from_mesh", &from_mesh, py::arg("mesh"), py::kw_only(),
+                  py::arg("mass") = py::none(), py::arg("center_of_mass") = py::none(),
+                  py::arg("inertia") = py::none(), py::arg("drag_coefficient") = py::none(),
+                  py::arg("gravity") = 9.80665, py::arg("water_density") = 1025.0,
+                  vehicle_docs::kFromMesh)
       .def_static(
           "remus100", [](bool equal) { return Vehicle(remus100(equal)); },
           py::arg("equal_cross_flow") = false, "`bathyal.vehicles.remus100`.")
@@ -179,13 +327,7 @@ void bind_vehicle(py::module_& module) {
           "mass", [](const Vehicle& v) { return v.options().body.mass; }, "[kg]")
       .def_property_readonly(
           "volume", [](const Vehicle& v) { return v.options().body.volume; }, "[m³]")
-      .def_property_readonly(
-          "center_of_mass",
-          [](const Vehicle& v) {
-            const Vec3& center = v.options().body.center_of_mass;
-            return to_numpy(std::vector<double>(center.begin(), center.end()));
-          },
-          "(3,) [m]")
+      .def_property_readonly("center_of_mass", &center_of_mass_of, "(3,) [m]")
       .def_property_readonly(
           "inertia", [](const Vehicle& v) { return to_numpy(v.options().body.inertia); },
           "(3, 3) about the centre of mass [kg m²].")
@@ -196,15 +338,10 @@ void bind_vehicle(py::module_& module) {
           "linear_drag", [](const Vehicle& v) { return mat6_to_numpy(v.options().linear_drag); },
           "(6, 6) D of the force −D ν.")
       .def_property_readonly(
-          "terms",
-          [](const Vehicle& v) {
-            std::vector<TermTuple> all;
-            for (const ForceTerm& t : v.options().terms) {
-              all.emplace_back(t.row, t.a, t.b, t.absolute, t.coefficient);
-            }
-            return all;
-          },
+          "terms", [](const Vehicle& v) { return terms_of(v).cast<std::vector<TermTuple>>(); },
           "Of (row, a, b, absolute, coefficient).")
+      .def_property_readonly("parts", &parts_of,
+                             "(P, 5) centre [m], radius [m] and share of the volume.")
       .def_property_readonly("gravity", field(&VehicleOptions::gravity), "[m/s²]")
       .def_property_readonly("water_density", field(&VehicleOptions::water_density), "[kg/m³]")
       .def_property_readonly(
@@ -212,7 +349,21 @@ void bind_vehicle(py::module_& module) {
           "(6, 6) of body and added mass about the origin.")
       .def("simulate", &simulated, py::arg("state"), py::arg("thrust"), py::arg("duration"),
            py::arg("step") = 0.01, py::arg("current") = py::none(), py::arg("free") = py::none(),
-           vehicle_docs::kSimulate)
+           py::kw_only(), py::arg("world") = py::none(), vehicle_docs::kSimulate)
+      .def(
+          "acceleration",
+          [](const Vehicle& v, const StateLike& state, const ArrayLike& thrust,
+             const OptionalArray& current) {
+            Flow flow;
+            if (!current.is_none()) flow.velocity = vector_argument("current", current);
+            return vec6_to_numpy(
+                v.acceleration(state_argument(state), vec6_argument("thrust", thrust), flow));
+          },
+          py::arg("state"), py::arg("thrust"), py::arg("current") = py::none(),
+          vehicle_docs::kAcceleration)
+      .def("replace", &replaced, vehicle_docs::kReplace)
+      .def(py::pickle([](const Vehicle& v) { return keywords_of(v); },
+                      [](const py::dict& all) { return from_keywords(all); }))
       .def("__repr__", [](const Vehicle& v) {
         return "Vehicle(" + v.options().name + ": " + to_text(v.options().body.mass) + " kg)";
       });

@@ -3,14 +3,16 @@
 
 from importlib.metadata import version as _version
 
-from bathyal import arms, effects, sonars
+from bathyal import arms, effects, sonars, vehicles
 from bathyal._core import (
+    BehaviorTree,
     Arm,
     ArmFit,
     Capsule,
     CleanReport,
     CleanResult,
     Clearances,
+    Condition,
     CorrectedArm,
     Current,
     Diagnosis,
@@ -64,6 +66,8 @@ from bathyal._core import (
     Tracked,
     Trajectory,
     TriangleMesh,
+    Vehicle,
+    VehicleMotion,
     Voxels,
     Water,
     Waves,
@@ -79,6 +83,7 @@ from bathyal._core import (
     depth_from_pressure,
     diagnose,
     eigenrays,
+    ellipsoid_added_mass,
     find_sheets,
     find_targets,
     fish_paths,
@@ -130,6 +135,7 @@ from bathyal.sonar.sidescan import BottomTrack, GroundRows, Mosaic
 from bathyal.sonar.tracks import read_track
 from bathyal.toolpath import methods as _toolpath_methods  # noqa: F401
 from bathyal.toolpath.aims import read_aims
+from bathyal.vehicle.files import read_vehicle
 from bathyal.water import methods as _water_methods  # noqa: F401
 from bathyal.water import teos10 as _teos10  # noqa: F401
 from bathyal.water.casts import read_profile
@@ -151,11 +157,13 @@ __version__ = _version("bathyal")
 __all__ = [
     "Arm",
     "ArmFit",
+    "BehaviorTree",
     "BottomTrack",
     "Capsule",
     "CleanReport",
     "CleanResult",
     "Clearances",
+    "Condition",
     "CorrectedArm",
     "Current",
     "Diagnosis",
@@ -219,6 +227,8 @@ __all__ = [
     "Tracked",
     "Trajectory",
     "TriangleMesh",
+    "Vehicle",
+    "VehicleMotion",
     "Voxels",
     "Water",
     "Waves",
@@ -236,6 +246,7 @@ __all__ = [
     "diagnose",
     "effects",
     "eigenrays",
+    "ellipsoid_added_mass",
     "find_sheets",
     "find_targets",
     "fish_paths",
@@ -271,6 +282,7 @@ __all__ = [
     "read_touches",
     "read_track",
     "read_tracked",
+    "read_vehicle",
     "read_world",
     "seawater_density",
     "set_simd_level",
@@ -281,6 +293,7 @@ __all__ = [
     "trace_sound",
     "triangle_material",
     "triangulate",
+    "vehicles",
     "verify_arm",
     "with_link_radii",
     "write_cloud",

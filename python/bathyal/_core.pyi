@@ -12,7 +12,7 @@ import numpy.typing
 import os
 import plotly.graph_objects
 import typing
-__all__: list[str] = ['Arm', 'ArmFit', 'BEYOND_NOISE', 'Capsule', 'Cause', 'CleanReport', 'CleanResult', 'Clearances', 'CorrectedArm', 'Current', 'DhTable', 'Diagnosis', 'Effect', 'EffectRange', 'EffectRows', 'Eigenray', 'Error', 'Estimate', 'FitParameter', 'FollowedPath', 'FoundEffect', 'HeldOut', 'HeldOutPart', 'Hits', 'Hull', 'HullReport', 'InverseResult', 'KeepOut', 'Link', 'Material', 'MeshReport', 'MotionCheck', 'MotionPlan', 'NamedEffect', 'NavigationErrors', 'NavigationReport', 'Nearest', 'NearestSegments', 'Outlier', 'Ping', 'PingTruth', 'Pipeline', 'Plane', 'PlaneFit', 'PointCloud', 'Polyline', 'Profile', 'ReachMap', 'RigidBody', 'SamplingPhase', 'SamplingPlan', 'Scene', 'SeabedModel', 'Sediment', 'Shape', 'SheetPatch', 'SheetReport', 'SidescanPings', 'Sonar', 'SoundPath', 'Standpoint', 'StaticTrim', 'Structure', 'Support', 'TargetChecks', 'Targets', 'TextTable', 'Tide', 'TipMove', 'ToolPath', 'TouchForecast', 'TouchPlan', 'Touches', 'TracedSound', 'Tracked', 'Trade', 'Trajectory', 'TriangleMesh', 'Verification', 'Voxels', 'Water', 'Waves', 'Workspace', 'World', 'WorldObject', 'WorldSnapshot', 'XtfFile', 'absorption', 'ambient_noise', 'arm_from_chain', 'arm_from_parts', 'arm_parts', 'best_standpoint', 'chain_from_arm', 'check_bytes', 'clean_cloud', 'cover_polygon', 'depth_from_pressure', 'diagnose', 'eigenrays', 'find_effect_with', 'find_sheets', 'find_targets', 'fish_paths', 'fit_plane', 'forecast_touches', 'generate_survey', 'identify_arm', 'intersect_moller_trumbore', 'library_effects', 'make_boulder', 'make_cable', 'make_fish', 'make_mine', 'make_pipeline', 'make_seabed', 'make_wreck', 'make_xtf', 'mesh_report', 'parse_xtf', 'plan_sampling', 'plan_toolpath', 'plan_touches', 'practical_salinity', 'pressure_from_depth', 'read_mesh_with', 'read_pcd', 'read_text_table', 'seawater_density', 'set_simd_level', 'sidescan_bottom', 'sidescan_ground', 'sidescan_mosaic', 'simd_level', 'sound_speed', 'sound_speed_teos10_with', 'survey_height', 'trace_sound', 'triangle_material', 'triangulate', 'triangulate_delaunay', 'verify_positions', 'warn_of_range_with', 'warn_of_support_with', 'with_link_radii', 'write_xyz']
+__all__: list[str] = ['Arm', 'ArmFit', 'BEYOND_NOISE', 'Capsule', 'Cause', 'CleanReport', 'CleanResult', 'Clearances', 'CorrectedArm', 'Current', 'DhTable', 'Diagnosis', 'Effect', 'EffectRange', 'EffectRows', 'Eigenray', 'Error', 'Estimate', 'FitParameter', 'FollowedPath', 'FoundEffect', 'HeldOut', 'HeldOutPart', 'Hits', 'Hull', 'HullReport', 'InverseResult', 'KeepOut', 'Link', 'Material', 'MeshReport', 'MotionCheck', 'MotionPlan', 'NamedEffect', 'NavigationErrors', 'NavigationReport', 'Nearest', 'NearestSegments', 'Outlier', 'Ping', 'PingTruth', 'Pipeline', 'Plane', 'PlaneFit', 'PointCloud', 'Polyline', 'Profile', 'ReachMap', 'RigidBody', 'SamplingPhase', 'SamplingPlan', 'Scene', 'SeabedModel', 'Sediment', 'Shape', 'SheetPatch', 'SheetReport', 'SidescanPings', 'Sonar', 'SoundPath', 'Standpoint', 'StaticTrim', 'Structure', 'Support', 'TargetChecks', 'Targets', 'TextTable', 'Tide', 'TipMove', 'ToolPath', 'TouchForecast', 'TouchPlan', 'Touches', 'TracedSound', 'Tracked', 'Trade', 'Trajectory', 'TriangleMesh', 'Vehicle', 'VehicleMotion', 'Verification', 'Voxels', 'Water', 'Waves', 'Workspace', 'World', 'WorldObject', 'WorldSnapshot', 'XtfFile', 'absorption', 'ambient_noise', 'arm_from_chain', 'arm_from_parts', 'arm_parts', 'best_standpoint', 'chain_from_arm', 'check_bytes', 'clean_cloud', 'cover_polygon', 'depth_from_pressure', 'diagnose', 'eigenrays', 'ellipsoid_added_mass', 'find_effect_with', 'find_sheets', 'find_targets', 'fish_paths', 'fit_plane', 'forecast_touches', 'generate_survey', 'identify_arm', 'intersect_moller_trumbore', 'library_effects', 'make_boulder', 'make_cable', 'make_fish', 'make_mine', 'make_pipeline', 'make_seabed', 'make_wreck', 'make_xtf', 'mesh_report', 'parse_xtf', 'plan_sampling', 'plan_toolpath', 'plan_touches', 'practical_salinity', 'pressure_from_depth', 'read_mesh_with', 'read_pcd', 'read_text_table', 'seawater_density', 'set_simd_level', 'sidescan_bottom', 'sidescan_ground', 'sidescan_mosaic', 'simd_level', 'sound_speed', 'sound_speed_teos10_with', 'survey_height', 'trace_sound', 'triangle_material', 'triangulate', 'triangulate_delaunay', 'verify_positions', 'warn_of_range_with', 'warn_of_support_with', 'with_link_radii', 'write_xyz']
 class Error(RuntimeError):
     """
     A broken file, a solver that failed or a part that is not installed.
@@ -5098,6 +5098,274 @@ class SamplingPlan:
         """
         (T, 6) force and moment on the vehicle by arm, what it holds and bottom, in the vehicle's frame about its origin [N, N m]; in the last row of the grab without the sample.
         """
+class VehicleMotion:
+    """
+    How a vehicle moved, step by step.
+    """
+    def __len__(self) -> int:
+        ...
+    def __repr__(self) -> str:
+        ...
+    @property
+    def pose(self) -> numpy.ndarray:
+        """
+        (K, 4, 4) world_from_vehicle.
+        """
+    @property
+    def time(self) -> numpy.ndarray:
+        """
+        (K,) [s].
+        """
+    @property
+    def velocity(self) -> numpy.ndarray:
+        """
+        (K, 6) over ground, linear then angular, in the vehicle's frame [m/s, rad/s].
+        """
+class Vehicle:
+    """
+    A vehicle in water.
+    
+    Its frame is x forward, y port, z up, its origin the centre of buoyancy. Velocities and forces are
+    (6,): linear, then angular; force, then moment. `bathyal.vehicles` has published ones.
+    
+    Parameters
+    ----------
+    mass : float
+        [kg]
+    inertia : (3, 3) array
+        About the centre of mass [kg m²].
+    center_of_mass : (3,) array
+        [m]
+    volume : float
+        Of the water displaced [m³].
+    added_mass : (6, 6) array, optional
+        Symmetric, of no negative energy; none unless given.
+    linear_drag : (6, 6) array, optional
+        D of the force −D ν.
+    quadratic_drag : (6,) array, optional
+        c of the force −c abs(ν) ν along and about each axis; kept as terms.
+    terms : list of (row, a, b, absolute, coefficient)
+        Parts of the force in the direction `row`: coefficient · ν_a · ν_b, of abs(ν_b) where `absolute`;
+        0 to 5 are surge, sway, heave, roll, pitch, yaw.
+    parts : (P, 5) array, optional
+        Balls that represent it where it leaves the water or meets the bottom: centre [m], radius [m],
+        share of the volume. They balance about the origin. Without any it does neither.
+    gravity : float
+        [m/s²]
+    water_density : float
+        [kg/m³]
+    name : str
+    z_down : bool
+        The numbers are of axes x forward, y starboard, z down, as most tables are printed; they are
+        turned once.
+    
+    Raises
+    ------
+    ValueError
+        For a value out of its range, or masses that make no positive definite matrix.
+    
+    Notes
+    -----
+    M_RB ν̇ + C_RB(ν) ν + M_A ν̇_r + C_A(ν_r) ν_r + D(ν_r) + g(R) = τ + ρ V a, with ν_r the velocity
+    through the water and a the water's acceleration (Fossen, Handbook of Marine Craft Hydrodynamics and
+    Motion Control, ch. 6 to 8).
+    
+    Examples
+    --------
+    >>> import bathyal, numpy as np
+    >>> remus = bathyal.vehicles.remus100()
+    >>> surge = [True, False, False, False, False, False]
+    >>> motion = remus.simulate(np.eye(4), [3.86, 0, 0, 0, 0, 0], 60.0, free=surge)
+    >>> motion.velocity[-1, 0].round(3)
+    np.float64(1.543)
+    """
+    @staticmethod
+    def bluerov2_heavy() -> Vehicle:
+        """
+        `bathyal.vehicles.bluerov2_heavy`.
+        """
+    @staticmethod
+    def from_mesh(mesh: TriangleMesh, *, mass: typing.SupportsFloat | typing.SupportsIndex | None = None, center_of_mass: numpy.typing.ArrayLike | None = None, inertia: numpy.typing.ArrayLike | None = None, drag_coefficient: numpy.typing.ArrayLike | None = None, gravity: typing.SupportsFloat | typing.SupportsIndex = 9.80665, water_density: typing.SupportsFloat | typing.SupportsIndex = 1025.0) -> tuple:
+        """
+        A first model from a closed hull.
+        
+        Added mass and drag are those of the ellipsoid of equal volume, its half axes as the roots of the
+        hull's principal second moments.
+        
+        Parameters
+        ----------
+        mesh : TriangleMesh
+            Closed; axes x forward, y port, z up.
+        mass : float, optional
+            [kg]; neutral unless given.
+        center_of_mass : (3,) array, optional
+            In the mesh's frame [m]; at the centre of volume unless given: then nothing rights it.
+        inertia : (3, 3) array, optional
+            About the centre of mass [kg m²]; of an even solid unless given.
+        drag_coefficient : (3,) array, optional
+            C of ½ ρ C A v² along x, y, z, of the ellipsoid's shadow; 1 unless given.
+        gravity : float
+            [m/s²]
+        water_density : float
+            [kg/m³]
+        
+        Returns
+        -------
+        Vehicle
+            Its origin is the hull's centre of volume.
+        vehicle_from_mesh : (4, 4) array
+        
+        Raises
+        ------
+        ValueError
+            For a mesh that is not closed, or values out of range.
+        """
+    @staticmethod
+    def remus100(equal_cross_flow: bool = False) -> Vehicle:
+        """
+        `bathyal.vehicles.remus100`.
+        """
+    def __getstate__(self) -> dict:
+        ...
+    def __init__(self, *, mass: typing.SupportsFloat | typing.SupportsIndex, inertia: numpy.typing.ArrayLike, center_of_mass: numpy.typing.ArrayLike, volume: typing.SupportsFloat | typing.SupportsIndex, added_mass: numpy.typing.ArrayLike | None = None, linear_drag: numpy.typing.ArrayLike | None = None, quadratic_drag: numpy.typing.ArrayLike | None = None, terms: collections.abc.Sequence[tuple[typing.SupportsInt | typing.SupportsIndex, typing.SupportsInt | typing.SupportsIndex, typing.SupportsInt | typing.SupportsIndex, bool, typing.SupportsFloat | typing.SupportsIndex]] = [], parts: numpy.typing.ArrayLike | None = None, gravity: typing.SupportsFloat | typing.SupportsIndex = 9.80665, water_density: typing.SupportsFloat | typing.SupportsIndex = 1025.0, name: str = 'vehicle', z_down: bool = False) -> None:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def __setstate__(self, arg0: dict) -> None:
+        ...
+    def acceleration(self, state: numpy.typing.ArrayLike | tuple[numpy.typing.ArrayLike, numpy.typing.ArrayLike], thrust: numpy.typing.ArrayLike, current: numpy.typing.ArrayLike | None = None) -> numpy.ndarray:
+        """
+        dν/dt under a force.
+        
+        Parameters
+        ----------
+        state : (4, 4) array, or (pose, velocity)
+            As of `simulate`.
+        thrust : (6,) array
+            Force and moment about the origin, in the vehicle's frame [N, N m].
+        current : (3,) array, optional
+            Of the water in the world [m/s].
+        
+        Returns
+        -------
+        (6,) array
+            [m/s², rad/s²]
+        """
+    def replace(self, **kwargs: float | str | numpy.typing.ArrayLike | list[tuple[typing.SupportsInt | typing.SupportsIndex, typing.SupportsInt | typing.SupportsIndex, typing.SupportsInt | typing.SupportsIndex, bool, typing.SupportsFloat | typing.SupportsIndex]] | None) -> Vehicle:
+        """
+        The vehicle with other values.
+        
+        Parameters
+        ----------
+        **changes
+            Keywords of `Vehicle`; `quadratic_drag` takes the place of the terms along and about an axis by
+            its own velocity, squared with its sign.
+        
+        Returns
+        -------
+        Vehicle
+        
+        Raises
+        ------
+        ValueError
+            For a name that is not known, or as `Vehicle`.
+        """
+    def simulate(self, state: numpy.typing.ArrayLike | tuple[numpy.typing.ArrayLike, numpy.typing.ArrayLike], thrust: numpy.typing.ArrayLike | collections.abc.Callable[[float, numpy.ndarray, numpy.ndarray], numpy.typing.ArrayLike], duration: typing.SupportsFloat | typing.SupportsIndex, step: typing.SupportsFloat | typing.SupportsIndex = 0.01, current: numpy.typing.ArrayLike | collections.abc.Callable[[numpy.ndarray, float], numpy.typing.ArrayLike] | None = None, free: collections.abc.Iterable[bool] | None = None, *, world: World | None = None) -> VehicleMotion:
+        """
+        Its motion under a force.
+        
+        By the classical Runge–Kutta method of fourth order with a fixed step, of position, unit quaternion
+        and velocity.
+        
+        Parameters
+        ----------
+        state : (4, 4) array, or (pose, velocity)
+            world_from_vehicle at rest, or with a velocity (6,) over ground in the vehicle's frame.
+        thrust : (6,) array or function
+            Force and moment about the vehicle's origin, in its frame [N, N m]; or a function of time,
+            world_from_vehicle and velocity that gives them, called four times a step.
+        duration, step : float
+            [s]
+        current : (3,) array or function, optional
+            Of the water in the world [m/s]; or a function of point and time that gives it.
+        free : six bools, optional
+            Surge, sway, heave, roll, pitch, yaw: velocities that are not free stay as they are at the start.
+        world : World, optional
+            Its water moves the vehicle, where no `current` is given; its surface and bottom act on the
+            vehicle's `parts`: lost buoyancy and drag, a damped spring and friction. Objects are where they
+            are at time 0.
+        
+        Returns
+        -------
+        VehicleMotion
+        
+        Raises
+        ------
+        ValueError
+            For wrong shapes, or a step beyond the stability limit of the fastest mode, which is named.
+        bathyal.Error
+            Where the motion runs away.
+        """
+    @property
+    def added_mass(self) -> numpy.ndarray:
+        """
+        (6, 6)
+        """
+    @property
+    def center_of_mass(self) -> numpy.ndarray:
+        """
+        (3,) [m]
+        """
+    @property
+    def gravity(self) -> float:
+        """
+        [m/s²]
+        """
+    @property
+    def inertia(self) -> numpy.ndarray:
+        """
+        (3, 3) about the centre of mass [kg m²].
+        """
+    @property
+    def linear_drag(self) -> numpy.ndarray:
+        """
+        (6, 6) D of the force −D ν.
+        """
+    @property
+    def mass(self) -> float:
+        """
+        [kg]
+        """
+    @property
+    def mass_matrix(self) -> numpy.ndarray:
+        """
+        (6, 6) of body and added mass about the origin.
+        """
+    @property
+    def name(self) -> str:
+        """
+        As given.
+        """
+    @property
+    def parts(self) -> numpy.ndarray:
+        """
+        (P, 5) centre [m], radius [m] and share of the volume.
+        """
+    @property
+    def terms(self) -> list[tuple[int, int, int, bool, float]]:
+        """
+        Of (row, a, b, absolute, coefficient).
+        """
+    @property
+    def volume(self) -> float:
+        """
+        [m³]
+        """
+    @property
+    def water_density(self) -> float:
+        """
+        [kg/m³]
+        """
 class PingTruth:
     """
     What each sample came from: of all rays in it, the one that contributed most. NaN and −1 where nothing was hit.
@@ -7845,6 +8113,27 @@ def eigenrays(water: Water | Profile, from_depth: typing.SupportsFloat | typing.
     -------
     list of Eigenray
         The quickest first; empty in a shadow.
+    """
+def ellipsoid_added_mass(half_axes: numpy.typing.ArrayLike, water_density: typing.SupportsFloat | typing.SupportsIndex = 1025.0) -> numpy.ndarray:
+    """
+    Added mass of an ellipsoid about its centre.
+    
+    Parameters
+    ----------
+    half_axes : (3,) array
+        Along x, y, z [m].
+    water_density : float
+        [kg/m³]
+    
+    Returns
+    -------
+    (6, 6) array
+        [kg, kg m²] (Lamb, Hydrodynamics, art. 114, 115)
+    
+    Raises
+    ------
+    ValueError
+        For a half axis that is not above 0.
     """
 def find_effect_with(find: collections.abc.Callable) -> None:
     """

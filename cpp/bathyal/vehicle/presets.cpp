@@ -22,6 +22,7 @@ VehicleOptions from_z_down(VehicleOptions printed) {
   const Eigen::Matrix3d turn = Vec3(1.0, -1.0, -1.0).asDiagonal();
   printed.body.center_of_mass = turn * printed.body.center_of_mass;
   printed.body.inertia = turn * printed.body.inertia * turn;
+  for (VehiclePart& part : printed.parts) part.center = turn * part.center;
   printed.added_mass = signs * printed.added_mass * signs;
   printed.linear_drag = signs * printed.linear_drag * signs;
   for (ForceTerm& term : printed.terms) {
@@ -68,6 +69,8 @@ VehicleOptions remus100(bool equal_cross_flow) {
       {kR, kU, kV, false, -24.0 + (35.5 - 0.93)},
       {kR, kU, kR, false, -2.0 - 1.93},
   };
+  constexpr double kRadius = 0.0955;  // of a hull 1.33 m long
+  for (int k = -4; k <= 4; ++k) remus.parts.push_back({Vec3(0.14 * k, 0.0, 0.0), kRadius, 1.0});
   return from_z_down(remus);
 }
 
@@ -87,6 +90,11 @@ VehicleOptions bluerov2_heavy() {
   rov.linear_drag = linear.asDiagonal();
   for (int axis = 0; axis < 6; ++axis) {
     rov.terms.push_back({axis, axis, axis, true, -quadratic[axis]});
+  }
+  for (const double x : {-0.118, 0.118}) {  // 0.457 × 0.575 × 0.254 m
+    for (const double y : {-0.177, 0.177}) {
+      for (const double z : {-0.017, 0.017}) rov.parts.push_back({Vec3(x, y, z), 0.11, 1.0});
+    }
   }
   return from_z_down(rov);
 }

@@ -40,19 +40,29 @@ VehicleState state_of(const Flat& flat) {
 class Equations {
  public:
   Equations(const Vehicle& vehicle, const WrenchFunction& wrench, const FlowFunction& flow,
-            const FreeAxes& free)
-      : vehicle_(vehicle), wrench_(wrench), flow_(flow), free_(free) {}
+            const SimulateOptions& options)
+      : vehicle_(vehicle), wrench_(wrench), flow_(flow), options_(options) {}
+
+  Flow flow(const Vec3& point, double time) const {
+    if (flow_) return flow_(point, time);
+    return options_.environment ? options_.environment->flow(point, time) : Flow();
+  }
+
+  Vec6 wrench(double time, const VehicleState& state, const Flow& flow) const {
+    Vec6 sum = wrench_ ? wrench_(time, state) : Vec6(Vec6::Zero());
+    if (options_.environment) sum += options_.environment->wrench(vehicle_, state, flow, time);
+    return sum;
+  }
 
   Flat rate(double time, const Flat& flat) const {
     const VehicleState state = state_of(flat);
-    const Flow flow = flow_ ? flow_(state.world_from_vehicle.translation(), time) : Flow();
-    const Vec6 wrench = wrench_ ? wrench_(time, state) : Vec6(Vec6::Zero());
+    const Flow water = flow(state.world_from_vehicle.translation(), time);
     const Eigen::Quaterniond turn(flat.segment<4>(3));
     const Vec3 spin = state.velocity.tail<3>();
     const Eigen::Quaterniond turned = turn * Eigen::Quaterniond(0.0, spin.x(), spin.y(), spin.z());
     Flat change;
     change << state.world_from_vehicle.linear() * state.velocity.head<3>(), 0.5 * turned.coeffs(),
-        vehicle_.acceleration(state, wrench, flow, free_);
+        vehicle_.acceleration(state, wrench(time, state, water), water, options_.free);
     return change;
   }
 
@@ -60,7 +70,7 @@ class Equations {
   const Vehicle& vehicle_;
   const WrenchFunction& wrench_;
   const FlowFunction& flow_;
-  FreeAxes free_;
+  const SimulateOptions& options_;
 };
 
 Flat advanced(const Equations& equations, double time, const Flat& flat, double step) {
@@ -108,10 +118,16 @@ Eigen::Matrix<double, 9, 1> change_at(const Vehicle& vehicle, const VehicleState
   return change;
 }
 
-void check_step(const Vehicle& vehicle, const VehicleState& start, const WrenchFunction& wrench,
-                const FlowFunction& flow, const SimulateOptions& options) {
-  const Vec6 first = wrench ? wrench(options.start, start) : Vec6(Vec6::Zero());
-  const Flow water = flow ? flow(start.world_from_vehicle.translation(), options.start) : Flow();
+void check_step(const Vehicle& vehicle, const VehicleState& start, const Equations& equations,
+                const SimulateOptions& options) {
+  const double touching =
+      options.environment ? options.environment->largest_step(vehicle) : options.step;
+  if (options.step > touching) {
+    throw_argument("step", "at most " + to_text(touching) + " s, the limit of contact",
+                   to_text(options.step));
+  }
+  const Flow water = equations.flow(start.world_from_vehicle.translation(), options.start);
+  const Vec6 first = equations.wrench(options.start, start, water);
   const FastestMode mode = fastest_mode(vehicle, start, first, water, options.free);
   if (options.step <= mode.step) return;
   throw_argument("step",
@@ -169,8 +185,8 @@ VehicleMotionRecord simulate(const Vehicle& vehicle, const VehicleState& start,
   options.check();
   check_rigid("state", start.world_from_vehicle);
   if (!start.velocity.allFinite()) throw_argument("state", "a finite velocity", "another");
-  check_step(vehicle, start, wrench, flow, options);
-  const Equations equations(vehicle, wrench, flow, options.free);
+  const Equations equations(vehicle, wrench, flow, options);
+  check_step(vehicle, start, equations, options);
   const auto count = static_cast<std::int64_t>(std::ceil(options.duration / options.step - 1e-9));
   VehicleMotionRecord record;
   Flat flat = flat_of(start);

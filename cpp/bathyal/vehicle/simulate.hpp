@@ -2,8 +2,10 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <vector>
 
+#include "bathyal/vehicle/environment.hpp"
 #include "bathyal/vehicle/vehicle.hpp"
 
 namespace bathyal {
@@ -17,6 +19,7 @@ struct SimulateOptions {
   double step = 0.01;     ///< [s], above 0
   double start = 0.0;     ///< time of the first state [s]
   FreeAxes free = kAllFree;
+  std::shared_ptr<const Environment> environment = {};  ///< null: deep water, nothing to touch
 
   /// \throw std::invalid_argument
   void check() const;
@@ -30,9 +33,10 @@ struct VehicleMotionRecord {
 
 /// Integrates by the classical Runge–Kutta method of fourth order, of the position, a unit
 /// quaternion and the velocity; a duration that is no whole number of steps ends with the step that
-/// reaches it. \param flow null: water at rest.
+/// reaches it. \param flow how the water moves; null: as the environment
+/// say, and at rest without any.
 /// \throw std::invalid_argument for a step beyond the stability limit of the fastest mode at the
-///        first state, which is named, and for a pose that is not rigid
+///        first state, or of contact, which is named, and for a pose that is not rigid
 /// \throw Error where the motion runs away: it is no longer finite
 VehicleMotionRecord simulate(const Vehicle& vehicle, const VehicleState& start,
                              const WrenchFunction& wrench, const FlowFunction& flow,

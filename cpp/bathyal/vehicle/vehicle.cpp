@@ -2,6 +2,7 @@
 #include "bathyal/vehicle/vehicle.hpp"
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -12,6 +13,7 @@ namespace bathyal {
 namespace {
 
 constexpr double kSymmetric = 1e-9;  // of the largest entry
+constexpr double kBalanced = 1e-6;   // of the size
 
 Eigen::Matrix3d cross_matrix(const Vec3& v) {
   Eigen::Matrix3d m;
@@ -32,6 +34,23 @@ void check_added_mass(const Mat6& added) {
   const double least = Eigen::SelfAdjointEigenSolver<Mat6>(added).eigenvalues()[0];
   if (least < -1e-9 * scale) {
     throw_argument("added_mass", "a matrix without negative eigenvalues", to_text(least));
+  }
+}
+
+void check_parts(const std::vector<VehiclePart>& parts) {
+  double whole = 0.0, size = 0.0;
+  Vec3 moment = Vec3::Zero();
+  for (const VehiclePart& part : parts) {
+    if (!part.center.allFinite()) throw_argument("parts", "finite centres", "others");
+    check_positive("parts radius", part.radius);
+    check_positive("parts volume", part.volume);
+    whole += part.volume;
+    moment += part.volume * part.center;
+    size = std::max(size, part.center.norm() + part.radius);
+  }
+  if (moment.norm() > kBalanced * whole * size) {
+    throw_argument("parts", "volumes that balance about the origin, the centre of buoyancy",
+                   "a centre " + to_text(moment.norm() / whole) + " m off");
   }
 }
 
@@ -96,6 +115,7 @@ void VehicleOptions::check() const {
     for (const int axis : {term.row, term.a, term.b}) check_range("terms", axis, 0, 5);
     check_finite("terms", term.coefficient);
   }
+  check_parts(parts);
   const Mat6 total = bathyal::mass_matrix(body) + added_mass;
   if (Eigen::LLT<Mat6>(total).info() != Eigen::Success) {
     throw_argument("inertia", "one that makes the mass matrix positive definite",

@@ -22,6 +22,13 @@ struct ForceTerm {
   double coefficient = 0.0;
 };
 
+/// A ball that represents a part of a vehicle where it leaves the water or meets the bottom.
+struct VehiclePart {
+  Vec3 center = Vec3::Zero();  ///< in the vehicle's frame [m]
+  double radius = 0.0;         ///< [m], above 0
+  double volume = 0.0;         ///< its share of the water displaced, in any unit; above 0
+};
+
 /// A vehicle in water, in its frame: x forward, y port, z up, origin at the centre of buoyancy.
 struct VehicleOptions {
   std::string name = "vehicle";
@@ -29,11 +36,13 @@ struct VehicleOptions {
   Mat6 added_mass = Mat6::Zero();   ///< symmetric, of no negative energy [kg, kg m, kg m²]
   Mat6 linear_drag = Mat6::Zero();  ///< force is −D ν
   std::vector<ForceTerm> terms = {};
-  double gravity = 9.80665;       ///< [m/s²]
-  double water_density = 1025.0;  ///< [kg/m³]
+  std::vector<VehiclePart> parts = {};  ///< none: it neither leaves the water nor touches
+  double gravity = 9.80665;             ///< [m/s²]
+  double water_density = 1025.0;        ///< [kg/m³]
 
   /// \throw std::invalid_argument that names the field; without mass or inertia, with an added mass
-  ///        that is not symmetric or of negative energy, or a total that is not positive definite.
+  ///        that is not symmetric or of negative energy, a total that is not positive definite, or
+  ///        parts whose volumes do not balance about the origin.
   void check() const;
 };
 

@@ -166,7 +166,7 @@ Vec6 VehicleSystem::device_wrench(const VehicleSystemState& state, const Vehicle
 }
 
 void VehicleSystem::advance(VehicleSystemState& state, const VehicleCommands& commands,
-                            const SurroundingsFunction& around, double time) const {
+                            const StepConditionsFunction& around, double time) const {
   check_commands(state, commands);
   check_positive("time", time);
   const BatteryLoad load = supply(state, commands);
@@ -184,7 +184,7 @@ void VehicleSystem::advance(VehicleSystemState& state, const VehicleCommands& co
   }
   const auto rate = [&](const Flat& flat, int part) {
     const VehicleState motion = motion_of(flat);
-    const Surroundings here = around(0.5 * part * time, motion);
+    const StepConditions here = around(0.5 * part * time, motion);
     const Vec6 relative = relative_velocity(motion, here.flow);
     Vec6 wrench = here.wrench + carried(state, motion, here.flow);
     for (std::size_t i = 0; i < thrusters_.size(); ++i) {
@@ -218,13 +218,13 @@ void VehicleSystem::advance(VehicleSystemState& state, const VehicleCommands& co
 void VehicleSystem::step(VehicleSystemState& state, const VehicleCommands& commands,
                          const Flow& flow, double time) const {
   advance(
-      state, commands, [&](double, const VehicleState&) { return Surroundings{flow}; }, time);
+      state, commands, [&](double, const VehicleState&) { return StepConditions{flow}; }, time);
 }
 
 void VehicleSystem::step(VehicleSystemState& state, const VehicleCommands& commands,
-                         const SurroundingsFunction& surroundings, double time) const {
-  if (!surroundings) throw_argument("surroundings", "a function", "none");
-  advance(state, commands, surroundings, time);
+                         const StepConditionsFunction& conditions, double time) const {
+  if (!conditions) throw_argument("conditions", "a function", "none");
+  advance(state, commands, conditions, time);
 }
 
 }  // namespace bathyal

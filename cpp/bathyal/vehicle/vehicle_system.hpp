@@ -47,12 +47,13 @@ struct VehicleCommands {
 };
 
 /// What surrounds a vehicle at a moment of a step.
-struct Surroundings {
+struct StepConditions {
   Flow flow = {};
   Vec6 wrench = Vec6::Zero();  ///< on the vehicle besides its devices', about its origin
 };
 /// \param time since the start of the step [s]
-using SurroundingsFunction = std::function<Surroundings(double time, const VehicleState& state)>;
+using StepConditionsFunction =
+    std::function<StepConditions(double time, const VehicleState& state)>;
 
 /// Vehicle, thrusters, fins and battery advanced together. In a step the battery and its loads are
 /// solved for one voltage at its start, the devices' states follow their own laws exactly, and the
@@ -82,7 +83,7 @@ class VehicleSystem {
 
   /// The same, asking for flow and wrench at each of the four stages.
   void step(VehicleSystemState& state, const VehicleCommands& commands,
-            const SurroundingsFunction& surroundings, double time) const;
+            const StepConditionsFunction& conditions, double time) const;
 
   /// Force and moment of all devices at a state, about the vehicle's origin, in its frame.
   Vec6 device_wrench(const VehicleSystemState& state, const VehicleCommands& commands,
@@ -91,7 +92,7 @@ class VehicleSystem {
  private:
   void check_commands(const VehicleSystemState& state, const VehicleCommands& commands) const;
   void advance(VehicleSystemState& state, const VehicleCommands& commands,
-               const SurroundingsFunction& around, double time) const;
+               const StepConditionsFunction& around, double time) const;
   Vec6 carried(const VehicleSystemState& state, const VehicleState& motion, const Flow& flow) const;
 
   VehicleSystemOptions options_;

@@ -135,7 +135,7 @@ TEST(RovSystem, AUniformCurrentIsAMovingFrame) {
     rov.step(
         carried, commands,
         [&](double, const VehicleState&) {
-          return Surroundings{Flow{current, Vec3::Zero()}};
+          return StepConditions{Flow{current, Vec3::Zero()}};
         },
         0.01);
   }
@@ -151,7 +151,7 @@ TEST(RovSystem, BadInput) {
   VehicleCommands commands{std::vector<double>(8, 0.0), {}, {}};
   EXPECT_THROW(rov.step(state, {{0.0}, {}, {}}, Flow(), 0.01), std::invalid_argument);
   EXPECT_THROW(rov.step(state, commands, Flow(), 0.0), std::invalid_argument);
-  EXPECT_THROW(rov.step(state, commands, SurroundingsFunction(), 0.01), std::invalid_argument);
+  EXPECT_THROW(rov.step(state, commands, StepConditionsFunction(), 0.01), std::invalid_argument);
   commands.thrusters[3] = std::nan("");
   EXPECT_THROW(rov.step(state, commands, Flow(), 0.01), std::invalid_argument);
   VehicleSystemOptions bad = bluerov2_heavy_system();

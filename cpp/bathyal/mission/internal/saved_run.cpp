@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bathyal/mission/internal/saved_run.hpp"
+
+#include "bathyal/mission/archive.hpp"
+#include "bathyal/navigation/navigation_state_bytes.hpp"
+
+namespace bathyal {
+
+template <class A>
+void archive(A& a, VehicleState& s) {
+  a(s.world_from_vehicle, s.velocity);
+}
+template <class A>
+void archive(A& a, ThrusterState& s) {
+  a(s.speed);
+}
+template <class A>
+void archive(A& a, FinState& s) {
+  a(s.angle);
+}
+template <class A>
+void archive(A& a, DropWeightState& s) {
+  a(s.released);
+}
+template <class A>
+void archive(A& a, BatteryState& s) {
+  a(s.charge);
+}
+template <class A>
+void archive(A& a, VehicleSystemState& s) {
+  a(s.motion, s.thrusters, s.fins, s.battery, s.drop_weights);
+}
+template <class A>
+void archive(A& a, SensorReading& s) {
+  a(s.kind, s.time, s.arrival, s.index, s.values, s.count, s.valid);
+}
+template <class A>
+void archive(A& a, SensorState& s) {
+  a(s.index, s.time, s.walk, s.markov);
+}
+template <class A>
+void archive(A& a, LineState& s) {
+  a(s.sensor, s.held, s.latest);
+}
+template <class A>
+void archive(A& a, PendingReading& s) {
+  a(s.device, s.reading);
+}
+template <class A>
+void archive(A& a, PoseHoldState& s) {
+  a(s.integral, s.shortfall);
+}
+template <class A>
+void archive(A& a, CruiseState& s) {
+  a(s.heading, s.depth, s.speed);
+}
+template <class A>
+void archive(A& a, PilotState& s) {
+  a(s.hold, s.cruise, s.along, s.z, s.heading, s.drift, s.begun);
+}
+template <class A>
+void archive(A& a, std::optional<double>& value) {
+  bool there = value.has_value();
+  double number = value.value_or(0.0);
+  a(there, number);
+  value = there ? std::optional<double>(number) : std::nullopt;
+}
+template <class A>
+void archive(A& a, PilotTarget& s) {
+  a(s.from, s.to, s.z, s.heading, s.speed, s.moves);
+}
+template <class A>
+void archive(A& a, TreeState& s) {
+  a(s.status, s.current, s.failures, s.since);
+}
+template <class A>
+void archive(A& a, LeafState& s) {
+  a(s.since, s.within, s.row);
+}
+template <class A>
+void archive(A& a, FaultState& s) {
+  a(s.active, s.since, s.over);
+}
+template <class A>
+void archive(A& a, DeviceWatch& s) {
+  a(s.since, s.seen, s.repeats, s.refused, s.reported, s.expected);
+}
+template <class A>
+void archive(A& a, WatcherState& s) {
+  a(s.sensors, s.thrusters, s.fins, s.battery, s.hull);
+}
+template <class A>
+void archive(A& a, MissionSums& s) {
+  a(s.distance, s.deepest, s.least_altitude, s.energy, s.squared_error, s.largest_error);
+}
+
+namespace {
+
+constexpr std::uint64_t kMagic = 0x3152594854414221U;  // "!BATHYR1"
+
+template <class A>
+void archive_state(A& a, MissionState& s, std::string& navigation) {
+  a(s.number, s.status, s.vehicle, s.lines, s.pending, navigation, s.velocity, s.velocity_time,
+    s.attitude, s.spin, s.pilot, s.target, s.tree, s.guard, s.guard_since, s.leaves, s.faults,
+    s.watchers, s.signals, s.held_commands, s.leak, s.sums);
+}
+
+}  // namespace
+
+std::string saved_run(const MissionState& state, const std::string& fingerprint,
+                      std::uint64_t seed) {
+  MissionState copy = state;
+  std::uint64_t magic = kMagic;
+  std::string of = fingerprint, navigation = to_bytes(state.navigation);
+  ByteWriter writer;
+  writer(magic, of, seed);
+  archive_state(writer, copy, navigation);
+  return writer.take();
+}
+
+MissionState loaded_run(const std::string& bytes, const MissionState& like,
+                        const std::string& fingerprint, std::uint64_t seed) {
+  ByteReader reader(bytes);
+  std::uint64_t magic = 0, of_seed = 0;
+  std::string of, navigation;
+  reader(magic);
+  if (magic != kMagic) throw Error("expected a saved run, got other bytes");
+  reader(of, of_seed);
+  if (of != fingerprint) throw Error("a saved run of another mission");
+  if (of_seed != seed) {
+    throw Error("a saved run of seed " + std::to_string(of_seed) + ", not " + std::to_string(seed));
+  }
+  MissionState state;
+  archive_state(reader, state, navigation);
+  const bool same = reader.left() == 0 && state.lines.size() == like.lines.size() &&
+                    state.leaves.size() == like.leaves.size() &&
+                    state.faults.size() == like.faults.size() &&
+                    state.signals.size() == like.signals.size() &&
+                    state.vehicle.thrusters.size() == like.vehicle.thrusters.size() &&
+                    state.held_commands.size() == like.held_commands.size();
+  if (!same) throw Error("a saved run that does not fit its mission");
+  state.navigation = navigation_state_of(navigation);
+  return state;
+}
+
+}  // namespace bathyal

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bathyal/mission/plan.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "bathyal/base/check.hpp"
+
+namespace bathyal {
+namespace {
+
+void check_leaves(const TreeNode& node, std::size_t count) {
+  if (node.kind == NodeKind::kLeaf &&
+      (node.leaf < 0 || static_cast<std::size_t>(node.leaf) >= count)) {
+    throw_argument("tree", "leaves that are commands", std::to_string(node.leaf));
+  }
+  for (const TreeNode& child : node.children) check_leaves(child, count);
+}
+
+bool of_sensor(FaultKind kind) { return kind <= FaultKind::kNoise; }
+
+bool of_drive(FaultKind kind) {
+  return kind == FaultKind::kOff || kind == FaultKind::kStuck || kind == FaultKind::kDead ||
+         kind == FaultKind::kWeak || kind == FaultKind::kReversed;
+}
+
+void check_fault(const MissionPlan& plan, const MissionFault& fault) {
+  const auto named = [&fault](const auto& devices) {
+    return std::any_of(devices.begin(), devices.end(),
+                       [&fault](const auto& d) { return d.name == fault.device; });
+  };
+  const bool drive = named(plan.vehicle.thrusters) || named(plan.vehicle.fins);
+  const bool battery = plan.vehicle.battery && fault.device == plan.vehicle.battery->name;
+  const bool fits = (named(plan.sensors) && of_sensor(fault.kind)) ||
+                    (drive && of_drive(fault.kind)) || (battery && fault.kind == FaultKind::kSag) ||
+                    (fault.device == "hull" && fault.kind == FaultKind::kLeak);
+  const bool known = named(plan.sensors) || drive || battery || fault.device == "hull";
+  if (!known) throw_argument("fault device", "a device of the vehicle", "'" + fault.device + "'");
+  if (!fits) throw_argument("fault kind", "one that " + fault.device + " may have", "another");
+  check_finite("fault size", fault.size);
+  if (std::isnan(fault.at) || fault.at < 0.0) {
+    throw_argument("fault at", "a time of 0 or more", to_text(fault.at));
+  }
+  check_not_negative("fault rate", fault.rate);
+  if (!(fault.lasts > 0.0)) throw_argument("fault lasts", "above 0", to_text(fault.lasts));
+}
+
+}  // namespace
+
+void MissionCommand::check() const {
+  const std::string at = name.empty() ? std::string("command") : name;
+  for (const Vec3& point : points) {
+    if (!point.allFinite()) throw_argument(at + " points", "finite numbers", "others");
+  }
+  for (const auto& value : {depth, altitude, heading}) {
+    if (value) check_finite(at + " depth, altitude, heading", *value);
+  }
+  if (depth && altitude) throw_argument(at, "depth or altitude", "both");
+  check_positive(at + " speed", speed);
+  check_not_negative(at + " time", time);
+  check_positive(at + " tolerance", tolerance);
+  if (kind == CommandKind::kFollow && points.empty()) throw_argument(at, "points", "none");
+  if (kind == CommandKind::kDive && !depth && !altitude) {
+    throw_argument(at, "a depth or an altitude", "none");
+  }
+  if (kind == CommandKind::kCheck && !condition) throw_argument(at, "a condition", "none");
+  if (kind == CommandKind::kSample &&
+      (wrench_time.size() < 2 || wrench.size() != wrench_time.size() ||
+       !std::is_sorted(wrench_time.begin(), wrench_time.end()))) {
+    throw_argument(at, "a wrench at two rising times or more", "others");
+  }
+}
+
+void MissionPlan::check() const {
+  vehicle.check();
+  pilot.check();
+  std::set<std::string> names;
+  for (const SensorOptions& sensor : sensors) {
+    sensor.check();
+    if (!names.insert(sensor.name).second) {
+      throw_argument("sensors", "names that differ", "'" + sensor.name + "' twice");
+    }
+  }
+  for (const ThrusterOptions& thruster : vehicle.thrusters) {
+    if (!names.insert(thruster.name).second) {
+      throw_argument("thrusters", "names that differ", "'" + thruster.name + "' twice");
+    }
+  }
+  for (const MissionCommand& command : commands) command.check();
+  root.check();
+  check_leaves(root, commands.size());
+  for (const MissionGuard& guard : guards) {
+    guard.response.check();
+    check_leaves(guard.response, commands.size());
+    check_not_negative("guard persist", guard.persist);
+  }
+  for (const MissionFault& fault : faults) check_fault(*this, fault);
+  check_positive("step", step);
+  check_range("steps_per_tick", steps_per_tick, 1, 1000);
+  check_positive("longest", longest);
+  if (!leak_position.allFinite()) throw_argument("leak_position", "finite numbers", "others");
+  check_not_negative("weight_of_leak", weight_of_leak);
+  check_rigid("start", start.world_from_vehicle);
+  if (!start.velocity.allFinite()) throw_argument("start", "a finite velocity", "another");
+  const double largest = Environment(water, scene).largest_step(Vehicle(vehicle.vehicle));
+  if (step > largest) {
+    throw_argument("step", "at most " + to_text(largest) + " s, the limit of contact",
+                   to_text(step));
+  }
+}
+
+std::vector<std::string> mission_signals(const VehicleSystemOptions& vehicle,
+                                         const std::vector<SensorOptions>& sensors) {
+  std::vector<std::string> names{"time",    "depth",   "altitude", "x",     "y",
+                                 "z",       "heading", "roll",     "pitch", "speed",
+                                 "battery", "voltage", "current",  "leak",  "position_std",
+                                 "dvl_age", "fault"};
+  for (const SensorOptions& sensor : sensors) names.push_back("fault." + sensor.name);
+  for (const ThrusterOptions& thruster : vehicle.thrusters) {
+    names.push_back("fault." + thruster.name);
+  }
+  for (const FinOptions& fin : vehicle.fins) names.push_back("fault." + fin.name);
+  names.emplace_back("fault.battery");
+  names.emplace_back("fault.hull");
+  return names;
+}
+
+}  // namespace bathyal

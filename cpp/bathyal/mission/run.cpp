@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bathyal/mission/run.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "bathyal/base/check.hpp"
+#include "bathyal/mission/internal/run_parts.hpp"
+#include "bathyal/mission/internal/saved_run.hpp"
+
+namespace bathyal {
+
+std::string_view status_name(RunStatus status) {
+  constexpr std::array<std::string_view, 6> kNames{"running", "done",    "failed",
+                                                   "aborted", "timeout", "stopped"};
+  return kNames[static_cast<std::size_t>(status)];
+}
+
+MissionRun::MissionRun(std::shared_ptr<const MissionPlan> plan, std::uint64_t seed,
+                       MissionSink* sink) {
+  plan->check();
+  parts_ = std::make_unique<Parts>(std::move(plan), seed, sink);
+}
+
+MissionRun::~MissionRun() = default;
+
+bool MissionRun::step(const LiveInputs& inputs) { return parts_->step(inputs); }
+double MissionRun::time() const { return parts_->time(); }
+const MissionPlan& MissionRun::plan() const { return *parts_->plan; }
+const MissionState& MissionRun::state() const { return parts_->state; }
+VehicleState MissionRun::estimated() const { return parts_->estimated(); }
+const std::vector<std::string>& MissionRun::signals() const { return parts_->names; }
+
+std::map<std::string, double> MissionRun::metrics() const {
+  const MissionState& s = parts_->state;
+  const double ticks = static_cast<double>(std::max<std::int64_t>(1, s.number));
+  std::map<std::string, double> all{
+      {"duration", time()},
+      {"distance", s.sums.distance},
+      {"deepest", s.sums.deepest},
+      {"least_altitude", s.sums.least_altitude},
+      {"energy_wh", s.sums.energy / 3600.0},
+      {"battery", s.vehicle.battery.charge},
+      {"position_rms", std::sqrt(s.sums.squared_error / ticks)},
+      {"position_worst", s.sums.largest_error},
+  };
+  return all;
+}
+
+std::string MissionRun::save() const {
+  return saved_run(parts_->state, parts_->fingerprint(), parts_->seed);
+}
+
+void MissionRun::load(const std::string& bytes) {
+  parts_->state = loaded_run(bytes, parts_->state, parts_->fingerprint(), parts_->seed);
+  parts_->renew_system();
+}
+
+}  // namespace bathyal
