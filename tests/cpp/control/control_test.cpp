@@ -48,7 +48,7 @@ Held held(const std::function<Vec3(double)>& current, const std::vector<int>& fa
     rov.step(
         state, commands,
         [&](double off, const VehicleState&) {
-          return Surroundings{Flow{current(now + off), Vec3::Zero()}};
+          return StepConditions{Flow{current(now + off), Vec3::Zero()}};
         },
         0.01);
     if (now < 20.0) continue;
