@@ -29,9 +29,12 @@ void bind_generate(pybind11::module_& module);
 void bind_workspace(pybind11::module_& module);
 void bind_behavior_tree(pybind11::module_& module);
 void bind_vehicle(pybind11::module_& module);
+void bind_devices(pybind11::module_& module);  // of the room vehicle, as the next one
+void bind_vehicle_system(pybind11::module_& module);
 void bind_sonar(pybind11::module_& module);
 void bind_sidescan(pybind11::module_& module);
 void bind_navigation(pybind11::module_& module);  // the second file of sonar
+void bind_control(pybind11::module_& module);
 void bind_identify(pybind11::module_& module);
 void bind_plan_touches(pybind11::module_& module);  // of the room identify, as the next one
 void bind_verify(pybind11::module_& module);

@@ -29,10 +29,13 @@ PYBIND11_MODULE(_core, module) {
   bind_generate(module);
   bind_workspace(module);
   bind_vehicle(module);
+  bind_devices(module);
+  bind_vehicle_system(module);
   bind_behavior_tree(module);
   bind_sonar(module);
   bind_sidescan(module);
   bind_navigation(module);
+  bind_control(module);
   bind_identify(module);
   bind_plan_touches(module);
   bind_verify(module);

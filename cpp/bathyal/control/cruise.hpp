@@ -11,7 +11,7 @@ namespace bathyal {
 struct CruiseOptions {
   double speed = 1.5;               ///< at which the gains are found [m/s], above 0
   double heading_frequency = 0.5;   ///< natural, of the slower modes [rad/s]
-  double depth_frequency = 0.25;    ///< [rad/s]
+  double depth_frequency = 0.4;     ///< [rad/s]
   double speed_frequency = 0.3;     ///< [rad/s]
   double damping = 0.9;             ///< ratio
   double integral = 0.3;            ///< the integrals' poles, times the frequency; above 0

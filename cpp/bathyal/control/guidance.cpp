@@ -71,11 +71,11 @@ BottomFollowOutput follow_bottom(const BottomFollowOptions& options, const Vec3&
   const auto path = [&](double from) {
     double lowest = -std::numeric_limits<double>::infinity();
     const int count = static_cast<int>(std::floor(options.lookahead / options.spacing));
-    for (int k = 0; k <= count; ++k) {
-      const double ahead = k * options.spacing;
-      const double way = from + ahead;
+    for (int k = -count; k <= count; ++k) {
+      const double way = from + k * options.spacing;
       const double height = bottom(position.x() + way * c, position.y() + way * s);
-      lowest = std::max(lowest, height + options.altitude - options.steepest * ahead);
+      const double slope = options.steepest * options.spacing * std::abs(k);
+      lowest = std::max(lowest, height + options.altitude - slope);
     }
     return lowest;
   };

@@ -45,8 +45,8 @@ using BottomFunction = std::function<double(double x, double y)>;
 struct BottomFollowOptions {
   double altitude = 3.0;    ///< over the bottom [m], above 0
   double lookahead = 25.0;  ///< how far ahead the bottom is known [m], above 0
-  double lead = 1.5;        ///< the path asked for is that so far ahead: the vehicle's own lag [m]
-  double steepest = 0.35;   ///< climb of the path, height over way, above 0
+  double lead = 3.0;        ///< steers for the path so far ahead, for the vehicle's own lag [m]
+  double steepest = 0.25;   ///< climb and fall of the path, height over way, above 0
   double spacing = 0.5;     ///< of the samples ahead [m], above 0
 
   /// \throw std::invalid_argument that names the field
@@ -58,8 +58,9 @@ struct BottomFollowOutput {
   double climb = 0.0;  ///< of that path
 };
 
-/// The lowest path that is nowhere nearer to the bottom ahead than `altitude`, and nowhere climbs
-/// more than `steepest`. \param heading the way over ground, about z from x [rad]
+/// The lowest path that is nowhere nearer to the bottom than `altitude` (measured upwards), and
+/// nowhere climbs or falls more than `steepest`, over the bottom ahead and as far behind. \param
+/// heading the way over ground, about z from x [rad]
 BottomFollowOutput follow_bottom(const BottomFollowOptions& options, const Vec3& position,
                                  double heading, const BottomFunction& bottom);
 

@@ -26,17 +26,24 @@ PoseHold::PoseHold(Vehicle vehicle, PoseHoldOptions options)
   options_.check();
 }
 
+Vec3 PoseHold::watched(const Vec3& in_world) const {
+  const bool level = options_.axes[0] || options_.axes[1];
+  return {level ? in_world.x() : 0.0, level ? in_world.y() : 0.0,
+          options_.axes[2] ? in_world.z() : 0.0};
+}
+
 Vec6 PoseHold::step(PoseHoldState& state, const VehicleState& measured, const PoseTarget& target,
                     const Vec3& current, double time) const {
   check_positive("time", time);
   const Eigen::Matrix3d world_from_vehicle = measured.world_from_vehicle.linear();
   const Eigen::Matrix3d vehicle_from_world = world_from_vehicle.transpose();
   Vec6 error, gathered = state.integral;
-  error << vehicle_from_world * (target.world_from_vehicle.translation() -
-                                 measured.world_from_vehicle.translation()),
+  error << vehicle_from_world * watched(target.world_from_vehicle.translation() -
+                                        measured.world_from_vehicle.translation()),
       rotation_vector(vehicle_from_world * target.world_from_vehicle.linear());
   gathered.head<3>() = vehicle_from_world * state.integral.head<3>();
-  const Vec6 rate = target.velocity - measured.velocity;
+  Vec6 rate = target.velocity - measured.velocity;
+  rate.head<3>() = vehicle_from_world * watched(world_from_vehicle * rate.head<3>());
   const Vec6 lacking = vehicle_.mass_matrix().ldlt().solve(state.shortfall);
   Vec6 acceleration = Vec6::Zero(), growth = Vec6::Zero();
   for (int axis = 0; axis < 6; ++axis) {

@@ -46,6 +46,9 @@ class PoseHold {
             const Vec3& current, double time) const;
 
  private:
+  /// What is not held does not count, so that a tilt does not make depth of a way gone.
+  Vec3 watched(const Vec3& in_world) const;
+
   Vehicle vehicle_;
   PoseHoldOptions options_;
 };

@@ -48,7 +48,7 @@ Held held(const std::function<Vec3(double)>& current, const std::vector<int>& fa
     rov.step(
         state, commands,
         [&](double off, const VehicleState&) {
-          return Surroundings{Flow{current(now + off), Vec3::Zero()}};
+          return StepConditions{Flow{current(now + off), Vec3::Zero()}};
         },
         0.01);
     if (now < 20.0) continue;
@@ -85,10 +85,12 @@ TEST(PoseHold, StaysWithAnyThrusterLost) {
 TEST(PoseHold, HoldsDepthAndHeadingWithAnyTwoLost) {
   PoseHoldOptions options;
   options.axes = {false, false, true, true, true, true};
+  // without pitch of its own, it tips where it pushes up or down: gently, below its own 1.9 rad/s
+  options.frequency = {0.5, 0.5, 0.5, 0.5, 0.5, 1.0};
   const auto drift = [](double) { return Vec3(0.1, 0.05, 0.02); };
   for (int a = 0; a < 8; ++a) {
     for (int b = a + 1; b < 8; ++b) {
-      const Held worst = held(drift, {a, b}, options, 40.0);
+      const Held worst = held(drift, {a, b}, options, 60.0);
       EXPECT_LT(worst.depth, 0.05) << a << b;
       EXPECT_LT(worst.heading, 2.0) << a << b;
     }
@@ -252,7 +254,7 @@ TEST(FollowBottom, IsTheAltitudeOverLevelGround) {
   const auto wall =
       follow_bottom({}, {0, 0, 0}, 0.0, [](double x, double) { return x > 10.0 ? 0.0 : -10.0; });
   EXPECT_GT(wall.z, -7.0);
-  EXPECT_NEAR(wall.climb, 0.35, 1e-9);
+  EXPECT_NEAR(wall.climb, 0.25, 1e-9);
 }
 
 TEST(Guidance, BadInput) {
