@@ -147,6 +147,10 @@ Pose NavigationEstimate::world_from_vehicle() const {
   return pose;
 }
 
+Vec3 NavigationEstimate::fix_point() const {
+  return position + Eigen::Quaterniond(attitude) * fix_lever;
+}
+
 NavigationFilter::NavigationFilter(NavigationOptions options) : options_(std::move(options)) {
   options_.check();
 }
