@@ -139,6 +139,16 @@ SensorReadings simulate(const SensorOptions& sensor, const ArrayLike& time, cons
   return readings;
 }
 
+/// (N,) of bool, as numbers.
+OptionalArray flags_argument(std::string_view name, const OptionalArray& given) {
+  if (given.is_none()) return given;
+  const py::array array = array_argument(name, given, "(N,) of bool");
+  if (array.dtype().kind() != 'b') {
+    throw_argument(name, "(N,) of bool", "dtype " + std::string(py::str(array.dtype())));
+  }
+  return array.attr("astype")("float64");
+}
+
 SensorReadings make_readings(const SensorOptions& sensor, const ArrayLike& time,
                              const ArrayLike& values, const OptionalArray& arrival,
                              const OptionalArray& valid) {
@@ -150,7 +160,7 @@ SensorReadings make_readings(const SensorOptions& sensor, const ArrayLike& time,
                    std::to_string(table.rows()));
   }
   const OptionalRows arrivals("arrival", arrival, 1, times.size());
-  const OptionalRows valids("valid", valid, 1, times.size());
+  const OptionalRows valids("valid", flags_argument("valid", valid), 1, times.size());
   SensorReadings readings{sensor, {}};
   for (std::size_t i = 0; i < times.size(); ++i) {
     if (!std::isfinite(times[i]) || (i > 0 && !(times[i] > times[i - 1]))) {
