@@ -82,9 +82,10 @@ std::unique_ptr<PyFilter> make_filter(const std::vector<SensorOptions>& devices,
   options.initial_velocity = deviations_argument("initial_velocity", initial_velocity);
   options.initial_attitude = deviations_argument("initial_attitude", initial_attitude);
   put_options(options, given);
+  const Pose begin = pose_argument("pose", pose);
+  check_rigid("pose", begin);
   NavigationRecord kept(std::move(options));
-  NavigationState state =
-      kept.filter().start(time, pose_argument("pose", pose), vector_argument("velocity", velocity));
+  NavigationState state = kept.filter().start(time, begin, vector_argument("velocity", velocity));
   return std::make_unique<PyFilter>(PyFilter{std::move(kept), std::move(state), record});
 }
 
