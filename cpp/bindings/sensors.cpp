@@ -209,10 +209,9 @@ py::typing::Tuple<py::array, py::array> allan(const ArrayLike& rate_data, double
   return py::make_tuple(to_numpy(std::move(got.interval)), to_numpy(std::move(got.deviation)));
 }
 
-void bind_sensor_class(py::module_& module) {
+void bind_sensor_class(py::class_<SensorOptions>& cls) {
   const SensorOptions d;
   const ChannelValues none = py::float_(0.0);
-  py::class_<SensorOptions> cls(module, "Sensor", sensors_docs::kSensor);
   cls.def(py::init([](const std::string& kind, const std::optional<std::string>& name, double rate,
                       double latency, double dropout, double range, double sound_speed,
                       const OptionalArray& mount, const OptionalArray& beacons,
@@ -253,10 +252,9 @@ void bind_sensor_class(py::module_& module) {
       });
 }
 
-void bind_readings(py::module_& module) {
-  py::class_<SensorReadings>(module, "SensorReadings", sensors_docs::kReadings)
-      .def(py::init(&make_readings), py::arg("sensor"), py::arg("time"), py::arg("values"),
-           py::kw_only(), py::arg("arrival") = py::none(), py::arg("valid") = py::none())
+void bind_readings(py::class_<SensorReadings>& cls) {
+  cls.def(py::init(&make_readings), py::arg("sensor"), py::arg("time"), py::arg("values"),
+          py::kw_only(), py::arg("arrival") = py::none(), py::arg("valid") = py::none())
       .def_readonly("sensor", &SensorReadings::sensor, "Which they are of.")
       .def_property_readonly(
           "time",
@@ -311,8 +309,11 @@ PointMatrix rows_of_three(std::string_view name, const ArrayLike& object) {
 }
 
 void bind_sensors(py::module_& module) {
-  bind_sensor_class(module);
-  bind_readings(module);
+  // Both before what names them.
+  py::class_<SensorOptions> sensor(module, "Sensor", sensors_docs::kSensor);
+  py::class_<SensorReadings> readings(module, "SensorReadings", sensors_docs::kReadings);
+  bind_sensor_class(sensor);
+  bind_readings(readings);
   module.def("allan_deviation", &allan, py::arg("rate_data"), py::arg("sample_rate"),
              py::arg("factors") = std::vector<std::int64_t>(), sensors_docs::kAllan);
   module.def(
