@@ -26,6 +26,8 @@ void bind_arm(pybind11::module_& module);
 void bind_world(pybind11::module_& module);
 void bind_survey(pybind11::module_& module);  // of the room world, as the next one
 void bind_generate(pybind11::module_& module);
+void bind_sensors(pybind11::module_& module);  // of the room navigation, as the next one
+void bind_navigation_filter(pybind11::module_& module);
 void bind_workspace(pybind11::module_& module);
 void bind_behavior_tree(pybind11::module_& module);
 void bind_vehicle(pybind11::module_& module);

@@ -27,6 +27,8 @@ PYBIND11_MODULE(_core, module) {
   bind_world(module);
   bind_survey(module);
   bind_generate(module);
+  bind_sensors(module);
+  bind_navigation_filter(module);
   bind_workspace(module);
   bind_vehicle(module);
   bind_devices(module);

@@ -18,32 +18,38 @@ constexpr double kSnapshotsALag = 8.0;  // late readings repeat up to an eighth 
 
 using Record = std::vector<NavigationStep>;
 
-void append(Record* record, NavigationEstimate& estimate, NavigationStep step) {
+void append(Record* record, NavigationEstimate& estimate, const Transition& transition,
+            bool is_row) {
   if (record == nullptr) return;
   ++estimate.steps;
+  NavigationStep& step = record->emplace_back();
+  step.is_row = is_row;
+  step.transition = transition;
   step.after = estimate;
-  record->push_back(std::move(step));
+}
+
+void append(Record& record, NavigationEstimate& estimate, const Correction& correction) {
+  ++estimate.steps;
+  NavigationStep& step = record.emplace_back();
+  step.is_correction = true;
+  step.correction = correction;
+  step.after = estimate;
 }
 
 NavigationUpdate run(const NavigationOptions& options, NavigationEstimate& estimate,
                      const NavigationInput& input, Record* record) {
-  NavigationStep step;
   if (input.kind != kReading) {
-    step.transition = apply_prediction(options, estimate, input);
-    step.is_row = true;
-    append(record, estimate, std::move(step));
+    append(record, estimate, apply_prediction(options, estimate, input), true);
     return {};
   }
   if (input.time > estimate.time + kSameTime) {
-    step.transition = hold_until(options, estimate, input.time);
-    append(record, estimate, step);
+    append(record, estimate, hold_until(options, estimate, input.time), false);
   }
   const SensorOptions& device = options.devices[static_cast<std::size_t>(input.device)];
+  Correction correction;
   const NavigationUpdate result =
-      apply_reading(options, estimate, device, input.reading, record ? &step.correction : nullptr);
-  if (!result.accepted) return result;
-  step.is_correction = true;
-  append(record, estimate, std::move(step));
+      apply_reading(options, estimate, device, input.reading, correction);
+  if (result.accepted && record != nullptr) append(*record, estimate, correction);
   return result;
 }
 
@@ -145,6 +151,10 @@ Pose NavigationEstimate::world_from_vehicle() const {
   pose.linear() = Eigen::Quaterniond(attitude).toRotationMatrix();
   pose.translation() = position;
   return pose;
+}
+
+Vec3 NavigationEstimate::fix_point() const {
+  return position + Eigen::Quaterniond(attitude) * fix_lever;
 }
 
 NavigationFilter::NavigationFilter(NavigationOptions options) : options_(std::move(options)) {

@@ -40,6 +40,8 @@ struct NavigationEstimate {
   std::int64_t steps = 0;                ///< of the record, so far
 
   Pose world_from_vehicle() const;
+  /// Where position fixes belong to, in the world [m]: the origin, and the fix lever off it.
+  Vec3 fix_point() const;
 };
 
 /// An inertial sample, a motion or a reading, kept for the time that readings may be late.

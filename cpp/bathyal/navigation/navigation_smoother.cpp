@@ -53,6 +53,8 @@ NavigationRecord::~NavigationRecord() = default;
 NavigationRecord::NavigationRecord(NavigationRecord&&) noexcept = default;
 NavigationRecord& NavigationRecord::operator=(NavigationRecord&&) noexcept = default;
 
+void NavigationRecord::clear() { steps_.clear(); }
+
 std::vector<NavigationEstimate> NavigationRecord::smoothed() const {
   std::vector<NavigationEstimate> rows;
   Adjoint adjoint;

@@ -7,7 +7,7 @@
 
 namespace bathyal {
 
-/// A filter that keeps a record of all it did (some 7 kB a step), and what of it a smoother makes.
+/// A filter that keeps a record of all it did (some 12 kB a step), and what of it a smoother makes.
 class NavigationRecord {
  public:
   explicit NavigationRecord(NavigationOptions options);
@@ -17,6 +17,7 @@ class NavigationRecord {
 
   const NavigationFilter& filter() const { return filter_; }
   std::vector<NavigationStep>& steps() { return steps_; }
+  void clear();
 
   /// The best estimate at each input's time given all readings, those after it too, and its
   /// covariance: the modified Bryson–Frazier smoother (Bierman 1973, "Fixed interval smoothing with

@@ -256,8 +256,8 @@ std::optional<SensorReading> sample(const SensorOptions& options, SensorState& s
   }
   state.index = index;
   state.time = truth.time;
-  RandomStream luck = stream_of(seed, name, kDropoutChannel, index);
-  if (luck.uniform() < options.dropout) return {};
+  RandomStream chance = stream_of(seed, name, kDropoutChannel, index);
+  if (chance.uniform() < options.dropout) return {};
   return reading;
 }
 

@@ -17,7 +17,7 @@ struct ReckonedTrack {
 struct PositionFixes {
   std::vector<double> time;   ///< [s], rising
   PointMatrix position;       ///< in the world [m]
-  Vec3 noise = Vec3::Zero();  ///< standard deviations along x, y, z [m]
+  Vec3 noise{0.1, 0.1, 0.1};  ///< standard deviations along x, y, z [m]
 };
 
 struct SmoothedTrack {

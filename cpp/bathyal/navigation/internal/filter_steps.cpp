@@ -169,7 +169,7 @@ Transition hold_until(const NavigationOptions& options, NavigationEstimate& esti
 
 NavigationUpdate apply_reading(const NavigationOptions& options, NavigationEstimate& estimate,
                                const SensorOptions& device, const SensorReading& reading,
-                               Correction* correction) {
+                               Correction& correction) {
   NavigationUpdate result;
   if (!reading.valid || !observes_motion(reading.kind)) return result;
   const Observation seen = observe(options, estimate, device, reading);
@@ -177,12 +177,10 @@ NavigationUpdate apply_reading(const NavigationOptions& options, NavigationEstim
   result.used = true;
   result.count = reading.count;
   NavigationMatrix& p = estimate.covariance;
-  Correction c;
+  Correction& c = correction;
   c.slope = seen.slope;
   c.innovation = seen.innovation;
-  const Eigen::Matrix<double, kNavigationErrors, Eigen::Dynamic, 0, kNavigationErrors,
-                      kSensorChannels>
-      cross = p * seen.slope.transpose();
+  const Gain cross = p * seen.slope.transpose();
   ObservationMatrix covariance = seen.slope * cross;
   covariance.diagonal() += seen.variance;
   const Eigen::LDLT<ObservationMatrix> solver(covariance);
@@ -197,14 +195,12 @@ NavigationUpdate apply_reading(const NavigationOptions& options, NavigationEstim
       (options.gate >= 1.0 || chi_square_tail(result.nis, reading.count) >= 1.0 - options.gate);
   if (!result.accepted) return result;
   c.gain = cross * c.inverse;
-  NavigationMatrix kept = NavigationMatrix::Identity();
-  kept.noalias() -= c.gain * seen.slope;
-  const NavigationMatrix half = kept * p;
-  p.noalias() = half * kept.transpose();
-  p.noalias() += c.gain * seen.variance.asDiagonal() * c.gain.transpose();
+  // (I − KH) P (I − KH)ᵀ + K R Kᵀ, factor by factor: H is thin.
+  p.noalias() -= c.gain * cross.transpose();
+  const Gain again = p * seen.slope.transpose() - c.gain * seen.variance.asDiagonal();
+  p.noalias() -= again * c.gain.transpose();
   p = (0.5 * (p + p.transpose())).eval();
   add_error(estimate, c.gain * seen.innovation);
-  if (correction != nullptr) *correction = c;
   return result;
 }
 

@@ -14,11 +14,13 @@ struct Transition {
   double current_kept = 1.0;
 };
 
+using Gain =
+    Eigen::Matrix<double, kNavigationErrors, Eigen::Dynamic, 0, kNavigationErrors, kSensorChannels>;
+
 /// The gain a reading came in with, as the smoother needs it.
 struct Correction {
   ObservationRows slope;
-  Eigen::Matrix<double, kNavigationErrors, Eigen::Dynamic, 0, kNavigationErrors, kSensorChannels>
-      gain;
+  Gain gain;
   ObservationMatrix inverse;  ///< of the innovation's covariance
   ObservationVector innovation;
 };
@@ -39,10 +41,11 @@ Transition apply_prediction(const NavigationOptions& options, NavigationEstimate
 /// Brings the estimate to a time between inputs: the last one holds.
 Transition hold_until(const NavigationOptions& options, NavigationEstimate& estimate, double time);
 
-/// Applies a reading at the estimate's time, unless the gate refuses it.
+/// Applies a reading at the estimate's time, unless the gate refuses it; the correction is written
+/// where it is accepted.
 NavigationUpdate apply_reading(const NavigationOptions& options, NavigationEstimate& estimate,
                                const SensorOptions& device, const SensorReading& reading,
-                               Correction* correction);
+                               Correction& correction);
 
 /// Adds an error to an estimate; the covariance stays.
 void add_error(NavigationEstimate& estimate, const NavigationVector& error);
