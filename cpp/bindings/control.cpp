@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "bathyal/base/error.hpp"
 #include "bathyal/control/allocation.hpp"
 #include "bathyal/control/cruise.hpp"
 #include "bathyal/control/guidance.hpp"

@@ -7,6 +7,7 @@
 #include <utility>
 #include <variant>
 
+#include "bathyal/base/error.hpp"
 #include "bathyal/vehicle/device_presets.hpp"
 #include "bathyal/vehicle/devices/thruster_fit.hpp"
 #include "bindings.hpp"

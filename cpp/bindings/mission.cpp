@@ -12,8 +12,11 @@
 
 #include "arrays.hpp"
 #include "bathyal/base/error.hpp"
+#include "bathyal/mission/archive.hpp"
+#include "bathyal/mission/mission_log.hpp"
 #include "bathyal/mission/run.hpp"
-#include "bathyal/vehicle/device_presets.hpp"
+#include "bathyal/mission/typical.hpp"
+#include "bathyal/vehicle/vehicle_system.hpp"
 #include "bathyal/world/world.hpp"
 #include "behavior_tree.hpp"
 #include "bindings.hpp"
@@ -116,36 +119,26 @@ void put_navigation(NavigationOptions& options, const py::dict& dict) {
   }
 }
 
-std::shared_ptr<MissionPlan> made(const std::string& name, const std::string& devices,
-                                  const py::typing::Optional<Vehicle>& vehicle, const World& world,
-                                  const py::typing::List<SensorOptions>& sensors,
-                                  const Dict& navigation, const ArrayLike& start,
-                                  const Dicts& commands, const Dict& tree, const Dicts& guards,
-                                  const Dicts& faults, const Dicts& weights, double hotel_power,
-                                  double step, int steps_per_tick, double longest) {
+std::shared_ptr<const MissionPlan> made(
+    const std::string& name, const VehicleSystem& system,
+    const py::typing::Optional<Vehicle>& vehicle, const std::vector<DropWeightOptions>& weights,
+    double hotel_power, const World& world, const py::typing::List<SensorOptions>& sensors,
+    const Dict& navigation, const ArrayLike& start, const Dicts& commands, const Dict& tree,
+    const Dicts& guards, const Dicts& faults, double step, int steps_per_tick, double longest) {
   auto plan = std::make_shared<MissionPlan>();
   plan->name = name;
-  const EnumNames<bool> presets{{"bluerov2_heavy", false}, {"remus100", true}};
-  const bool torpedo = enum_argument("devices", devices, presets);
-  plan->vehicle = torpedo ? remus100_system(true) : bluerov2_heavy_system();
-  if (torpedo) plan->pilot.cruise = CruiseOptions();
+  plan->vehicle = system.options();
   if (!vehicle.is_none()) plan->vehicle.vehicle = vehicle.cast<Vehicle>().options();
+  for (const DropWeightOptions& weight : weights) plan->vehicle.drop_weights.push_back(weight);
   plan->vehicle.hotel_power = hotel_power;
-  for (const py::handle item : weights) {
-    const auto dict = item.cast<py::dict>();
-    DropWeightOptions weight;
-    weight.name = text(dict, "name");
-    weight.mass = number(dict, "mass", 0.0);
-    weight.volume = number(dict, "volume", 0.0);
-    if (dict.contains("position")) weight.position = vector_argument("position", dict["position"]);
-    plan->vehicle.drop_weights.push_back(weight);
-  }
+  if (!plan->vehicle.fins.empty()) plan->pilot.cruise = CruiseOptions();
   for (const py::handle sensor : sensors) plan->sensors.push_back(sensor.cast<SensorOptions>());
+  plan->water = world.water();
+  plan->navigation = typical_navigation();
   plan->navigation.gravity = plan->vehicle.vehicle.gravity;
-  plan->navigation.mean_surface = world.water().surface().value_or(0.0);
+  plan->navigation.mean_surface = plan->water.surface().value_or(0.0);
   put_navigation(plan->navigation, navigation);
   plan->weight_of_leak = plan->vehicle.vehicle.gravity;
-  plan->water = world.water();
   if (!world.objects().empty()) plan->scene = world.at(0.0).scene;
   plan->start.world_from_vehicle = pose_argument("start", start);
   const auto signals = mission_signals(plan->vehicle, plan->sensors);
@@ -168,43 +161,178 @@ std::shared_ptr<MissionPlan> made(const std::string& name, const std::string& de
   return plan;
 }
 
-/// A run's record in memory: rows of numbers by time, events.
-class MemorySink final : public MissionSink {
+/// A run, and its log where it has one.
+class LoggedRun {
  public:
-  static constexpr int kColumns = 26;
-
-  void tick(const MissionTick& tick) override {
-    const VehicleState& truth = tick.truth->motion;
-    put(tick.time);
-    put_state(truth);
-    put_state(tick.estimated);
-    for (const double value :
-         {tick.depth, tick.altitude, tick.load.voltage, tick.load.current,
-          tick.truth->battery.charge, tick.position_std, tick.target.to.x(), tick.target.to.y(),
-          tick.target.z, 0.0, 0.0}) {
-      put(value);
+  LoggedRun(const std::shared_ptr<const MissionPlan>& plan, std::uint64_t seed,
+            const std::optional<std::string>& log, const std::optional<std::string>& saved)
+      : plan_(plan) {
+    std::string of_run, of_log;
+    if (saved) {
+      ByteReader reader(*saved);
+      reader(of_run, of_log);
     }
-    for (const double value : tick.commands->thrusters) commands.push_back(value);
-    thrusters = tick.commands->thrusters.size();
+    if (log && saved) log_.emplace(*log, *plan, of_log);
+    if (log && !saved) log_.emplace(*log, *plan);
+    run_.emplace(plan, seed, log_ ? &*log_ : nullptr);
+    if (saved) run_->load(of_run);
   }
-  void reading(const SensorOptions& /*sensor*/, const SensorReading& /*reading*/) override {}
-  void event(const MissionEvent& event) override { events.push_back(event); }
 
-  std::vector<double> rows, commands;
-  std::size_t thrusters = 0;
-  std::vector<MissionEvent> events;
+  MissionRun& run() { return *run_; }
+  const MissionRun& run() const { return *run_; }
+  std::vector<MissionEvent> events() const {
+    return log_ ? log_->events() : std::vector<MissionEvent>();
+  }
+  std::string save() {
+    std::string of_run = run_->save(), of_log = log_ ? log_->save() : std::string();
+    ByteWriter bytes;
+    bytes(of_run, of_log);
+    return bytes.take();
+  }
+  void close() {
+    if (log_) log_->close();
+  }
 
  private:
-  void put(double value) { rows.push_back(value); }
-  void put_state(const VehicleState& state) {
-    const Eigen::Quaterniond turn(state.world_from_vehicle.linear());
-    for (const double value : state.world_from_vehicle.translation()) put(value);
-    for (const double value : turn.coeffs()) put(value);
-  }
+  std::shared_ptr<const MissionPlan> plan_;
+  std::optional<MissionLog> log_;
+  std::optional<MissionRun> run_;
 };
+
+py::dict messages_of(const py::bytes& bytes) {
+  char* data = nullptr;
+  py::ssize_t size = 0;
+  if (PyBytes_AsStringAndSize(bytes.ptr(), &data, &size) != 0) throw py::error_already_set();
+  const std::string_view content(data, static_cast<std::size_t>(size));
+  std::map<std::string, std::string> topics;
+  const std::string reason = read_mcap(content, [&topics](const McapMessage& message) {
+    std::string& all = topics[std::string(message.topic)];
+    if (!all.empty()) all += ',';
+    all.append(message.data);
+  });
+  py::dict found;
+  for (const auto& [topic, all] : topics) {
+    std::string text("[");
+    found[py::str(topic)] = py::bytes(text.append(all).append("]"));
+  }
+  return py::dict(py::arg("topics") = found, py::arg("reason") = reason);
+}
+
+LiveInputs inputs_of(bool stop, const OptionalArray& wrench, const OptionalArray& thrusters,
+                     const MissionPlan& plan) {
+  LiveInputs inputs;
+  inputs.stop = stop;
+  const auto numbers = [](const char* name, const py::object& given, std::size_t count) {
+    std::vector<double> all;
+    if (given.is_none()) return all;
+    const Values values = values_argument(name, given);
+    all.assign(values.data(), values.data() + values.rows());
+    if (all.size() != count) {
+      throw_argument(name, std::to_string(count) + " numbers", std::to_string(all.size()));
+    }
+    for (const double value : all) {
+      if (!std::isfinite(value)) throw_argument(name, "finite numbers", "others");
+    }
+    return all;
+  };
+  inputs.wrench = numbers("wrench", wrench, 6);
+  inputs.thrusters = numbers("thrusters", thrusters, plan.vehicle.thrusters.size());
+  return inputs;
+}
 
 }  // namespace
 
-void bind_mission(py::module_& module) {}
+void bind_mission(py::module_& module) {
+  const MissionPlan d;
+  py::class_<MissionPlan, std::shared_ptr<MissionPlan>>(module, "MissionPlan", mission_docs::kPlan)
+      .def(py::init([](const std::string& name, const VehicleSystem& system,
+                       const py::typing::Optional<Vehicle>& vehicle,
+                       const std::vector<DropWeightOptions>& weights, double hotel_power,
+                       const World& world, const py::typing::List<SensorOptions>& sensors,
+                       const Dict& navigation, const ArrayLike& start, const Dicts& commands,
+                       const Dict& tree, const Dicts& guards, const Dicts& faults, double step,
+                       int steps_per_tick, double longest) {
+             return std::const_pointer_cast<MissionPlan>(
+                 made(name, system, vehicle, weights, hotel_power, world, sensors, navigation,
+                      start, commands, tree, guards, faults, step, steps_per_tick, longest));
+           }),
+           py::kw_only(), py::arg("name"), py::arg("system"), py::arg("vehicle"),
+           py::arg("weights"), py::arg("hotel_power"), py::arg("world"), py::arg("sensors"),
+           py::arg("navigation"), py::arg("start"), py::arg("commands"), py::arg("tree"),
+           py::arg("guards"), py::arg("faults"), py::arg("step") = d.step,
+           py::arg("steps_per_tick") = d.steps_per_tick, py::arg("longest") = d.longest)
+      .def_property_readonly(
+          "name", [](const MissionPlan& p) { return p.name; }, "As given.")
+      .def_property_readonly("tick", &MissionPlan::tick, "[s]")
+      .def_property_readonly(
+          "signals", [](const MissionPlan& p) { return mission_signals(p.vehicle, p.sensors); },
+          "Names that conditions may use.");
+
+  module.def("typical_sensors", &typical_sensors,
+             "What a small vehicle carries, with errors of the middle class.");
+
+  py::class_<LoggedRun>(module, "MissionRun", mission_docs::kRun)
+      .def(py::init([](const std::shared_ptr<MissionPlan>& plan, std::uint64_t seed,
+                       const std::optional<std::string>& log,
+                       const std::optional<py::bytes>& state) {
+             std::optional<std::string> saved;
+             if (state) saved = std::string(*state);
+             return std::make_unique<LoggedRun>(plan, seed, log, saved);
+           }),
+           py::arg("plan"), py::arg("seed"), py::kw_only(), py::arg("log") = py::none(),
+           py::arg("state") = py::none())
+      .def(
+          "step",
+          [](LoggedRun& r, int count, bool stop, const OptionalArray& wrench,
+             const OptionalArray& thrusters) {
+            const LiveInputs inputs = inputs_of(stop, wrench, thrusters, r.run().plan());
+            const py::gil_scoped_release unlocked;
+            bool on = true;
+            for (int i = 0; on && i < count; ++i) on = r.run().step(inputs);
+            return on;
+          },
+          py::arg("count") = 1, py::kw_only(), py::arg("stop") = false,
+          py::arg("wrench") = py::none(), py::arg("thrusters") = py::none(), mission_docs::kStep)
+      .def_property_readonly(
+          "time", [](const LoggedRun& r) { return r.run().time(); }, "[s]")
+      .def_property_readonly(
+          "status",
+          [](const LoggedRun& r) { return std::string(status_name(r.run().state().status)); },
+          "running, done, failed, aborted, timeout or stopped.")
+      .def_property_readonly(
+          "signals",
+          [](const LoggedRun& r) {
+            std::map<std::string, double> all;
+            const auto& names = r.run().signals();
+            for (std::size_t i = 0; i < names.size(); ++i) {
+              all[names[i]] = r.run().state().signals[i];
+            }
+            return all;
+          },
+          "What conditions see, by name; NaN is not known.")
+      .def_property_readonly(
+          "metrics", [](const LoggedRun& r) { return r.run().metrics(); }, "By name.")
+      .def_property_readonly(
+          "pose",
+          [](const LoggedRun& r) {
+            return to_numpy(r.run().state().vehicle.motion.world_from_vehicle);
+          },
+          "(4, 4) world_from_vehicle, the true one.")
+      .def_property_readonly(
+          "events",
+          [](const LoggedRun& r) {
+            std::vector<std::tuple<double, std::string, std::string>> all;
+            for (const MissionEvent& event : r.events()) {
+              all.emplace_back(event.time, event.kind, event.text);
+            }
+            return all;
+          },
+          "Of (time, kind, text), of a run with a log.")
+      .def(
+          "save", [](LoggedRun& r) { return py::bytes(r.save()); },
+          "The state, from which another goes on with the same bytes, log included.")
+      .def("close", &LoggedRun::close, "Ends the log.");
+  module.def("read_mcap", &messages_of, py::arg("bytes"), mission_docs::kReadMcap);
+}
 
 }  // namespace bathyal::python

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "bathyal/base/error.hpp"
 #include "bathyal/base/text.hpp"
 #include "bathyal/navigation/dead_reckoning.hpp"
 #include "bathyal/navigation/navigation_smoother.hpp"

@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "bathyal/base/error.hpp"
 #include "bathyal/base/text.hpp"
 #include "bathyal/navigation/allan_deviation.hpp"
 #include "bathyal/navigation/dead_reckoning.hpp"

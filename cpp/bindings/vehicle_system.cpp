@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "bathyal/base/check.hpp"
+#include "bathyal/base/error.hpp"
 #include "bathyal/vehicle/device_presets.hpp"
 #include "bindings.hpp"
 #include "device_parts.hpp"

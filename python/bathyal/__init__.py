@@ -5,9 +5,9 @@ from importlib.metadata import version as _version
 
 from bathyal import arms, effects, sonars, vehicles
 from bathyal._core import (
-    BehaviorTree,
     Arm,
     ArmFit,
+    BehaviorTree,
     Capsule,
     CleanReport,
     CleanResult,
@@ -131,6 +131,9 @@ from bathyal.identify import methods as _identify_methods  # noqa: F401
 from bathyal.identify.touch_files import read_touches, read_tracked
 from bathyal.identify.verify import verify_arm
 from bathyal.io.formats.gsf import MultibeamPings, read_gsf
+from bathyal.mission.files import Mission, read_mission
+from bathyal.mission.log import RunLog
+from bathyal.mission.run import Run, RunEvent, RunResult, read_run, run
 from bathyal.navigation.logs import NavigationLog, NavigationLogWarning, read_navigation_log
 from bathyal.seabed import methods as _seabed_methods  # noqa: F401
 from bathyal.seabed.clouds import read_cloud, write_cloud
@@ -188,6 +191,7 @@ __all__ = [
     "Link",
     "Material",
     "MeshReport",
+    "Mission",
     "Mosaic",
     "MotionCheck",
     "MotionPlan",
@@ -213,6 +217,10 @@ __all__ = [
     "ReachMap",
     "RecordTruth",
     "RigidBody",
+    "Run",
+    "RunEvent",
+    "RunLog",
+    "RunResult",
     "SamplingPhase",
     "SamplingPlan",
     "Scenario",
@@ -292,9 +300,11 @@ __all__ = [
     "read_cloud",
     "read_gsf",
     "read_mesh",
+    "read_mission",
     "read_navigation_log",
     "read_profile",
     "read_reach_map",
+    "read_run",
     "read_scenario",
     "read_sonar",
     "read_srdf",
@@ -303,6 +313,7 @@ __all__ = [
     "read_tracked",
     "read_vehicle",
     "read_world",
+    "run",
     "seawater_density",
     "set_simd_level",
     "simd_level",

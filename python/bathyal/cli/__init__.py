@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The command line: bathyal plan · triangulate · info · soundings · identify · diagnose · touches ·
 check · reach · sample · scenario · profile ·
-world · survey."""
+world · survey · xtf · mission · run."""
 
 from __future__ import annotations
 
@@ -15,9 +15,11 @@ from bathyal.cli.diagnose import diagnose
 from bathyal.cli.groups import spread
 from bathyal.cli.identify import identify
 from bathyal.cli.info import info
+from bathyal.cli.mission import mission
 from bathyal.cli.plan import plan
 from bathyal.cli.profile import profile
 from bathyal.cli.reach import reach
+from bathyal.cli.run import run
 from bathyal.cli.sample import sample
 from bathyal.cli.scenario_example import example as example_scenario
 from bathyal.cli.soundings import soundings
@@ -45,7 +47,7 @@ app = typer.Typer(
 )
 for command in (
     plan, triangulate, info, soundings, identify, diagnose, check, reach, sample, profile, world,
-    survey, xtf,
+    survey, xtf, mission, run,
 ):  # fmt: skip
     app.command(epilog=_EXIT_CODES)(spread(command))
 
@@ -102,6 +104,10 @@ def main(
       bathyal survey sea/world.yaml --track sea/track.csv --speed 2 --out sea/survey
 
       bathyal xtf sea/survey/survey.xtf --out sea/image
+
+      bathyal mission dive/mission.yaml --example
+
+      bathyal run dive/mission.yaml --out dive/run
     """
     if show_version:
         typer.echo(f"bathyal {version('bathyal')}")

@@ -1,0 +1,103 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Logs of runs: MCAP files with JSON messages, read as arrays."""
+
+from __future__ import annotations
+
+import json
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bathyal import _core
+from bathyal.io.files import PathLike
+
+Array = NDArray[np.float64]
+
+LOG = "log.mcap"
+MOST_BYTES = 4 << 30
+
+
+class RunLog:
+    """A run's log by topic.
+
+    Parameters
+    ----------
+    path : path
+        An MCAP file without compression, whole or cut, its messages JSON.
+
+    Attributes
+    ----------
+    path : Path
+    """
+
+    def __init__(self, path: PathLike) -> None:
+        self.path = Path(path)
+
+    @cached_property
+    def _read(self) -> dict[str, Any]:
+        size = self.path.stat().st_size
+        if size > MOST_BYTES:
+            raise _core.Error(
+                f"{self.path}: expected a log below {MOST_BYTES:,} bytes, got {size:,}"
+            )
+        found: dict[str, Any] = _core.read_mcap(self.path.read_bytes())
+        return found
+
+    @property
+    def topics(self) -> list[str]:
+        """Names of all topics that have messages."""
+        return sorted(self._read["topics"])
+
+    @property
+    def broken_off(self) -> str:
+        """Why the file breaks off; "" for a whole one."""
+        return str(self._read["reason"])
+
+    def messages(self, topic: str) -> dict[str, NDArray[Any]]:
+        """The messages of a topic, field by field.
+
+        Parameters
+        ----------
+        topic : str
+
+        Returns
+        -------
+        dict of arrays
+            ``time`` (K,) [s]; other fields by their names, joined by dots: (K,), or (K, n) where
+            they are lists of one length; NaN for null.
+
+        Raises
+        ------
+        KeyError
+            For a topic that there is not.
+        """
+        if topic not in self._read["topics"]:
+            raise KeyError(f"topic: expected one of {', '.join(self.topics)}, got {topic!r}")
+        rows = json.loads(self._read["topics"][topic])
+        fields: dict[str, list[Any]] = {}
+        for row in rows:
+            stamp = row.pop("timestamp")
+            fields.setdefault("time", []).append(stamp["sec"] + 1e-9 * stamp["nsec"])
+            for name, value in _flat(row, ""):
+                fields.setdefault(name, []).append(value)
+        return {name: _column(values) for name, values in fields.items()}
+
+
+def _flat(row: dict[str, Any], before: str) -> list[tuple[str, Any]]:
+    found: list[tuple[str, Any]] = []
+    for name, value in row.items():
+        if isinstance(value, dict):
+            found += _flat(value, f"{before}{name}.")
+        else:
+            found.append((before + name, value))
+    return found
+
+
+def _column(values: list[Any]) -> NDArray[Any]:
+    first = values[0]
+    if isinstance(first, (str, bool)):
+        return np.array(values)
+    return np.array(values, dtype=np.float64)
