@@ -30,10 +30,12 @@ PYTHON = [
 ]
 PYTHON += ["sonar_pings", "long_survey"]
 PYTHON += ["uvms_trim", "navigation", "read_text", "whole_plan", "identify"]
+PYTHON += ["uvms_trim", "vehicle_step", "read_text", "whole_plan", "identify"]
 PYTHON += ["intervals", "diagnose_speed", "diagnose_real", "score_card"]
 CPP = ["bench_delaunay", "bench_greedy", "bench_arm_forward", "bench_arm_inverse"]
 CPP += ["bench_gram"]
 PACKAGES = ["numpy", "scipy", "coal", "open3d-cpu", "embreex", "vtk", "pandas", "pyarrow", "pin"]
+PACKAGES += ["mujoco"]
 DEBIAN = [
     "g++",
     "libcgal-dev",

@@ -26,7 +26,7 @@ struct AllocationOptions {
 /// What the thrusters that work can do.
 struct AllocationRank {
   int rank = 0;           ///< of their matrix, 0 to 6
-  std::vector<int> lost;  ///< directions that they cannot give beside the others, 0 to 5
+  std::vector<int> lost;  ///< directions that they cannot give in addition to the others, 0 to 5
 };
 
 struct AllocationResult {

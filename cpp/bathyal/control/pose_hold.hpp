@@ -31,7 +31,7 @@ struct PoseHoldState {
 /// A PID whose gains are the model's: in each direction the error obeys
 /// (s + i ω)(s² + 2 ζ ω s + ω²) = 0, times the vehicle's mass matrix with its added mass, with
 /// weight, buoyancy and the drag of the current fed forward (Fossen 2011, sect. 12.2). The integral
-/// of position stands in the world, so that a turn of the vehicle does not turn a current's share.
+/// of position is kept in the world, so that a turn of the vehicle does not turn a current's share.
 /// It does not wind up: it follows what the thrusters gave.
 class PoseHold {
  public:

@@ -146,7 +146,7 @@ Vehicle::Vehicle(VehicleOptions options) {
   options.check();
   rigid_ = bathyal::mass_matrix(options.body);
   mass_ = rigid_ + options.added_mass;
-  solver_.compute(mass_);
+  inverse_ = mass_.llt().solve(Mat6::Identity());
   options_ = std::make_shared<const VehicleOptions>(std::move(options));
 }
 
@@ -182,7 +182,7 @@ Vec6 Vehicle::acceleration(const VehicleState& state, const Vec6& wrench, const 
                coriolis(rigid_, state.velocity) - coriolis(options_->added_mass, relative) +
                options_->added_mass * water_change;
   force.head<3>() += options_->water_density * options_->body.volume * pushed;
-  if (free == kAllFree) return solver_.solve(force);
+  if (free == kAllFree) return inverse_ * force;
   return solved(mass_, force, free);
 }
 

@@ -93,7 +93,7 @@ class Vehicle {
  private:
   std::shared_ptr<const VehicleOptions> options_;
   Mat6 rigid_, mass_;
-  Eigen::LLT<Mat6> solver_;
+  Mat6 inverse_;  // of mass_
 };
 
 /// The rigid body's own mass matrix about the origin of its frame.

@@ -13,12 +13,19 @@ namespace vehicle_system {  // a lambda keeps them: not without a name
 
 constexpr std::size_t kMostThrusters = 32;
 
-/// One thruster through a step: at its start, half of it, and its end.
-struct ThrusterCourse {
-  ThrusterDrive drive;
-  std::array<double, 3> speed{};
+/// A thruster in water that moves through it at a stage of a step: what its inflow takes.
+struct InflowLoss {
+  std::size_t thruster = 0;
+  std::array<double, 3> speed{};  // at the start, half of the step, and its end
 };
-using Courses = std::array<ThrusterCourse, kMostThrusters>;
+
+/// The thrusters through a step: at its start, half of it, and its end.
+struct ThrusterCourse {
+  std::array<Vec6, 3> still;  // force and moment of all, less what inflow takes
+  std::array<InflowLoss, kMostThrusters> losses;
+  std::size_t loss_count = 0;
+  std::array<double, kMostThrusters> end_speed{};
+};
 
 /// Position, quaternion (x, y, z, w) and velocity as one vector.
 using Flat = Eigen::Matrix<double, 13, 1>;
@@ -93,6 +100,7 @@ VehicleSystem::VehicleSystem(VehicleSystemOptions options)
   for (const ThrusterOptions& thruster : options_.thrusters) thrusters_.emplace_back(thruster);
   for (const FinOptions& fin : options_.fins) fins_.emplace_back(fin);
   if (options_.battery) battery_.emplace(*options_.battery);
+  for (const Thruster& thruster : thrusters_) tables_ = tables_ || thruster.options().table;
 }
 
 VehicleSystemState VehicleSystem::rest() const {
@@ -119,15 +127,20 @@ void VehicleSystem::check_commands(const VehicleSystemState& state,
 
 BatteryLoad VehicleSystem::supply(const VehicleSystemState& state,
                                   const VehicleCommands& commands) const {
+  // by the law, what a thruster draws depends on its speed alone, by a table on the voltage as well
+  double fixed = options_.hotel_power;
+  for (std::size_t i = 0; i < thrusters_.size(); ++i) {
+    if (!thrusters_[i].options().table) {
+      fixed += thrusters_[i].power(state.thrusters[i].speed, {});
+    }
+  }
   const auto drawn = [&](double voltage) {
-    double power = options_.hotel_power;
+    double power = fixed;
+    if (!tables_) return power;
     for (std::size_t i = 0; i < thrusters_.size(); ++i) {
-      const Thruster& thruster = thrusters_[i];
-      // by the law, what it draws depends on its speed alone, by a table on the voltage as well
-      const ThrusterDrive drive = thruster.options().table
-                                      ? thruster.drive(commands.thrusters[i], voltage)
-                                      : ThrusterDrive();
-      power += thruster.power(state.thrusters[i].speed, drive);
+      if (!thrusters_[i].options().table) continue;
+      power += thrusters_[i].power(state.thrusters[i].speed,
+                                   thrusters_[i].drive(commands.thrusters[i], voltage));
     }
     return power;
   };
@@ -165,6 +178,29 @@ Vec6 VehicleSystem::device_wrench(const VehicleSystemState& state, const Vehicle
   return sum;
 }
 
+vehicle_system::ThrusterCourse VehicleSystem::thruster_course(const VehicleSystemState& state,
+                                                              const VehicleCommands& commands,
+                                                              double voltage, double time) const {
+  ThrusterCourse course;
+  course.still.fill(Vec6::Zero());
+  double lag = 0.0, share = 0.0;  // of a half step that is left; thrusters mostly have one lag
+  for (std::size_t i = 0; i < thrusters_.size(); ++i) {
+    const Thruster& thruster = thrusters_[i];
+    const ThrusterDrive drive = thruster.drive(commands.thrusters[i], voltage);
+    if (thruster.options().lag != lag) {
+      lag = thruster.options().lag;
+      share = std::exp(-0.5 * time / lag);
+    }
+    const double start = state.thrusters[i].speed, off = lag > 0.0 ? start - drive.speed : 0.0;
+    const std::array<double, 3> speed{start, drive.speed + share * off,
+                                      drive.speed + share * share * off};
+    for (std::size_t k = 0; k < 3; ++k) course.still[k] += thruster.still_wrench(speed[k], drive);
+    if (thruster.meets_inflow()) course.losses[course.loss_count++] = {i, speed};
+    course.end_speed[i] = speed[2];
+  }
+  return course;
+}
+
 void VehicleSystem::advance(VehicleSystemState& state, const VehicleCommands& commands,
                             const StepConditionsFunction& around, double time) const {
   check_commands(state, commands);
@@ -173,23 +209,16 @@ void VehicleSystem::advance(VehicleSystemState& state, const VehicleCommands& co
   for (std::size_t i = 0; i < commands.drop.size(); ++i) {
     if (commands.drop[i] != 0) state.drop_weights[i].released = 1;
   }
-  Courses courses;
-  for (std::size_t i = 0; i < thrusters_.size(); ++i) {
-    const Thruster& thruster = thrusters_[i];
-    ThrusterCourse& course = courses[i];
-    course.drive = thruster.drive(commands.thrusters[i], load.voltage);
-    const ThrusterState middle = thruster.advanced(state.thrusters[i], course.drive, 0.5 * time);
-    const ThrusterState end = thruster.advanced(middle, course.drive, 0.5 * time);
-    course.speed = {state.thrusters[i].speed, middle.speed, end.speed};
-  }
+  const ThrusterCourse course = thruster_course(state, commands, load.voltage, time);
   const auto rate = [&](const Flat& flat, int part) {
     const VehicleState motion = motion_of(flat);
     const StepConditions here = around(0.5 * part * time, motion);
     const Vec6 relative = relative_velocity(motion, here.flow);
-    Vec6 wrench = here.wrench + carried(state, motion, here.flow);
-    for (std::size_t i = 0; i < thrusters_.size(); ++i) {
-      wrench += thrusters_[i].wrench(courses[i].speed[static_cast<std::size_t>(part)],
-                                     courses[i].drive, relative);
+    const auto stage = static_cast<std::size_t>(part);
+    Vec6 wrench = here.wrench + carried(state, motion, here.flow) + course.still[stage];
+    for (std::size_t k = 0; k < course.loss_count; ++k) {
+      const InflowLoss& loss = course.losses[k];
+      wrench += thrusters_[loss.thruster].inflow_wrench(loss.speed[stage], relative);
     }
     for (std::size_t i = 0; i < fins_.size(); ++i) {
       const FinState fin = fins_[i].advanced(state.fins[i], commands.fins[i], 0.5 * part * time);
@@ -208,7 +237,7 @@ void VehicleSystem::advance(VehicleSystemState& state, const VehicleCommands& co
   if (!next.allFinite()) throw Error("the motion runs away: its numbers are not finite");
   state.motion = motion_of(next);
   for (std::size_t i = 0; i < thrusters_.size(); ++i)
-    state.thrusters[i].speed = courses[i].speed[2];
+    state.thrusters[i].speed = course.end_speed[i];
   for (std::size_t i = 0; i < fins_.size(); ++i) {
     state.fins[i] = fins_[i].advanced(state.fins[i], commands.fins[i], time);
   }

@@ -15,6 +15,10 @@
 
 namespace bathyal {
 
+namespace vehicle_system {
+struct ThrusterCourse;
+}
+
 /// A vehicle with what moves it.
 struct VehicleSystemOptions {
   VehicleOptions vehicle;
@@ -93,6 +97,9 @@ class VehicleSystem {
   void check_commands(const VehicleSystemState& state, const VehicleCommands& commands) const;
   void advance(VehicleSystemState& state, const VehicleCommands& commands,
                const StepConditionsFunction& around, double time) const;
+  vehicle_system::ThrusterCourse thruster_course(const VehicleSystemState& state,
+                                                 const VehicleCommands& commands, double voltage,
+                                                 double time) const;
   Vec6 carried(const VehicleSystemState& state, const VehicleState& motion, const Flow& flow) const;
 
   VehicleSystemOptions options_;
@@ -100,6 +107,7 @@ class VehicleSystem {
   std::vector<Thruster> thrusters_;
   std::vector<Fin> fins_;
   std::optional<Battery> battery_;
+  bool tables_ = false;  // a thruster has one
 };
 
 }  // namespace bathyal

@@ -110,11 +110,21 @@ double Thruster::power(double speed, const ThrusterDrive& drive) const {
   return std::max(0.0, (way.power_cubic + way.power_quartic * size) * cube + drive.power);
 }
 
-Vec6 Thruster::wrench(double speed, const ThrusterDrive& drive, const Vec6& relative) const {
-  const double met = axis_.dot(relative);  // d · (v + ω × r)
-  Vec6 result = thrust(speed, drive, met) * axis_;
-  result.tail<3>() -= options_.spin * torque(speed, met) * options_.direction;
+Vec6 Thruster::still_wrench(double speed, const ThrusterDrive& drive) const {
+  Vec6 result = thrust(speed, drive) * axis_;
+  result.tail<3>() -= options_.spin * torque(speed) * options_.direction;
   return result;
+}
+
+Vec6 Thruster::inflow_wrench(double speed, const Vec6& relative) const {
+  const double loss = -std::abs(speed) * axis_.dot(relative);  // d · (v + ω × r)
+  Vec6 result = options_.inflow * loss * axis_;
+  result.tail<3>() -= options_.spin * options_.torque_inflow * loss * options_.direction;
+  return result;
+}
+
+Vec6 Thruster::wrench(double speed, const ThrusterDrive& drive, const Vec6& relative) const {
+  return still_wrench(speed, drive) + inflow_wrench(speed, relative);
 }
 
 ThrusterPoint Thruster::steady(double command, double voltage) const {

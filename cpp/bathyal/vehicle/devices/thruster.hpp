@@ -89,6 +89,11 @@ class Thruster {
   /// Force and moment about the vehicle's origin. \param relative velocity through the water
   Vec6 wrench(double speed, const ThrusterDrive& drive, const Vec6& relative) const;
 
+  /// Its two parts: in still water, and what inflow changes.
+  Vec6 still_wrench(double speed, const ThrusterDrive& drive) const;
+  Vec6 inflow_wrench(double speed, const Vec6& relative) const;
+  bool meets_inflow() const { return options_.inflow > 0.0 || options_.torque_inflow > 0.0; }
+
   /// What it settles at in still water.
   ThrusterPoint steady(double command, double voltage) const;
 
