@@ -3383,8 +3383,8 @@ class Sensor:
     >>> time = np.arange(5) / 2
     >>> pose = np.tile(np.eye(4), (5, 1, 1))
     >>> pose[:, 2, 3] = -10.0
-    >>> gauge.simulate(time, pose, seed=1).values[:, 0].round(1).tolist()
-    [9.9, 10.1, 9.9, 10.0, 10.0]
+    >>> gauge.simulate(time, pose, seed=1).values[:, 0].round(2).tolist()
+    [9.97, 10.01, 10.01, 10.01, 9.95]
     """
     def __init__(self, kind: str, *, name: str | None = None, rate: typing.SupportsFloat | typing.SupportsIndex = 1.0, latency: typing.SupportsFloat | typing.SupportsIndex = 0.0, dropout: typing.SupportsFloat | typing.SupportsIndex = 0.0, range: typing.SupportsFloat | typing.SupportsIndex = ..., sound_speed: typing.SupportsFloat | typing.SupportsIndex = 1500.0, vehicle_from_sensor: numpy.typing.ArrayLike | None = None, beacons: numpy.typing.ArrayLike | None = None, noise: float | numpy.typing.ArrayLike = 0.0, bias: float | numpy.typing.ArrayLike = 0.0, scale: float | numpy.typing.ArrayLike = 0.0, walk: float | numpy.typing.ArrayLike = 0.0, markov: float | numpy.typing.ArrayLike = 0.0, markov_time: float | numpy.typing.ArrayLike = 0.0, outlier_rate: float | numpy.typing.ArrayLike = 0.0, outlier_size: float | numpy.typing.ArrayLike = 0.0, quantum: float | numpy.typing.ArrayLike = 0.0) -> None:
         ...
@@ -9575,7 +9575,7 @@ def smooth(time: numpy.typing.ArrayLike, attitude: numpy.typing.ArrayLike, veloc
     Forward by `NavigationFilter.predict_motion`, then back: each estimate is the best given all fixes.
     Estimated along the way are heading, scale and mount of the log, current, and where in the vehicle
     the fixes belong to. A velocity that repeats the row before to the last bit is an old value that
-    stands: it is replaced by what lies linearly between the fresh ones.
+    is held: it is replaced by what lies linearly between the fresh ones.
     
     Parameters
     ----------
