@@ -187,6 +187,7 @@ Transition apply_prediction(const NavigationOptions& options, NavigationEstimate
   }
   estimate.force = input.second;
   estimate.input = input.kind;
+  estimate.input_time = input.time;
   estimate.time = input.time;
   return step;
 }
