@@ -145,7 +145,7 @@ inline constexpr const char* kSmooth = R"(A track reckoned from attitude and log
 Forward by `NavigationFilter.predict_motion`, then back: each estimate is the best given all fixes.
 Estimated along the way are heading, scale and mount of the log, current, and where in the vehicle
 the fixes belong to. A velocity that repeats the row before to the last bit is an old value that
-stands: it is replaced by what lies linearly between the fresh ones.
+is held: it is replaced by what lies linearly between the fresh ones.
 
 Parameters
 ----------

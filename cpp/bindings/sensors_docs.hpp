@@ -70,8 +70,8 @@ Examples
 >>> time = np.arange(5) / 2
 >>> pose = np.tile(np.eye(4), (5, 1, 1))
 >>> pose[:, 2, 3] = -10.0
->>> gauge.simulate(time, pose, seed=1).values[:, 0].round(1).tolist()
-[9.9, 10.1, 9.9, 10.0, 10.0]
+>>> gauge.simulate(time, pose, seed=1).values[:, 0].round(2).tolist()
+[9.97, 10.01, 10.01, 10.01, 9.95]
 )";
 
 inline constexpr const char* kSimulate = R"(What the sensor reports of a motion.

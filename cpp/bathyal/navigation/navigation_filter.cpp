@@ -226,15 +226,7 @@ NavigationUpdate NavigationFilter::update(NavigationState& state, int device,
   const SensorOptions& options = options_.devices[static_cast<std::size_t>(device)];
   check_reading(options, reading, state.now.time);
   if (reading.kind == SensorKind::imu) {
-    const auto& v = reading.values;
-    const Pose& mount = options.vehicle_from_sensor;
-    const Vec3 arm = mount.translation();
-    const Vec3 rate = mount.linear() * Vec3(v[0], v[1], v[2]);
-    const Vec3 spin = rate - state.now.gyro_bias;
-    Vec3 force = mount.linear() * Vec3(v[3], v[4], v[5]) - spin.cross(spin.cross(arm));
-    const double dt = reading.time - state.now.time;
-    if (state.now.input == kInertial && dt > 0.0) force -= (rate - state.now.rate).cross(arm) / dt;
-    if (reading.valid) predict(state, reading.time, rate, force, record);
+    if (reading.valid) predict_reading(state, options.vehicle_from_sensor, reading, record);
     return {};
   }
   NavigationInput input;
@@ -244,6 +236,19 @@ NavigationUpdate NavigationFilter::update(NavigationState& state, int device,
   input.device = device;
   if (reading.time < state.now.time - kSameTime) return run_late(options_, state, input, record);
   return run_and_keep(options_, state, input, record);
+}
+
+void NavigationFilter::predict_reading(NavigationState& state, const Pose& mount,
+                                       const SensorReading& reading,
+                                       std::vector<NavigationStep>* record) const {
+  const auto& v = reading.values;
+  const Vec3 arm = mount.translation();
+  const Vec3 rate = mount.linear() * Vec3(v[0], v[1], v[2]);
+  const Vec3 spin = rate - state.now.gyro_bias;
+  Vec3 force = mount.linear() * Vec3(v[3], v[4], v[5]) - spin.cross(spin.cross(arm));
+  const double dt = reading.time - state.now.input_time;
+  if (state.now.input == kInertial && dt > 0.0) force -= (rate - state.now.rate).cross(arm) / dt;
+  predict(state, reading.time, rate, force, record);
 }
 
 int NavigationFilter::device(const std::string& name) const {

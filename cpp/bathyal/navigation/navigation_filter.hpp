@@ -34,6 +34,7 @@ struct NavigationEstimate {
 
   // The last input of predict(), which holds until the next one.
   int input = 0;                         ///< 0 none yet, 1 inertial, 2 motion
+  double input_time = 0.0;               ///< of it [s]
   Vec3 rate = Vec3::Zero();              ///< of turn, as measured [rad/s]
   Vec3 force = Vec3::Zero();             ///< specific, as measured [m/s²]; or velocity [m/s]
   Eigen::Vector4d reported{0, 0, 0, 1};  ///< the last attitude of predict_motion
@@ -82,7 +83,7 @@ struct NavigationUpdate {
 
 struct NavigationStep;  // internal/filter_steps.hpp
 
-/// Error-state Kalman filter on a unit quaternion (Sola 2017, "Quaternion kinematics for the
+/// Error-state Kalman filter on a unit quaternion (Solà 2017, "Quaternion kinematics for the
 /// error-state Kalman filter", global errors), covariances updated in Joseph's form. The world is
 /// flat and does not turn; z is up. Two ways to predict, one a filter: by inertial samples, or by a
 /// reported attitude and a velocity log.
@@ -123,6 +124,10 @@ class NavigationFilter {
   int device(const std::string& name) const;
 
  private:
+  /// By a sample of an imu that is mounted off the vehicle's origin, or turned.
+  void predict_reading(NavigationState& state, const Pose& mount, const SensorReading& reading,
+                       std::vector<NavigationStep>* record) const;
+
   NavigationOptions options_;
 };
 

@@ -83,6 +83,7 @@ void put(Stream& stream, NavigationEstimate& e) {
   put(stream, e.fix_lever);
   put(stream, e.covariance);
   put(stream, e.input);
+  put(stream, e.input_time);
   put(stream, e.rate);
   put(stream, e.force);
   put(stream, e.reported);

@@ -45,8 +45,7 @@ enum class SensorKind {
   modem
 };
 
-/// Errors of one channel, in its unit unless said otherwise. Standard deviations where no other
-/// word stands; all 0 or more.
+/// Errors of one channel: standard deviations in its unit unless said otherwise; all 0 or more.
 struct SensorChannel {
   double noise = 0.0;         ///< of each sample, normal
   double bias = 0.0;          ///< of a constant, drawn once a seed

@@ -32,7 +32,7 @@ void check_input(const ReckonedTrack& track, const PositionFixes& fixes) {
   }
 }
 
-/// Values that stand replaced by what lies linearly between the fresh ones.
+/// Held values replaced by what lies linearly between the fresh ones.
 PointMatrix between_fresh(const std::vector<double>& time, const PointMatrix& rows) {
   const std::vector<bool> fresh = fresh_rows(rows);
   PointMatrix result = rows;

@@ -31,8 +31,8 @@ NavigationOptions reckoning_options();
 
 /// The whole track through its fixes: forward by NavigationFilter::predict_motion, then smoothed.
 /// Where it begins is unknown but for its fixes: options.initial_position, devices and lag are not
-/// used. A velocity that repeats the row before it to the last bit is an old value that stands: it
-/// is replaced by what lies linearly between the fresh ones; after the last fresh one it stands.
+/// used. A velocity that repeats the row before it to the last bit is an old value that is held: it
+/// is replaced by what lies linearly between the fresh ones; after the last fresh one it is kept.
 /// \throw std::invalid_argument for a track of fewer than two rows, no fix, times that do not rise
 ///        or lie outside the track, other counts of rows, numbers that are not finite, a noise that
 ///        is not above 0, or as options.check()

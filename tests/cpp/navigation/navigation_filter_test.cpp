@@ -71,6 +71,26 @@ TEST(NavigationFilter, FindsWhatTheLogAndTheCurrentAreOffBy) {
   EXPECT_LT((state.now.current - Eigen::Vector2d(0.2, -0.1)).norm(), 0.02);
 }
 
+/// What an imu feels off the origin is brought there: without it this one would push by ω² r.
+TEST(NavigationFilter, AnImuMayBeMountedAnywhere) {
+  NavigationOptions options = usual_options();
+  options.devices.resize(1);
+  for (SensorChannel& c : options.devices[0].channels) c = {};
+  const auto drift_by_end = [&](const Vec3& arm) {
+    options.devices[0].vehicle_from_sensor.translation() = arm;
+    options.devices[0].vehicle_from_sensor.linear() = rotation_of(Vec3(0.0, 0.0, 1.0));
+    const NavigationFilter filter(options);
+    const SensorTruth first = truth_at(0.0);
+    NavigationState state =
+        filter.start(0.0, first.world_from_vehicle,
+                     first.world_from_vehicle.linear() * first.velocity.head<3>());
+    test::run(filter, state, 1, 20.0, [](const auto&, const auto&, const auto&) {});
+    return (truth_at(20.0).world_from_vehicle.translation() - state.now.position).norm();
+  };
+  EXPECT_LT(drift_by_end(Vec3::Zero()), 0.01);
+  EXPECT_LT(drift_by_end(Vec3(1.0, 0.3, -0.5)), 0.05);
+}
+
 /// Fixes that come 1.33 s late give the same estimate as those that come at once.
 TEST(NavigationFilter, LateFixesAreAppliedAtTheirOwnTime) {
   NavigationOptions options = usual_options();

@@ -148,7 +148,7 @@ TEST(SmoothReckoning, RefusesBadInput) {
   refused(track, wrong);
 }
 
-TEST(SmoothReckoning, ValuesThatStandAreFound) {
+TEST(SmoothReckoning, HeldValuesAreFound) {
   PointMatrix rows(4, 3);
   rows << 1, 0, 0, 1, 0, 0, 1, 0, 1e-9, 1, 0, 1e-9;
   EXPECT_EQ(fresh_rows(rows), (std::vector<bool>{true, false, true, false}));

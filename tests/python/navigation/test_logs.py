@@ -56,7 +56,7 @@ def test_the_smoother_against_the_logged_positions(
 
 @needs_logs
 @pytest.mark.parametrize("name", ["20220719_6_1", "20230517_0_0", "20220712_0_1"])
-def test_it_never_sees_the_positions_it_is_judged_on(name: str) -> None:
+def test_positions_between_the_fixes_change_nothing(name: str) -> None:
     log = read(name)
     rows = fix_rows(log.time)
     fixes = log.position[rows]
@@ -73,7 +73,7 @@ def test_accelerations_that_are_differences_are_found() -> None:
 
 
 @needs_logs
-def test_values_that_stand_are_found() -> None:
+def test_held_values_are_found() -> None:
     log = read("20230517_0_0")
     new = log.time[log.fresh]
     assert np.diff(np.append(new, log.time[-1])).max() == pytest.approx(16.085, abs=1e-3)

@@ -28,6 +28,11 @@ void add_noise(NavigationMatrix& p, int at, double variance) {
   for (int i = 0; i < 3; ++i) p(at + i, at + i) += variance;
 }
 
+void fade_current(NavigationMatrix& p, double kept) {
+  p.middleCols<2>(kCurrent) *= kept;
+  p.middleRows<2>(kCurrent) *= kept;
+}
+
 /// P ← F P Fᵀ
 void transport(NavigationMatrix& p, const Transition& step) {
   constexpr int kTop = Transition::kTop;
@@ -36,8 +41,7 @@ void transport(NavigationMatrix& p, const Transition& step) {
   p.topLeftCorner<kTop, kTop>().noalias() = rows * step.top.transpose();
   p.topRightCorner<kTop, kRest>() = rows.rightCols<kRest>();
   p.bottomLeftCorner<kRest, kTop>() = rows.rightCols<kRest>().transpose();
-  p.middleCols<2>(kCurrent) *= step.current_kept;
-  p.middleRows<2>(kCurrent) *= step.current_kept;
+  fade_current(p, step.current_kept);
 }
 
 /// Of quantities that keep their value but for noise; the current fades.
@@ -54,6 +58,45 @@ void age(const NavigationOptions& options, NavigationEstimate& estimate, double 
   estimate.time += dt;
 }
 
+/// \param lean by which an error of attitude changes the velocity \param turn dt times the attitude
+/// in the middle of the step
+Transition inertial_transition(const Matrix3d& lean, const Matrix3d& turn, double dt) {
+  Transition step;
+  step.top.block<3, 3>(kVelocity, kAttitude) = lean;
+  step.top.block<3, 3>(kVelocity, kGyroBias) = -0.5 * lean * turn;
+  step.top.block<3, 3>(kVelocity, kAccelBias) = -turn;
+  step.top.block<3, 3>(kAttitude, kGyroBias) = -turn;
+  step.top.block<3, 9>(kPosition, kAttitude) =
+      0.5 * dt * step.top.block<3, 9>(kVelocity, kAttitude);
+  step.top.block<3, 3>(kPosition, kVelocity).diagonal().setConstant(dt);
+  return step;
+}
+
+/// The same as transport(), by the blocks that are not 0.
+void transport_inertial(NavigationMatrix& p, const Transition& step) {
+  constexpr int kTop = Transition::kTop;
+  constexpr int kRest = kNavigationErrors - kTop;
+  const double dt = step.top(kPosition, kVelocity);
+  const Eigen::Matrix<double, 3, 9> push = step.top.block<3, 9>(kVelocity, kAttitude);
+  const Matrix3d turn = step.top.block<3, 3>(kAttitude, kGyroBias);
+  Eigen::Matrix<double, kTop, kNavigationErrors> rows = p.topRows<kTop>();
+  const Eigen::Matrix<double, 3, kNavigationErrors> gained =
+      push.lazyProduct(p.middleRows<9>(kAttitude));
+  rows.middleRows<3>(kPosition) += dt * rows.middleRows<3>(kVelocity) + 0.5 * dt * gained;
+  rows.middleRows<3>(kVelocity) += gained;
+  rows.middleRows<3>(kAttitude) += turn.lazyProduct(p.middleRows<3>(kGyroBias));
+  const Eigen::Matrix<double, kTop, 3> across =
+      rows.middleCols<9>(kAttitude).lazyProduct(push.transpose());
+  auto corner = p.topLeftCorner<kTop, kTop>();
+  corner = rows.leftCols<kTop>();
+  corner.middleCols<3>(kPosition) += dt * rows.middleCols<3>(kVelocity) + 0.5 * dt * across;
+  corner.middleCols<3>(kVelocity) += across;
+  corner.middleCols<3>(kAttitude) += rows.middleCols<3>(kGyroBias).lazyProduct(turn.transpose());
+  p.topRightCorner<kTop, kRest>() = rows.rightCols<kRest>();
+  p.bottomLeftCorner<kRest, kTop>() = rows.rightCols<kRest>().transpose();
+  fade_current(p, step.current_kept);
+}
+
 /// Strapdown: rates and forces are the means over the step.
 Transition go_inertial(const NavigationOptions& options, NavigationEstimate& estimate, double dt,
                        const Vec3& rate, const Vec3& force) {
@@ -66,17 +109,10 @@ Transition go_inertial(const NavigationOptions& options, NavigationEstimate& est
   estimate.position += dt * estimate.velocity + 0.5 * dt * dt * acceleration;
   estimate.velocity += dt * acceleration;
 
-  Transition step;
-  const Matrix3d lean = -cross_matrix(push);
-  step.top.block<3, 3>(kPosition, kVelocity).diagonal().setConstant(dt);
-  step.top.block<3, 3>(kPosition, kAttitude) = 0.5 * dt * dt * lean;
-  step.top.block<3, 3>(kPosition, kAccelBias) = -0.5 * dt * dt * middle;
-  step.top.block<3, 3>(kVelocity, kAttitude) = dt * lean;
-  step.top.block<3, 3>(kVelocity, kAccelBias) = -dt * middle;
-  step.top.block<3, 3>(kAttitude, kGyroBias) = -dt * middle;
+  Transition step = inertial_transition(-dt * cross_matrix(push), dt * middle, dt);
   step.current_kept = std::exp(-dt / options.current_time);
   NavigationMatrix& p = estimate.covariance;
-  transport(p, step);
+  transport_inertial(p, step);
   const double density = square(options.accel_noise);
   add_noise(p, kPosition, density * dt * dt * dt / 3.0);
   add_noise(p, kVelocity, density * dt);
@@ -91,12 +127,12 @@ Transition go_inertial(const NavigationOptions& options, NavigationEstimate& est
 /// How the velocity that is reckoned from a log hangs on the errors, in the world: the log reads
 /// (1 + scale) (1 − [mount]×) times the velocity through the water.
 Eigen::Matrix<double, 3, kNavigationErrors> reckoned_slope(const Matrix3d& turn, const Vec3& body,
-                                                           double scale) {
+                                                           const Vec3& log, double scale) {
   Eigen::Matrix<double, 3, kNavigationErrors> slope =
       Eigen::Matrix<double, 3, kNavigationErrors>::Zero();
   slope.block<3, 3>(0, kAttitude) = -cross_matrix(turn * body);
   slope.col(kLogScale) = -turn * body / (1.0 + scale);
-  slope.block<3, 3>(0, kLogMount) = -turn * cross_matrix(body);
+  slope.block<3, 3>(0, kLogMount) = -turn * cross_matrix(log) / (1.0 + scale);
   slope.block<2, 2>(0, kCurrent).setIdentity();
   return slope;
 }
@@ -114,7 +150,8 @@ Transition go_reckoned(const NavigationOptions& options, NavigationEstimate& est
   estimate.position += 0.5 * dt * (before + velocity);
   estimate.velocity = velocity;
 
-  Eigen::Matrix<double, 3, kNavigationErrors> slope = reckoned_slope(now, body, estimate.log_scale);
+  Eigen::Matrix<double, 3, kNavigationErrors> slope =
+      reckoned_slope(now, body, log, estimate.log_scale);
   slope.middleCols<2>(kCurrent) *= step.current_kept;
   step.top.middleRows<3>(kVelocity) = slope;
   step.top.middleRows<3>(kPosition) += 0.5 * dt * slope;
@@ -150,6 +187,7 @@ Transition apply_prediction(const NavigationOptions& options, NavigationEstimate
   }
   estimate.force = input.second;
   estimate.input = input.kind;
+  estimate.input_time = input.time;
   estimate.time = input.time;
   return step;
 }
