@@ -12,7 +12,7 @@ import numpy.typing
 import os
 import plotly.graph_objects
 import typing
-__all__: list[str] = ['Arm', 'ArmFit', 'BEYOND_NOISE', 'Capsule', 'Cause', 'CleanReport', 'CleanResult', 'Clearances', 'CorrectedArm', 'Current', 'DhTable', 'Diagnosis', 'Effect', 'EffectRange', 'EffectRows', 'Eigenray', 'Error', 'Estimate', 'FitParameter', 'FollowedPath', 'FoundEffect', 'HeldOut', 'HeldOutPart', 'Hits', 'Hull', 'HullReport', 'InverseResult', 'KeepOut', 'Link', 'Material', 'MeshReport', 'MotionCheck', 'MotionPlan', 'NamedEffect', 'NavigationErrors', 'NavigationFilter', 'NavigationReport', 'NavigationTrack', 'NavigationUpdate', 'Nearest', 'NearestSegments', 'Outlier', 'Ping', 'PingTruth', 'Pipeline', 'Plane', 'PlaneFit', 'PointCloud', 'Polyline', 'Profile', 'ReachMap', 'RigidBody', 'SamplingPhase', 'SamplingPlan', 'Scene', 'SeabedModel', 'Sediment', 'Sensor', 'SensorReadings', 'Shape', 'SheetPatch', 'SheetReport', 'SidescanPings', 'Sonar', 'SoundPath', 'Standpoint', 'StaticTrim', 'Structure', 'Support', 'TargetChecks', 'Targets', 'TextTable', 'Tide', 'TipMove', 'ToolPath', 'TouchForecast', 'TouchPlan', 'Touches', 'TracedSound', 'Tracked', 'Trade', 'Trajectory', 'TriangleMesh', 'Verification', 'Voxels', 'Water', 'Waves', 'Workspace', 'World', 'WorldObject', 'WorldSnapshot', 'XtfFile', 'absorption', 'allan_deviation', 'ambient_noise', 'arm_from_chain', 'arm_from_parts', 'arm_parts', 'best_standpoint', 'chain_from_arm', 'check_bytes', 'clean_cloud', 'cover_polygon', 'dead_reckon', 'depth_from_pressure', 'diagnose', 'eigenrays', 'find_effect_with', 'find_sheets', 'find_targets', 'fish_paths', 'fit_plane', 'forecast_touches', 'generate_survey', 'identify_arm', 'intersect_moller_trumbore', 'library_effects', 'make_boulder', 'make_cable', 'make_fish', 'make_mine', 'make_pipeline', 'make_seabed', 'make_wreck', 'make_xtf', 'mesh_report', 'parse_xtf', 'plan_sampling', 'plan_toolpath', 'plan_touches', 'practical_salinity', 'pressure_from_depth', 'read_mesh_with', 'read_pcd', 'read_text_table', 'seawater_density', 'set_simd_level', 'sidescan_bottom', 'sidescan_ground', 'sidescan_mosaic', 'simd_level', 'smooth', 'sound_speed', 'sound_speed_teos10_with', 'survey_height', 'trace_sound', 'triangle_material', 'triangulate', 'triangulate_delaunay', 'verify_positions', 'warn_of_range_with', 'warn_of_support_with', 'with_link_radii', 'write_xyz']
+__all__: list[str] = ['Allocation', 'AllocationResult', 'Arm', 'ArmFit', 'BEYOND_NOISE', 'Battery', 'BatteryLoad', 'BehaviorTree', 'Capsule', 'Cause', 'CleanReport', 'CleanResult', 'Clearances', 'Condition', 'CorrectedArm', 'CruiseControl', 'CruiseState', 'Current', 'DhTable', 'Diagnosis', 'DropWeight', 'Effect', 'EffectRange', 'EffectRows', 'Eigenray', 'Error', 'Estimate', 'Fin', 'FitParameter', 'FollowedPath', 'FoundEffect', 'HeldOut', 'HeldOutPart', 'Hits', 'Hull', 'HullReport', 'InverseResult', 'KeepOut', 'LineOfSight', 'LineOfSightState', 'Link', 'Material', 'MeshReport', 'MissionPlan', 'MissionRun', 'MotionCheck', 'MotionPlan', 'NamedEffect', 'NavigationErrors', 'NavigationFilter', 'NavigationReport', 'NavigationTrack', 'NavigationUpdate', 'Nearest', 'NearestSegments', 'Outlier', 'Ping', 'PingTruth', 'Pipeline', 'Plane', 'PlaneFit', 'PointCloud', 'Polyline', 'PoseHold', 'PoseHoldState', 'Profile', 'ReachMap', 'RigidBody', 'SamplingPhase', 'SamplingPlan', 'Scene', 'SeabedModel', 'Sediment', 'Sensor', 'SensorReadings', 'Shape', 'SheetPatch', 'SheetReport', 'SidescanPings', 'Sonar', 'SoundPath', 'Standpoint', 'StaticTrim', 'Structure', 'Support', 'TargetChecks', 'Targets', 'Tether', 'TextTable', 'Thruster', 'ThrusterFit', 'ThrusterTable', 'Tide', 'TipMove', 'ToolPath', 'TouchForecast', 'TouchPlan', 'Touches', 'TracedSound', 'Tracked', 'Trade', 'Trajectory', 'TriangleMesh', 'Vehicle', 'VehicleMotion', 'VehicleSystem', 'VehicleSystemState', 'Verification', 'Voxels', 'Water', 'Waves', 'Workspace', 'World', 'WorldObject', 'WorldSnapshot', 'XtfFile', 'absorption', 'allan_deviation', 'ambient_noise', 'arm_from_chain', 'arm_from_parts', 'arm_parts', 'best_standpoint', 'chain_from_arm', 'check_bytes', 'clean_cloud', 'cover_polygon', 'dead_reckon', 'depth_from_pressure', 'diagnose', 'eigenrays', 'ellipsoid_added_mass', 'find_effect_with', 'find_sheets', 'find_targets', 'fish_paths', 'fit_plane', 'fit_thruster', 'follow_bottom', 'forecast_touches', 'generate_survey', 'identify_arm', 'intersect_moller_trumbore', 'library_effects', 'make_boulder', 'make_cable', 'make_fish', 'make_mine', 'make_pipeline', 'make_seabed', 'make_wreck', 'make_xtf', 'mesh_report', 'parse_xtf', 'plan_sampling', 'plan_toolpath', 'plan_touches', 'practical_salinity', 'pressure_from_depth', 'read_mcap', 'read_mesh_with', 'read_pcd', 'read_text_table', 'seawater_density', 'set_simd_level', 'sidescan_bottom', 'sidescan_ground', 'sidescan_mosaic', 'simd_level', 'smooth', 'sound_speed', 'sound_speed_teos10_with', 'survey_height', 'trace_sound', 'triangle_material', 'triangulate', 'triangulate_delaunay', 'typical_sensors', 'verify_positions', 'warn_of_range_with', 'warn_of_support_with', 'with_link_radii', 'write_xyz']
 class Error(RuntimeError):
     """
     A broken file, a solver that failed or a part that is not installed.
@@ -5593,6 +5593,1017 @@ class SamplingPlan:
         """
         (T, 6) force and moment on the vehicle by arm, what it holds and bottom, in the vehicle's frame about its origin [N, N m]; in the last row of the grab without the sample.
         """
+class VehicleMotion:
+    """
+    How a vehicle moved, step by step.
+    """
+    def __len__(self) -> int:
+        ...
+    def __repr__(self) -> str:
+        ...
+    @property
+    def pose(self) -> numpy.ndarray:
+        """
+        (K, 4, 4) world_from_vehicle.
+        """
+    @property
+    def time(self) -> numpy.ndarray:
+        """
+        (K,) [s].
+        """
+    @property
+    def velocity(self) -> numpy.ndarray:
+        """
+        (K, 6) over ground, linear then angular, in the vehicle's frame [m/s, rad/s].
+        """
+class Vehicle:
+    """
+    A vehicle in water.
+    
+    Its frame is x forward, y port, z up, its origin the centre of buoyancy. Velocities and forces are
+    (6,): linear, then angular; force, then moment. `bathyal.vehicles` has published ones.
+    
+    Parameters
+    ----------
+    mass : float
+        [kg]
+    inertia : (3, 3) array
+        About the centre of mass [kg m²].
+    center_of_mass : (3,) array
+        [m]
+    volume : float
+        Of the water displaced [m³].
+    added_mass : (6, 6) array, optional
+        Symmetric, of no negative energy; none unless given.
+    linear_drag : (6, 6) array, optional
+        D of the force −D ν.
+    quadratic_drag : (6,) array, optional
+        c of the force −c abs(ν) ν along and about each axis; kept as terms.
+    terms : list of (row, a, b, absolute, coefficient)
+        Parts of the force in the direction `row`: coefficient · ν_a · ν_b, of abs(ν_b) where `absolute`;
+        0 to 5 are surge, sway, heave, roll, pitch, yaw.
+    parts : (P, 5) array, optional
+        Balls that represent it where it leaves the water or meets the bottom: centre [m], radius [m],
+        share of the volume. They balance about the origin. Without any it does neither.
+    gravity : float
+        [m/s²]
+    water_density : float
+        [kg/m³]
+    name : str
+    z_down : bool
+        The numbers are of axes x forward, y starboard, z down, as most tables are printed; they are
+        turned once.
+    
+    Raises
+    ------
+    ValueError
+        For a value out of its range, or masses that make no positive definite matrix.
+    
+    Notes
+    -----
+    M_RB ν̇ + C_RB(ν) ν + M_A ν̇_r + C_A(ν_r) ν_r + D(ν_r) + g(R) = τ + ρ V a, with ν_r the velocity
+    through the water and a the water's acceleration (Fossen, Handbook of Marine Craft Hydrodynamics and
+    Motion Control, ch. 6 to 8).
+    
+    Examples
+    --------
+    >>> import bathyal, numpy as np
+    >>> remus = bathyal.vehicles.remus100()
+    >>> surge = [True, False, False, False, False, False]
+    >>> motion = remus.simulate(np.eye(4), [3.86, 0, 0, 0, 0, 0], 60.0, free=surge)
+    >>> motion.velocity[-1, 0].round(3)
+    np.float64(1.543)
+    """
+    @staticmethod
+    def bluerov2_heavy() -> Vehicle:
+        """
+        `bathyal.vehicles.bluerov2_heavy`.
+        """
+    @staticmethod
+    def from_mesh(mesh: TriangleMesh, *, mass: typing.SupportsFloat | typing.SupportsIndex | None = None, center_of_mass: numpy.typing.ArrayLike | None = None, inertia: numpy.typing.ArrayLike | None = None, drag_coefficient: numpy.typing.ArrayLike | None = None, gravity: typing.SupportsFloat | typing.SupportsIndex = 9.80665, water_density: typing.SupportsFloat | typing.SupportsIndex = 1025.0) -> tuple:
+        """
+        A first model from a closed hull.
+        
+        Added mass and drag are those of the ellipsoid of equal volume, its half axes as the roots of the
+        hull's principal second moments.
+        
+        Parameters
+        ----------
+        mesh : TriangleMesh
+            Closed; axes x forward, y port, z up.
+        mass : float, optional
+            [kg]; neutral unless given.
+        center_of_mass : (3,) array, optional
+            In the mesh's frame [m]; at the centre of volume unless given: then nothing rights it.
+        inertia : (3, 3) array, optional
+            About the centre of mass [kg m²]; of an even solid unless given.
+        drag_coefficient : (3,) array, optional
+            C of ½ ρ C A v² along x, y, z, of the ellipsoid's shadow; 1 unless given.
+        gravity : float
+            [m/s²]
+        water_density : float
+            [kg/m³]
+        
+        Returns
+        -------
+        Vehicle
+            Its origin is the hull's centre of volume.
+        vehicle_from_mesh : (4, 4) array
+        
+        Raises
+        ------
+        ValueError
+            For a mesh that is not closed, or values out of range.
+        """
+    @staticmethod
+    def remus100(equal_cross_flow: bool = False) -> Vehicle:
+        """
+        `bathyal.vehicles.remus100`.
+        """
+    def __getstate__(self) -> dict:
+        ...
+    def __init__(self, *, mass: typing.SupportsFloat | typing.SupportsIndex, inertia: numpy.typing.ArrayLike, center_of_mass: numpy.typing.ArrayLike, volume: typing.SupportsFloat | typing.SupportsIndex, added_mass: numpy.typing.ArrayLike | None = None, linear_drag: numpy.typing.ArrayLike | None = None, quadratic_drag: numpy.typing.ArrayLike | None = None, terms: collections.abc.Sequence[tuple[typing.SupportsInt | typing.SupportsIndex, typing.SupportsInt | typing.SupportsIndex, typing.SupportsInt | typing.SupportsIndex, bool, typing.SupportsFloat | typing.SupportsIndex]] = [], parts: numpy.typing.ArrayLike | None = None, gravity: typing.SupportsFloat | typing.SupportsIndex = 9.80665, water_density: typing.SupportsFloat | typing.SupportsIndex = 1025.0, name: str = 'vehicle', z_down: bool = False) -> None:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def __setstate__(self, arg0: dict) -> None:
+        ...
+    def acceleration(self, state: numpy.typing.ArrayLike | tuple[numpy.typing.ArrayLike, numpy.typing.ArrayLike], thrust: numpy.typing.ArrayLike, current: numpy.typing.ArrayLike | None = None) -> numpy.ndarray:
+        """
+        dν/dt under a force.
+        
+        Parameters
+        ----------
+        state : (4, 4) array, or (pose, velocity)
+            As of `simulate`.
+        thrust : (6,) array
+            Force and moment about the origin, in the vehicle's frame [N, N m].
+        current : (3,) array, optional
+            Of the water in the world [m/s].
+        
+        Returns
+        -------
+        (6,) array
+            [m/s², rad/s²]
+        """
+    def replace(self, **kwargs: float | str | numpy.typing.ArrayLike | list[tuple[typing.SupportsInt | typing.SupportsIndex, typing.SupportsInt | typing.SupportsIndex, typing.SupportsInt | typing.SupportsIndex, bool, typing.SupportsFloat | typing.SupportsIndex]] | None) -> Vehicle:
+        """
+        The vehicle with other values.
+        
+        Parameters
+        ----------
+        **changes
+            Keywords of `Vehicle`; `quadratic_drag` takes the place of the terms along and about an axis by
+            its own velocity, squared with its sign.
+        
+        Returns
+        -------
+        Vehicle
+        
+        Raises
+        ------
+        ValueError
+            For a name that is not known, or as `Vehicle`.
+        """
+    def simulate(self, state: numpy.typing.ArrayLike | tuple[numpy.typing.ArrayLike, numpy.typing.ArrayLike], thrust: numpy.typing.ArrayLike | collections.abc.Callable[[float, numpy.ndarray, numpy.ndarray], numpy.typing.ArrayLike], duration: typing.SupportsFloat | typing.SupportsIndex, step: typing.SupportsFloat | typing.SupportsIndex = 0.01, current: numpy.typing.ArrayLike | collections.abc.Callable[[numpy.ndarray, float], numpy.typing.ArrayLike] | None = None, free: collections.abc.Iterable[bool] | None = None, *, world: World | None = None) -> VehicleMotion:
+        """
+        Its motion under a force.
+        
+        By the classical Runge–Kutta method of fourth order with a fixed step, of position, unit quaternion
+        and velocity.
+        
+        Parameters
+        ----------
+        state : (4, 4) array, or (pose, velocity)
+            world_from_vehicle at rest, or with a velocity (6,) over ground in the vehicle's frame.
+        thrust : (6,) array or function
+            Force and moment about the vehicle's origin, in its frame [N, N m]; or a function of time,
+            world_from_vehicle and velocity that gives them, called four times a step.
+        duration, step : float
+            [s]
+        current : (3,) array or function, optional
+            Of the water in the world [m/s]; or a function of point and time that gives it.
+        free : six bools, optional
+            Surge, sway, heave, roll, pitch, yaw: velocities that are not free stay as they are at the start.
+        world : World, optional
+            Its water moves the vehicle, where no `current` is given; its surface and bottom act on the
+            vehicle's `parts`: lost buoyancy and drag, a damped spring and friction. Objects are where they
+            are at time 0.
+        
+        Returns
+        -------
+        VehicleMotion
+        
+        Raises
+        ------
+        ValueError
+            For wrong shapes, or a step beyond the stability limit of the fastest mode, which is named.
+        bathyal.Error
+            Where the motion runs away.
+        """
+    @property
+    def added_mass(self) -> numpy.ndarray:
+        """
+        (6, 6)
+        """
+    @property
+    def center_of_mass(self) -> numpy.ndarray:
+        """
+        (3,) [m]
+        """
+    @property
+    def gravity(self) -> float:
+        """
+        [m/s²]
+        """
+    @property
+    def inertia(self) -> numpy.ndarray:
+        """
+        (3, 3) about the centre of mass [kg m²].
+        """
+    @property
+    def linear_drag(self) -> numpy.ndarray:
+        """
+        (6, 6) D of the force −D ν.
+        """
+    @property
+    def mass(self) -> float:
+        """
+        [kg]
+        """
+    @property
+    def mass_matrix(self) -> numpy.ndarray:
+        """
+        (6, 6) of body and added mass about the origin.
+        """
+    @property
+    def name(self) -> str:
+        """
+        As given.
+        """
+    @property
+    def parts(self) -> numpy.ndarray:
+        """
+        (P, 5) centre [m], radius [m] and share of the volume.
+        """
+    @property
+    def terms(self) -> list[tuple[int, int, int, bool, float]]:
+        """
+        Of (row, a, b, absolute, coefficient).
+        """
+    @property
+    def volume(self) -> float:
+        """
+        [m³]
+        """
+    @property
+    def water_density(self) -> float:
+        """
+        [kg/m³]
+        """
+class ThrusterTable:
+    """
+    Thrust, power and speed measured at commands and voltages.
+    
+    Parameters
+    ----------
+    command : (K,) array
+        Rising, within −1 to 1.
+    voltage : (L,) array
+        Rising [V].
+    thrust, power, speed : (L, K) array
+        [N], [W], [1/s]; thrust and speed astern are negative.
+    
+    Raises
+    ------
+    ValueError
+        For another shape, numbers that do not rise or are not finite, or power below 0.
+    
+    See Also
+    --------
+    bathyal.read_thruster_table
+    """
+    def __init__(self, command: numpy.typing.ArrayLike, voltage: numpy.typing.ArrayLike, *, thrust: numpy.typing.ArrayLike, power: numpy.typing.ArrayLike, speed: numpy.typing.ArrayLike) -> None:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def at(self, command: typing.SupportsFloat | typing.SupportsIndex, voltage: typing.SupportsFloat | typing.SupportsIndex) -> tuple[float, float, float]:
+        """
+        (thrust [N], power [W], speed [1/s]), bilinear; beyond the ends as at the ends.
+        """
+    @property
+    def command(self) -> numpy.ndarray:
+        """
+        (K,)
+        """
+    @property
+    def power(self) -> numpy.ndarray:
+        """
+        (L, K) [W].
+        """
+    @property
+    def speed(self) -> numpy.ndarray:
+        """
+        (L, K) [1/s].
+        """
+    @property
+    def thrust(self) -> numpy.ndarray:
+        """
+        (L, K) [N].
+        """
+    @property
+    def voltage(self) -> numpy.ndarray:
+        """
+        (L,) [V].
+        """
+class Thruster:
+    """
+    A thruster in the vehicle's frame.
+    
+    Its force is ``T = k n|n| − inflow |n| u_a``, with n the propeller's speed, k by the side and u_a
+    the speed of the water that it meets (Fossen 2011, eq. 12.224). A table, where there is one, gives what
+    is reached in still water. Pairs are (ahead, astern).
+    
+    Parameters
+    ----------
+    thrust : (float, float)
+        k of n² [N s²].
+    speed : (float, float)
+        At full command and the nominal voltage [1/s].
+    position, direction : (3,) array
+        Of the force ahead, in the vehicle's frame [m]; the direction of any length above 0.
+    torque : (float, float)
+        Of n² [N m s²].
+    shape, voltage_exponent : (float, float)
+        The speed goes with the command past the dead zone to the one, the voltage over the nominal one
+        to the other.
+    power_cubic, power_quartic : (float, float)
+        Electrical power is ``cubic |n|³ + quartic n⁴`` [W s³], [W s⁴].
+    inflow, torque_inflow : float
+        Lost by inflow [N s²/m], [N s²].
+    spin : int
+        1: right-handed; its moment on the vehicle is against `direction`. −1: left-handed.
+    dead_zone : float
+        Commands up to this size stop it, at the nominal voltage.
+    nominal_voltage : float
+        [V]
+    lag : float
+        Time constant of the speed [s].
+    table : ThrusterTable, optional
+    name : str
+    
+    Raises
+    ------
+    ValueError
+        For a value out of its range.
+    
+    Examples
+    --------
+    >>> t200 = bathyal.Thruster.t200()
+    >>> thrust, power, speed = t200.steady(1.0, 16.0)
+    >>> print(f"{thrust:.1f} N, {power:.0f} W, {speed:.1f} turns a second")
+    50.9 N, 406 W, 58.8 turns a second
+    >>> round(bathyal.Thruster.t200_benchmark().steady(0.97, 16.0)[0], 1)
+    30.6
+    """
+    @staticmethod
+    def propeller(*, diameter: typing.SupportsFloat | typing.SupportsIndex, thrust: tuple[typing.SupportsFloat | typing.SupportsIndex, typing.SupportsFloat | typing.SupportsIndex], torque: tuple[typing.SupportsFloat | typing.SupportsIndex, typing.SupportsFloat | typing.SupportsIndex] = (0.0, 0.0), speed: typing.SupportsFloat | typing.SupportsIndex, water_density: typing.SupportsFloat | typing.SupportsIndex = 1025.0) -> Thruster:
+        """
+        By the advance ratio J: K_T = thrust[0] + thrust[1] J, K_Q likewise; diameter [m], speed at full command [1/s].
+        """
+    @staticmethod
+    def t200(table: ThrusterTable | None = None) -> Thruster:
+        """
+        Blue Robotics' T200: the law fitted to their bollard tests, or those tests.
+        """
+    @staticmethod
+    def t200_benchmark() -> Thruster:
+        """
+        The T200 of von Benzon and others (2022), at most 30.6 N at any voltage.
+        """
+    def __init__(self, *, thrust: tuple[typing.SupportsFloat | typing.SupportsIndex, typing.SupportsFloat | typing.SupportsIndex], speed: tuple[typing.SupportsFloat | typing.SupportsIndex, typing.SupportsFloat | typing.SupportsIndex], position: numpy.typing.ArrayLike = (0.0, 0.0, 0.0), direction: numpy.typing.ArrayLike = (1.0, 0.0, 0.0), torque: tuple[typing.SupportsFloat | typing.SupportsIndex, typing.SupportsFloat | typing.SupportsIndex] = (0.0, 0.0), shape: tuple[typing.SupportsFloat | typing.SupportsIndex, typing.SupportsFloat | typing.SupportsIndex] = (1.0, 1.0), voltage_exponent: tuple[typing.SupportsFloat | typing.SupportsIndex, typing.SupportsFloat | typing.SupportsIndex] = (0.0, 0.0), power_cubic: tuple[typing.SupportsFloat | typing.SupportsIndex, typing.SupportsFloat | typing.SupportsIndex] = (0.0, 0.0), power_quartic: tuple[typing.SupportsFloat | typing.SupportsIndex, typing.SupportsFloat | typing.SupportsIndex] = (0.0, 0.0), inflow: typing.SupportsFloat | typing.SupportsIndex = 0.0, torque_inflow: typing.SupportsFloat | typing.SupportsIndex = 0.0, spin: typing.SupportsInt | typing.SupportsIndex = 1, dead_zone: typing.SupportsFloat | typing.SupportsIndex = 0.0, nominal_voltage: typing.SupportsFloat | typing.SupportsIndex = 16.0, lag: typing.SupportsFloat | typing.SupportsIndex = 0.0, table: ThrusterTable | None = None, name: str = 'thruster') -> None:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def advanced(self, speed: typing.SupportsFloat | typing.SupportsIndex, command: typing.SupportsFloat | typing.SupportsIndex, voltage: typing.SupportsFloat | typing.SupportsIndex, time: typing.SupportsFloat | typing.SupportsIndex) -> float:
+        """
+        The propeller's speed [1/s] a time [s] after `speed`, under a command.
+        """
+    def command_for(self, thrust: typing.SupportsFloat | typing.SupportsIndex, voltage: typing.SupportsFloat | typing.SupportsIndex) -> float:
+        """
+        The command whose steady thrust is `thrust` [N]; beyond what it can give, the nearest.
+        """
+    def placed(self, position: numpy.typing.ArrayLike, direction: numpy.typing.ArrayLike, name: str | None = None) -> Thruster:
+        """
+        The same thruster elsewhere on the vehicle.
+        """
+    def steady(self, command: typing.SupportsFloat | typing.SupportsIndex, voltage: typing.SupportsFloat | typing.SupportsIndex) -> tuple[float, float, float]:
+        """
+        (thrust [N], power [W], speed [1/s]) that it settles at in still water.
+        """
+    def wrench(self, speed: typing.SupportsFloat | typing.SupportsIndex, relative: numpy.typing.ArrayLike | None = None) -> numpy.ndarray:
+        """
+        (6,) force and moment about the vehicle's origin by the law, at a propeller's speed [1/s] and a velocity (6,) through the water.
+        """
+    @property
+    def direction(self) -> numpy.ndarray:
+        """
+        (3,) of length 1.
+        """
+    @property
+    def lag(self) -> float:
+        """
+        Time constant [s].
+        """
+    @property
+    def name(self) -> str:
+        """
+        As given.
+        """
+    @property
+    def position(self) -> numpy.ndarray:
+        """
+        (3,) [m].
+        """
+    @property
+    def speed(self) -> tuple[float, float]:
+        """
+        At full command [1/s].
+        """
+    @property
+    def thrust(self) -> tuple[float, float]:
+        """
+        Of n², (ahead, astern).
+        """
+class ThrusterFit:
+    """
+    A law fitted to a table.
+    """
+    @property
+    def rms_ahead(self) -> float:
+        """
+        Of the thrust by speed [N].
+        """
+    @property
+    def rms_astern(self) -> float:
+        """
+        The same astern [N].
+        """
+    @property
+    def rms_command(self) -> float:
+        """
+        Of the thrust by command and voltage, both ways [N].
+        """
+    @property
+    def rms_power(self) -> float:
+        """
+        Of the power by speed [W].
+        """
+    @property
+    def thruster(self) -> Thruster:
+        """
+        The law, without the table.
+        """
+class BatteryLoad:
+    """
+    A battery's voltage and current at one moment.
+    """
+    @property
+    def collapsed(self) -> bool:
+        """
+        More power is asked for than it can give; then the most that it can.
+        """
+    @property
+    def current(self) -> float:
+        """
+        [A]
+        """
+    @property
+    def voltage(self) -> float:
+        """
+        At the terminals [V].
+        """
+class Battery:
+    """
+    A source with an inner resistance: V = E(charge) − R I.
+    
+    Parameters
+    ----------
+    capacity : float
+        [A h]
+    resistance : float
+        Inner [Ω].
+    charge, voltage : (K,) array
+        Open-circuit voltage [V] at shares of the capacity, which rise from 0 to 1.
+    name : str
+    
+    Raises
+    ------
+    ValueError
+        For a value out of its range.
+    
+    Examples
+    --------
+    >>> battery = bathyal.Battery.lithium_ion_4s()
+    >>> load = battery.solve(800.0)
+    >>> print(f"{load.voltage:.2f} V, {load.current:.1f} A")
+    13.92 V, 57.5 A
+    """
+    @staticmethod
+    def lithium_ion_4s() -> Battery:
+        """
+        Four cells in series, 14.8 V, 18 A h; its curve and resistance are typical ones.
+        """
+    def __init__(self, *, capacity: typing.SupportsFloat | typing.SupportsIndex, resistance: typing.SupportsFloat | typing.SupportsIndex, charge: numpy.typing.ArrayLike, voltage: numpy.typing.ArrayLike, name: str = 'battery') -> None:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def open_circuit(self, charge: typing.SupportsFloat | typing.SupportsIndex) -> float:
+        """
+        Voltage without a load [V] at a share of the capacity; 0 for an empty one.
+        """
+    def solve(self, power: typing.SupportsFloat | typing.SupportsIndex | collections.abc.Callable[[float], typing.SupportsFloat | typing.SupportsIndex], charge: typing.SupportsFloat | typing.SupportsIndex = 1.0) -> BatteryLoad:
+        """
+        Voltage and current that agree with each other and the load.
+        
+        Parameters
+        ----------
+        power : float or callable
+            Drawn [W], or a function of the voltage that gives it.
+        charge : float
+            Share of the capacity that is left, 0 to 1.
+        """
+    @property
+    def capacity(self) -> float:
+        """
+        [A h]
+        """
+    @property
+    def resistance(self) -> float:
+        """
+        [Ω]
+        """
+class Fin:
+    """
+    A rudder, stern plane or fixed fin, in the vehicle's frame.
+    
+    Without an area its force is a published one, ``published u |u| δ``; with one, that of a wing in the
+    water that it meets, linear in the angle of attack up to the stall and a flat plate beyond (Beard
+    and McLain 2012, Small Unmanned Aircraft, eq. 4.9, 4.10).
+    
+    Parameters
+    ----------
+    position : (3,) array
+        Of its centre of pressure [m].
+    forward, shaft : (3,) array
+        The chord at angle 0, towards its leading edge, and the axis it turns about, square to it.
+    area : float
+        [m²]
+    lift_slope : float
+        [1/rad]
+    drag, induced_drag : float
+        Coefficient without lift, and of the lift coefficient's square.
+    stall : float
+        Angle of attack [rad].
+    published : (6,) array, optional
+        Force and moment a (m/s)² and rad.
+    limit, rate, lag : float
+        Largest angle [rad], turning rate [rad/s] (0: any) and time constant [s].
+    water_density : float
+        [kg/m³]
+    name : str
+    
+    Raises
+    ------
+    ValueError
+        For a value out of its range.
+    """
+    def __init__(self, *, position: numpy.typing.ArrayLike = (0.0, 0.0, 0.0), forward: numpy.typing.ArrayLike = (1.0, 0.0, 0.0), shaft: numpy.typing.ArrayLike = (0.0, 0.0, 1.0), area: typing.SupportsFloat | typing.SupportsIndex = 0.0, lift_slope: typing.SupportsFloat | typing.SupportsIndex = 0.0, drag: typing.SupportsFloat | typing.SupportsIndex = 0.0, induced_drag: typing.SupportsFloat | typing.SupportsIndex = 0.0, stall: typing.SupportsFloat | typing.SupportsIndex = 0.35, published: numpy.typing.ArrayLike | None = None, limit: typing.SupportsFloat | typing.SupportsIndex = 0.35, rate: typing.SupportsFloat | typing.SupportsIndex = 0.0, lag: typing.SupportsFloat | typing.SupportsIndex = 0.0, water_density: typing.SupportsFloat | typing.SupportsIndex = 1025.0, name: str = 'fin') -> None:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def advanced(self, angle: typing.SupportsFloat | typing.SupportsIndex, command: typing.SupportsFloat | typing.SupportsIndex, time: typing.SupportsFloat | typing.SupportsIndex) -> float:
+        """
+        The angle [rad] a time [s] after `angle`, under a command [rad].
+        """
+    def coefficients(self, attack: typing.SupportsFloat | typing.SupportsIndex) -> tuple[float, float]:
+        """
+        (lift, drag) coefficients of a wing at an angle of attack [rad].
+        """
+    def wrench(self, angle: typing.SupportsFloat | typing.SupportsIndex, relative: numpy.typing.ArrayLike) -> numpy.ndarray:
+        """
+        (6,) force and moment about the vehicle's origin, at an angle [rad] and a velocity (6,) through the water.
+        """
+    @property
+    def name(self) -> str:
+        """
+        As given.
+        """
+class DropWeight:
+    """
+    Ballast that is held until it is let go. Of mass [kg] and volume [m³] at a (3,) position [m] only the weight in water counts, not the inertia.
+    """
+    def __init__(self, *, mass: typing.SupportsFloat | typing.SupportsIndex, volume: typing.SupportsFloat | typing.SupportsIndex = 0.0, position: numpy.typing.ArrayLike = (0.0, 0.0, 0.0), name: str = 'drop_weight') -> None:
+        ...
+    @property
+    def mass(self) -> float:
+        """
+        [kg]
+        """
+    @property
+    def name(self) -> str:
+        """
+        As given.
+        """
+class Tether:
+    """
+    A cable from a point fixed in the world to the vehicle.
+    
+    It has no motion of its own: an elastic catenary (Irvine 1981, Cable Structures, ch. 2) under its
+    weight in water and the drag of the current across it, that of a straight cable from end to end
+    spread evenly. The bottom does not carry it.
+    
+    Parameters
+    ----------
+    anchor : (3,) array
+        In the world [m].
+    attachment : (3,) array
+        On the vehicle, in its frame [m].
+    length : float
+        Without load [m].
+    weight : float
+        In water, a metre [N/m]; below 0: it floats.
+    diameter, drag : float
+        [m] and coefficient of the flow across it.
+    stiffness : float
+        Force a unit strain [N].
+    water_density : float
+        [kg/m³]
+    
+    Raises
+    ------
+    ValueError
+        For a value out of its range.
+    """
+    def __init__(self, *, anchor: numpy.typing.ArrayLike, attachment: numpy.typing.ArrayLike = (0.0, 0.0, 0.0), length: typing.SupportsFloat | typing.SupportsIndex, weight: typing.SupportsFloat | typing.SupportsIndex = 0.0, diameter: typing.SupportsFloat | typing.SupportsIndex = 0.0, drag: typing.SupportsFloat | typing.SupportsIndex = 1.2, stiffness: typing.SupportsFloat | typing.SupportsIndex = 100000.0, water_density: typing.SupportsFloat | typing.SupportsIndex = 1025.0) -> None:
+        ...
+    def wrench(self, pose: numpy.typing.ArrayLike, current: numpy.typing.ArrayLike | None = None) -> numpy.ndarray:
+        """
+        (6,) force and moment about the origin of a vehicle at a (4, 4) pose, in its frame, in a current (3,) of the world [m/s].
+        """
+    @property
+    def length(self) -> float:
+        """
+        [m]
+        """
+class VehicleSystemState:
+    """
+    All that changes in time of a vehicle and its devices.
+    """
+    def __copy__(self) -> VehicleSystemState:
+        ...
+    def __deepcopy__(self, memo: dict) -> VehicleSystemState:
+        ...
+    def __repr__(self) -> str:
+        ...
+    @property
+    def charge(self) -> float:
+        """
+        Share of the battery's capacity that is left.
+        """
+    @charge.setter
+    def charge(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        ...
+    @property
+    def fin_angle(self) -> numpy.ndarray:
+        """
+        (n,) [rad].
+        """
+    @property
+    def pose(self) -> numpy.ndarray:
+        """
+        (4, 4) world_from_vehicle.
+        """
+    @pose.setter
+    def pose(self, arg1: numpy.typing.ArrayLike) -> None:
+        ...
+    @property
+    def released(self) -> list[bool]:
+        """
+        Which drop weights are gone.
+        """
+    @property
+    def thruster_speed(self) -> numpy.ndarray:
+        """
+        (m,) of the propellers [1/s].
+        """
+    @thruster_speed.setter
+    def thruster_speed(self, arg1: numpy.typing.ArrayLike) -> None:
+        ...
+    @property
+    def velocity(self) -> numpy.ndarray:
+        """
+        (6,) over ground, in the vehicle's frame [m/s, rad/s].
+        """
+    @velocity.setter
+    def velocity(self, arg1: numpy.typing.ArrayLike) -> None:
+        ...
+class VehicleSystem:
+    """
+    A vehicle with thrusters, fins, battery, ballast and tether.
+    
+    In a step the battery and its loads are solved for one voltage at its start, the devices follow
+    their own laws exactly, and the motion is integrated by Runge–Kutta's method of fourth order, thrust
+    and lift of each stage from its own velocity.
+    
+    Parameters
+    ----------
+    vehicle : Vehicle
+    thrusters : list of Thruster
+        At most 32.
+    fins : list of Fin
+    battery : Battery, optional
+        Without one the voltage is `supply_voltage`, whatever is drawn.
+    supply_voltage : float
+        [V]
+    hotel_power : float
+        Drawn by all that is no thruster [W].
+    drop_weights : list of DropWeight
+    tether : Tether, optional
+    
+    Raises
+    ------
+    ValueError
+        For a value out of its range.
+    
+    Examples
+    --------
+    >>> rov = bathyal.VehicleSystem.bluerov2_heavy()
+    >>> state = rov.rest()
+    >>> rov.step(state, thrusters=[0, 0, 0, 0, 0.4, 0.4, 0.4, 0.4], step=0.01, steps=500)
+    >>> bool(state.velocity[2] > 0.3), state.charge < 1.0
+    (True, True)
+    """
+    @staticmethod
+    def bluerov2_heavy(*, benchmark_thrusters: bool = False) -> VehicleSystem:
+        """
+        BlueROV2 Heavy with eight T200 (or `Thruster.t200_benchmark`) and a battery of 18 A h.
+        """
+    @staticmethod
+    def remus100(*, equal_cross_flow: bool = False) -> VehicleSystem:
+        """
+        REMUS 100 with propeller, rudder (positive: to port) and stern plane (positive: bow down) of Prestero (2001).
+        """
+    def __init__(self, vehicle: Vehicle, *, thrusters: collections.abc.Sequence[Thruster] = [], fins: collections.abc.Sequence[Fin] = [], battery: Battery | None = None, supply_voltage: typing.SupportsFloat | typing.SupportsIndex = 16.0, hotel_power: typing.SupportsFloat | typing.SupportsIndex = 0.0, drop_weights: collections.abc.Sequence[DropWeight] = [], tether: Tether | None = None) -> None:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def rest(self) -> VehicleSystemState:
+        """
+        At rest at the world's origin, the battery full.
+        """
+    def step(self, state: VehicleSystemState, *, thrusters: numpy.typing.ArrayLike | None = None, fins: numpy.typing.ArrayLike | None = None, drop: collections.abc.Sequence[bool] = [], current: numpy.typing.ArrayLike | None = None, wrench: numpy.typing.ArrayLike | None = None, step: typing.SupportsFloat | typing.SupportsIndex = 0.01, steps: typing.SupportsInt | typing.SupportsIndex = 1) -> None:
+        """
+        Changes a state by steps of equal length under the same commands.
+        
+        Parameters
+        ----------
+        state : VehicleSystemState
+        thrusters : (m,) array
+            Commands, −1 to 1; none: all 0.
+        fins : (n,) array
+            Angles asked for [rad]; none: all 0.
+        drop : list of bool
+            True lets a weight go.
+        current : (3,) array, optional
+            Velocity of the water in the world [m/s].
+        wrench : (6,) array, optional
+            On the vehicle besides its devices', in its frame [N, N m].
+        step : float
+            [s]
+        steps : int
+            How many.
+        
+        Raises
+        ------
+        ValueError
+            For commands of another number than the devices, or not finite.
+        bathyal.Error
+            Where the motion is no longer finite.
+        """
+    def supply(self, state: VehicleSystemState, *, thrusters: numpy.typing.ArrayLike | None = None) -> BatteryLoad:
+        """
+        Voltage and current under (m,) commands, at a state.
+        """
+    def wrench(self, state: VehicleSystemState, *, thrusters: numpy.typing.ArrayLike | None = None, current: numpy.typing.ArrayLike | None = None) -> numpy.ndarray:
+        """
+        (6,) force and moment of all devices at a state, about the vehicle's origin.
+        """
+    @property
+    def fins(self) -> list[Fin]:
+        """
+        In the order of commands.
+        """
+    @property
+    def thrusters(self) -> list[Thruster]:
+        """
+        In the order of commands.
+        """
+    @property
+    def vehicle(self) -> Vehicle:
+        """
+        Its equations of motion.
+        """
+class BehaviorTree:
+    """
+    A behaviour tree whose leaves are named.
+    
+    Statuses are those of py_trees (2.x), tick by tick.
+    
+    Parameters
+    ----------
+    tree : dict
+        ``kind`` is sequence, fallback, parallel, retry, timeout, invert or leaf; ``children`` a list of
+        such; ``name`` of a leaf; ``memory`` (True) of a sequence or fallback, ``any`` (False) of a
+        parallel, ``count`` of a retry, ``time`` [s] of a timeout.
+    
+    Raises
+    ------
+    ValueError
+        For a decorator without its one child, a leaf with children, numbers out of range.
+    
+    Examples
+    --------
+    >>> import bathyal
+    >>> tree = bathyal.BehaviorTree({"kind": "fallback", "children": [
+    ...     {"kind": "leaf", "name": "dive"}, {"kind": "leaf", "name": "surface"}]})
+    >>> tree.tick(0.0, lambda leaf: "failure" if leaf == "dive" else "running")
+    'running'
+    >>> tree.statuses
+    ['running', 'failure', 'running']
+    """
+    def __init__(self, tree: dict[str, typing.Any]) -> None:
+        ...
+    def tick(self, time: typing.SupportsFloat | typing.SupportsIndex, update: collections.abc.Callable[[str], str]) -> str:
+        """
+        One tick.
+        
+        Parameters
+        ----------
+        time : float
+            [s], never falling.
+        update : function
+            Of a leaf's name: "running", "success" or "failure".
+        
+        Returns
+        -------
+        str
+            Of the root.
+        """
+    @property
+    def statuses(self) -> list[str]:
+        """
+        Of each node, a node before its children: idle, running, success or failure.
+        """
+class Condition:
+    """
+    A condition on named signals, in words.
+    
+    Comparisons joined by and, or, not and brackets: ``depth > 40 m or battery < 20 %``. Units are m, cm,
+    km, s, min, h, %, V, A, deg, rad and m/s. Nothing is evaluated as code.
+    
+    Parameters
+    ----------
+    text : str
+    signals : list of str
+        Names that it may use.
+    
+    Raises
+    ------
+    ValueError
+        With the column of what is not understood.
+    """
+    def __init__(self, text: str, signals: collections.abc.Sequence[str]) -> None:
+        ...
+    def holds(self, values: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex]) -> bool:
+        """
+        Whether it holds for these values, one a signal; NaN is not known.
+        """
+    @property
+    def text(self) -> str:
+        """
+        As given.
+        """
+class MissionPlan:
+    """
+    A mission, ready to run: `bathyal.read_mission` makes it.
+    
+    All that a run's outcome depends on but its seed.
+    """
+    def __init__(self, *, name: str, system: VehicleSystem, vehicle: Vehicle | None, weights: collections.abc.Sequence[DropWeight], hotel_power: typing.SupportsFloat | typing.SupportsIndex, world: World, sensors: list[Sensor], navigation: dict[str, typing.Any], start: numpy.typing.ArrayLike, commands: list[dict[str, typing.Any]], tree: dict[str, typing.Any], guards: list[dict[str, typing.Any]], faults: list[dict[str, typing.Any]], step: typing.SupportsFloat | typing.SupportsIndex = 0.02, steps_per_tick: typing.SupportsInt | typing.SupportsIndex = 5, longest: typing.SupportsFloat | typing.SupportsIndex = 14400.0) -> None:
+        ...
+    @property
+    def name(self) -> str:
+        """
+        As given.
+        """
+    @property
+    def signals(self) -> list[str]:
+        """
+        Names that conditions may use.
+        """
+    @property
+    def tick(self) -> float:
+        """
+        [s]
+        """
+class MissionRun:
+    """
+    One run of a mission, tick by tick.
+    
+    A pure function of plan, seed and inputs: the same bytes on every machine of one kind.
+    
+    Parameters
+    ----------
+    plan : MissionPlan
+    seed : int
+        Of all noise; keyed by device, channel and sample, so that a new device changes nobody's.
+    log : str, optional
+        An MCAP file to write.
+    state : bytes, optional
+        Of `save`, from which it goes on.
+    
+    Raises
+    ------
+    bathyal.Error
+        For a log that cannot be written, or a state of another plan or seed.
+    """
+    def __init__(self, plan: MissionPlan, seed: typing.SupportsInt | typing.SupportsIndex, *, log: str | None = None, state: bytes | None = None) -> None:
+        ...
+    def close(self) -> None:
+        """
+        Ends the log.
+        """
+    def save(self) -> bytes:
+        """
+        The state, from which another goes on with the same bytes, log included.
+        """
+    def step(self, count: typing.SupportsInt | typing.SupportsIndex = 1, *, stop: bool = False, wrench: numpy.typing.ArrayLike | None = None, thrusters: numpy.typing.ArrayLike | None = None) -> bool:
+        """
+        Some ticks.
+        
+        Parameters
+        ----------
+        count : int
+        stop : bool
+            Ends the run.
+        wrench : (6,) array, optional
+            On the vehicle about its origin, in its frame, besides all others [N, N m].
+        thrusters : (n,) array, optional
+            Commands of −1 to 1 in place of the pilot's.
+        
+        Returns
+        -------
+        bool
+            Whether it goes on.
+        
+        Raises
+        ------
+        ValueError
+            For arrays of another size, or values that are not finite.
+        bathyal.Error
+            Where the motion is no longer finite.
+        """
+    @property
+    def events(self) -> list[tuple[float, str, str]]:
+        """
+        Of (time, kind, text), of a run with a log.
+        """
+    @property
+    def metrics(self) -> dict[str, float]:
+        """
+        By name.
+        """
+    @property
+    def pose(self) -> numpy.ndarray:
+        """
+        (4, 4) world_from_vehicle, the true one.
+        """
+    @property
+    def signals(self) -> dict[str, float]:
+        """
+        What conditions see, by name; NaN is not known.
+        """
+    @property
+    def status(self) -> str:
+        """
+        running, done, failed, aborted, timeout or stopped.
+        """
+    @property
+    def time(self) -> float:
+        """
+        [s]
+        """
 class PingTruth:
     """
     What each sample came from: of all rays in it, the one that contributed most. NaN and −1 where nothing was hit.
@@ -6332,6 +7343,325 @@ class NavigationErrors:
     def speed_scale(self) -> float:
         """
         Of the log, as a part of the speed, −0.5 to 0.5.
+        """
+class AllocationResult:
+    """
+    What thrusters are asked for.
+    """
+    @property
+    def achieved(self) -> numpy.ndarray:
+        """
+        (6,) what the thrusts give in still water [N, N m].
+        """
+    @property
+    def command(self) -> numpy.ndarray:
+        """
+        (m,), −1 to 1; the dead zone is passed over.
+        """
+    @property
+    def saturated(self) -> bool:
+        """
+        One is at its limit.
+        """
+    @property
+    def thrust(self) -> numpy.ndarray:
+        """
+        (m,) [N].
+        """
+class Allocation:
+    """
+    From a wrench to the commands of thrusters.
+    
+    The weighted least squares of the wrench's error with each thrust within what the thruster can give
+    at the voltage, solved exactly by an active set (Stark and Parker 1995). When the thrusters cannot
+    give it, what weighs most is kept first: heave, roll and pitch, then yaw, then surge and sway.
+    
+    Parameters
+    ----------
+    thrusters : list of Thruster
+    weights : (6,) array, optional
+        Of an error in surge to yaw, above 0; 1, 1, 100, 100, 100, 10 unless given.
+    effort : float
+        Weight of the thrusts themselves, which shares the work out.
+    
+    Raises
+    ------
+    ValueError
+        For none or more than 32 thrusters, or weights that are not above 0.
+    
+    Examples
+    --------
+    >>> rov = bathyal.VehicleSystem.bluerov2_heavy()
+    >>> allocation = bathyal.Allocation(rov.thrusters)
+    >>> allocation.rank(failed=[0]), allocation.rank(failed=[4, 5])
+    ((6, []), (5, ['pitch']))
+    >>> given = allocation.allocate([20, 0, 10, 0, 0, 1], voltage=15.0)
+    >>> bool(abs(given.achieved - [20, 0, 10, 0, 0, 1]).max() < 1e-4), given.saturated
+    (True, False)
+    """
+    def __init__(self, thrusters: collections.abc.Sequence[Thruster], *, weights: numpy.typing.ArrayLike | None = None, effort: typing.SupportsFloat | typing.SupportsIndex = 0.0001) -> None:
+        ...
+    def allocate(self, wrench: numpy.typing.ArrayLike, voltage: typing.SupportsFloat | typing.SupportsIndex, failed: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex] = []) -> AllocationResult:
+        """
+        Thrusts and commands for a wrench.
+        
+        Directions that are lost do not count, so that the others are held.
+        
+        Parameters
+        ----------
+        wrench : (6,) array
+            About the vehicle's origin, in its frame [N, N m].
+        voltage : float
+            Of the supply, which limits the thrusts [V].
+        failed : list of int
+            Rows of thrusters that do not work.
+        """
+    def rank(self, failed: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex] = []) -> tuple[int, list[str]]:
+        """
+        Rank of the thrusters' matrix, and which directions are lost.
+        
+        In the order heave, yaw, surge, sway, roll, pitch a direction is kept if it is independent of those
+        kept before it; roll and pitch come last as a vehicle rights itself in them.
+        
+        Parameters
+        ----------
+        failed : list of int
+            Rows of thrusters that do not work.
+        
+        Returns
+        -------
+        rank : int
+        lost : list of str
+        """
+    @property
+    def matrix(self) -> numpy.ndarray:
+        """
+        (6, m) force and moment about the vehicle's origin of 1 N of each.
+        """
+class PoseHoldState:
+    """
+    What `PoseHold` keeps from step to step.
+    """
+    def __init__(self) -> None:
+        """
+        At its start.
+        """
+    @property
+    def integral(self) -> numpy.ndarray:
+        """
+        (6,) accelerations, the linear ones in the world [m/s², rad/s²].
+        """
+    @integral.setter
+    def integral(self, arg1: numpy.typing.ArrayLike) -> None:
+        ...
+    @property
+    def shortfall(self) -> numpy.ndarray:
+        """
+        (6,) to be set to what was given less what was asked for, so that nothing winds up [N, N m].
+        """
+    @shortfall.setter
+    def shortfall(self, arg1: numpy.typing.ArrayLike) -> None:
+        ...
+class PoseHold:
+    """
+    Holds depth, heading, pitch, roll and position.
+    
+    A PID whose gains are the model's: in each direction the error obeys
+    (s + i ω)(s² + 2 ζ ω s + ω²) = 0 times the vehicle's mass matrix with its added mass; weight,
+    buoyancy and the drag of a known current are fed forward (Fossen 2011, sect. 12.2). The integral of
+    position stays as it is in the world when the vehicle turns, and does not wind up.
+    
+    Parameters
+    ----------
+    vehicle : Vehicle
+    frequency : (6,) array, optional
+        ω, surge to yaw [rad/s].
+    damping : float
+        ζ
+    integral : float
+        i; 0: no integral part.
+    axes : list of 6 bool
+        What is controlled.
+    
+    Raises
+    ------
+    ValueError
+        For a frequency or damping that is not above 0.
+    """
+    def __init__(self, vehicle: Vehicle, *, frequency: numpy.typing.ArrayLike | None = None, damping: typing.SupportsFloat | typing.SupportsIndex = 1.0, integral: typing.SupportsFloat | typing.SupportsIndex = 1.0, axes: typing.Annotated[collections.abc.Sequence[bool], "FixedSize(6)"] = [True, True, True, True, True, True]) -> None:
+        ...
+    def step(self, state: PoseHoldState, pose: numpy.typing.ArrayLike, velocity: numpy.typing.ArrayLike, *, target: numpy.typing.ArrayLike | None = None, target_velocity: numpy.typing.ArrayLike | None = None, current: numpy.typing.ArrayLike | None = None, time: typing.SupportsFloat | typing.SupportsIndex) -> numpy.ndarray:
+        """
+        The wrench to ask for; the state is changed for the next step.
+        
+        Parameters
+        ----------
+        state : PoseHoldState
+        pose : (4, 4) array
+            world_from_vehicle, as measured.
+        velocity : (6,) array
+            Over ground, in the vehicle's frame.
+        target : (4, 4) array, optional
+            The pose to hold; the world's origin unless given.
+        target_velocity : (6,) array, optional
+            Over ground, in the vehicle's frame.
+        current : (3,) array, optional
+            What is known of it, in the world [m/s].
+        time : float
+            Since the last step [s].
+        
+        Returns
+        -------
+        (6,) array
+            About the vehicle's origin, in its frame [N, N m].
+        """
+class CruiseState:
+    """
+    What `CruiseControl` keeps from step to step.
+    """
+    def __init__(self) -> None:
+        """
+        At its start.
+        """
+    @property
+    def depth(self) -> float:
+        """
+        The same of the depth [m s].
+        """
+    @depth.setter
+    def depth(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        ...
+    @property
+    def heading(self) -> float:
+        """
+        Integral of the error [rad s].
+        """
+    @heading.setter
+    def heading(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        ...
+    @property
+    def speed(self) -> float:
+        """
+        The same of the speed [m].
+        """
+    @speed.setter
+    def speed(self, arg0: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        ...
+class CruiseControl:
+    """
+    Speed, heading and depth by a propeller and fins.
+    
+    State feedback by pole placement (Ackermann's formula) on the model, linear about straight and level
+    motion: sway, yaw rate, heading and its integral by the rudder; heave, pitch rate, pitch, depth and
+    its integral by the stern plane.
+    
+    Parameters
+    ----------
+    system : VehicleSystem
+    speed : float
+        At which the gains are found [m/s].
+    heading_frequency, depth_frequency, speed_frequency : float
+        Natural, of the slower modes [rad/s].
+    damping : float
+        Ratio.
+    integral : float
+        The integrals' poles, times the frequency.
+    most_pitch : float
+        That a depth error asks for [rad].
+    rudder, stern_plane, propeller : int
+        Rows of the system's fins and thrusters.
+    
+    Raises
+    ------
+    ValueError
+        For a value out of its range, or a fin that does not turn the vehicle.
+    """
+    def __init__(self, system: VehicleSystem, *, speed: typing.SupportsFloat | typing.SupportsIndex = 1.5, heading_frequency: typing.SupportsFloat | typing.SupportsIndex = 0.5, depth_frequency: typing.SupportsFloat | typing.SupportsIndex = 0.4, speed_frequency: typing.SupportsFloat | typing.SupportsIndex = 0.3, damping: typing.SupportsFloat | typing.SupportsIndex = 0.9, integral: typing.SupportsFloat | typing.SupportsIndex = 0.3, most_pitch: typing.SupportsFloat | typing.SupportsIndex = 0.45, rudder: typing.SupportsInt | typing.SupportsIndex = 0, stern_plane: typing.SupportsInt | typing.SupportsIndex = 1, propeller: typing.SupportsInt | typing.SupportsIndex = 0) -> None:
+        ...
+    def step(self, state: CruiseState, pose: numpy.typing.ArrayLike, velocity: numpy.typing.ArrayLike, *, speed: typing.SupportsFloat | typing.SupportsIndex, heading: typing.SupportsFloat | typing.SupportsIndex, z: typing.SupportsFloat | typing.SupportsIndex, climb: typing.SupportsFloat | typing.SupportsIndex = 0.0, time: typing.SupportsFloat | typing.SupportsIndex) -> tuple[float, float, float]:
+        """
+        Fin angles and thrust; the state is changed for the next step.
+        
+        Parameters
+        ----------
+        state : CruiseState
+        pose : (4, 4) array
+            world_from_vehicle, as measured.
+        velocity : (6,) array
+            Through the water, in the vehicle's frame.
+        speed, heading, z : float
+            To hold: through the water [m/s], about z from x [rad], of the origin in the world [m].
+        climb : float
+            dz over the way run, of the path to hold.
+        time : float
+            Since the last step [s].
+        
+        Returns
+        -------
+        rudder, stern_plane : float
+            [rad]
+        thrust : float
+            [N]
+        """
+class LineOfSightState:
+    """
+    What `LineOfSight` keeps from step to step.
+    """
+    def __init__(self) -> None:
+        """
+        At its start.
+        """
+    @property
+    def arrived(self) -> bool:
+        """
+        Past the last point.
+        """
+    @property
+    def integral(self) -> float:
+        """
+        [m]
+        """
+    @property
+    def leg(self) -> int:
+        """
+        From point `leg` to the next.
+        """
+class LineOfSight:
+    """
+    Follows straight legs between points, in the level plane.
+    
+    Integral line of sight (Børhaug, Pavlov, Pettersen 2008): steers α − atan((y + σ i) / Δ) with y the
+    offset to port of the leg of course α.
+    
+    Parameters
+    ----------
+    points : (K, 2) array
+        In the world [m].
+    lookahead : float
+        Δ [m]
+    integral : float
+        σ, gain on the offset that a current makes.
+    acceptance : float
+        A point this near is reached [m].
+    
+    Raises
+    ------
+    ValueError
+        For fewer than two points, or two in a row that are the same.
+    
+    Examples
+    --------
+    >>> line = bathyal.LineOfSight([[0, 0], [100, 0], [100, 50]])
+    >>> state = bathyal.LineOfSightState()
+    >>> heading, cross_track = line.step(state, [10, 2, -5], 0.1)
+    >>> round(heading, 3), cross_track
+    (-0.245, 2.0)
+    """
+    def __init__(self, points: numpy.typing.ArrayLike, *, lookahead: typing.SupportsFloat | typing.SupportsIndex = 8.0, integral: typing.SupportsFloat | typing.SupportsIndex = 0.3, acceptance: typing.SupportsFloat | typing.SupportsIndex = 4.0) -> None:
+        ...
+    def step(self, state: LineOfSightState, position: numpy.typing.ArrayLike, time: typing.SupportsFloat | typing.SupportsIndex) -> tuple[float, float]:
+        """
+        (heading to steer [rad], offset to port of the leg [m]) at a (3,) position of the world, a time [s] since the last step.
         """
 class Touches:
     """
@@ -8410,6 +9740,27 @@ def eigenrays(water: Water | Profile, from_depth: typing.SupportsFloat | typing.
     list of Eigenray
         The quickest first; empty in a shadow.
     """
+def ellipsoid_added_mass(half_axes: numpy.typing.ArrayLike, water_density: typing.SupportsFloat | typing.SupportsIndex = 1025.0) -> numpy.ndarray:
+    """
+    Added mass of an ellipsoid about its centre.
+    
+    Parameters
+    ----------
+    half_axes : (3,) array
+        Along x, y, z [m].
+    water_density : float
+        [kg/m³]
+    
+    Returns
+    -------
+    (6, 6) array
+        [kg, kg m²] (Lamb, Hydrodynamics, art. 114, 115)
+    
+    Raises
+    ------
+    ValueError
+        For a half axis that is not above 0.
+    """
 def find_effect_with(find: collections.abc.Callable) -> None:
     """
     Hand in what finds an effect by its name.
@@ -8592,6 +9943,62 @@ def fit_plane(cloud: PointCloud | numpy.typing.ArrayLike, *, tolerance: typing.S
     Plane(normal=(0, 0, 1), offset=-5)
     >>> fit.flat
     True
+    """
+def fit_thruster(table: ThrusterTable, nominal_voltage: typing.SupportsFloat | typing.SupportsIndex = 16.0) -> ThrusterFit:
+    """
+    Fits a thruster's law to a table by least squares.
+    
+    Thrust against n², power against its third and fourth power, and in logarithms the speed against
+    the voltage and the command past the dead zone; rows without thrust do not count.
+    
+    Parameters
+    ----------
+    table : ThrusterTable
+    nominal_voltage : float
+        Of the law [V].
+    
+    Raises
+    ------
+    ValueError
+        For a table without thrust ahead or astern.
+    """
+def follow_bottom(position: numpy.typing.ArrayLike, heading: typing.SupportsFloat | typing.SupportsIndex, bottom: collections.abc.Callable[[float, float], typing.SupportsFloat | typing.SupportsIndex], *, altitude: typing.SupportsFloat | typing.SupportsIndex = 3.0, lookahead: typing.SupportsFloat | typing.SupportsIndex = 25.0, lead: typing.SupportsFloat | typing.SupportsIndex = 3.0, steepest: typing.SupportsFloat | typing.SupportsIndex = 0.25, spacing: typing.SupportsFloat | typing.SupportsIndex = 0.5) -> tuple[float, float]:
+    """
+    The path to steer to keep a distance to an uneven bottom.
+    
+    The lowest path that is nowhere nearer to the bottom, measured upwards, than `altitude` and nowhere
+    climbs or falls more than `steepest`, over the bottom ahead and as far behind.
+    
+    Parameters
+    ----------
+    position : (3,) array
+        In the world [m].
+    heading : float
+        The way over ground, about z from x [rad].
+    bottom : callable
+        Height of the bottom at (x, y) [m], as a chart or a sonar that looks ahead gives it.
+    altitude : float
+        [m]
+    lookahead : float
+        How far ahead the bottom is known [m].
+    lead : float
+        Steers for the path so far ahead, for the vehicle's own lag [m].
+    steepest : float
+        Height over way.
+    spacing : float
+        Of the samples [m].
+    
+    Returns
+    -------
+    z : float
+        [m]
+    climb : float
+        Of the path there.
+    
+    Examples
+    --------
+    >>> bathyal.follow_bottom([0, 0, -20], 0.0, lambda x, y: -25.0)
+    (-22.0, 0.0)
     """
 def forecast_touches(arm: Arm, touches: Touches, *, parametrization: str = 'hayati', nearly_parallel: typing.SupportsFloat | typing.SupportsIndex = 0.1, noise: typing.SupportsFloat | typing.SupportsIndex = 0.0001, length_prior: typing.SupportsFloat | typing.SupportsIndex = 0.001, angle_prior: typing.SupportsFloat | typing.SupportsIndex = 0.002, tool_prior: typing.SupportsFloat | typing.SupportsIndex = 0.01, workspace: numpy.typing.ArrayLike | None = None, workspace_poses: typing.SupportsInt | typing.SupportsIndex = 400, seed: typing.SupportsInt | typing.SupportsIndex = 0, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> TouchForecast:
     """
@@ -9414,6 +10821,26 @@ def pressure_from_depth(depth: numpy.typing.ArrayLike, latitude: numpy.typing.Ar
     float or array
         Above the atmosphere's [dbar].
     """
+def read_mcap(bytes: bytes) -> dict:
+    """
+    The messages of a log.
+    
+    Parameters
+    ----------
+    bytes : bytes
+        Of an MCAP file without compression, whole or cut.
+    
+    Returns
+    -------
+    dict
+        ``topics``: by topic, a JSON list of all its messages; ``reason``: why it breaks off, "" for a
+        whole file.
+    
+    Raises
+    ------
+    bathyal.Error
+        For bytes that are no MCAP, or chunks that are compressed.
+    """
 def read_mesh_with(read: collections.abc.Callable) -> None:
     """
     Hand in what reads the corners of a shape's mesh.
@@ -9755,6 +11182,10 @@ def triangulate(cloud: PointCloud | numpy.typing.ArrayLike, *, max_edge: typing.
 def triangulate_delaunay(points: numpy.typing.ArrayLike, *, max_edge: typing.SupportsFloat | typing.SupportsIndex | None = None, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> tuple[numpy.ndarray, dict]:
     """
     (T, 3) int32 rows of `points`, and a dict: max_edge [m], cut_triangles, merged_points.
+    """
+def typical_sensors() -> list[Sensor]:
+    """
+    What a small vehicle carries, with errors of the middle class.
     """
 def verify_positions(predicted: numpy.typing.ArrayLike, positions: numpy.typing.ArrayLike, *, pairs: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex] = []) -> Verification:
     """

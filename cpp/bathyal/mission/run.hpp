@@ -114,8 +114,11 @@ struct MissionState {
   std::vector<FaultState> faults;
   WatcherState watchers;
   std::vector<double> signals;
-  std::vector<double> held_commands;  ///< of thrusters, then fins, as last given
-  double leak = 0.0;                  ///< water taken in [kg]
+  VehicleCommands commands;           ///< of the pilot
+  std::vector<double> held_commands;  ///< of thrusters, then fins, as the devices got them
+  BatteryLoad load;
+  double altitude = 0.0;  ///< true [m]; NaN: no bottom
+  double leak = 0.0;      ///< water taken in [kg]
   MissionSums sums;
 };
 

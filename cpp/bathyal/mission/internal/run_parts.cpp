@@ -97,11 +97,11 @@ MissionRun::Parts::Parts(std::shared_ptr<const MissionPlan> given, std::uint64_t
   state.watchers = watchers.fresh();
   state.signals.assign(names.size(), std::numeric_limits<double>::quiet_NaN());
   state.held_commands.assign(plan->vehicle.thrusters.size() + plan->vehicle.fins.size(), 0.0);
-  commands.thrusters.assign(plan->vehicle.thrusters.size(), 0.0);
-  commands.fins.assign(plan->vehicle.fins.size(), 0.0);
-  commands.drop.assign(plan->vehicle.drop_weights.size(), 0);
-  load = system->supply(state.vehicle, commands);
-  altitude = altitude_at(plan->start.world_from_vehicle.translation());
+  state.commands.thrusters.assign(plan->vehicle.thrusters.size(), 0.0);
+  state.commands.fins.assign(plan->vehicle.fins.size(), 0.0);
+  state.commands.drop.assign(plan->vehicle.drop_weights.size(), 0);
+  state.load = system->supply(state.vehicle, state.commands);
+  state.altitude = altitude_at(plan->start.world_from_vehicle.translation());
 }
 
 void MissionRun::Parts::emit(const char* kind, std::string text) {
@@ -159,7 +159,7 @@ SensorTruth MissionRun::Parts::truth(double at, const Vec6& acceleration) const 
   found.velocity = motion.velocity;
   found.acceleration = acceleration;
   found.water_velocity = environment.flow(place, at).velocity;
-  found.altitude = altitude;
+  found.altitude = state.altitude;
   const auto surface = plan->water.surface();
   found.mean_surface = surface.value_or(0.0);
   found.surface = surface ? plan->water.surface_height(place.x(), place.y(), at)
@@ -176,7 +176,7 @@ void MissionRun::Parts::sense(double at, const Vec6& acceleration) {
     LineState& line = state.lines[i];
     while (next_time(plan->sensors[i], line.sensor) <= at + kSlack) {
       if (!here) {
-        altitude = altitude_at(state.vehicle.motion.world_from_vehicle.translation());
+        state.altitude = altitude_at(state.vehicle.motion.world_from_vehicle.translation());
         here = truth(at, acceleration);
       }
       // sampled at the end of the step in which it is due, and stamped so
@@ -275,8 +275,8 @@ void MissionRun::Parts::watch() {
     speeds.push_back(speed * (1.0 + kTelemetryNoise * draw.normal()));
   }
   for (const FinState& fin : state.vehicle.fins) angles.push_back(fin.angle);
-  watchers.tick(state.watchers, time(), plan->tick(), commands, speeds, angles, load.voltage,
-                load.current, state.vehicle.battery.charge, reports);
+  watchers.tick(state.watchers, time(), plan->tick(), state.commands, speeds, angles,
+                state.load.voltage, state.load.current, state.vehicle.battery.charge, reports);
   for (const DeviceReport& report : reports) emit("report", report.device + " " + report.kind);
   reports.clear();
 }
@@ -299,8 +299,8 @@ void MissionRun::Parts::update_signals() {
   set(Signal::kPitch, std::atan2(-turn(2, 0), std::hypot(turn(2, 1), turn(2, 2))));
   set(Signal::kSpeed, state.velocity.norm());
   set(Signal::kBattery, state.vehicle.battery.charge);
-  set(Signal::kVoltage, load.voltage);
-  set(Signal::kCurrent, load.current);
+  set(Signal::kVoltage, state.load.voltage);
+  set(Signal::kCurrent, state.load.current);
   set(Signal::kPositionStd, std::sqrt(std::max(0.0, now.covariance(0, 0) + now.covariance(1, 1))));
   set(Signal::kDvlAge, time() - std::max(0.0, state.velocity_time));
   for (std::size_t i = 0; i < plan->sensors.size(); ++i) {
@@ -476,7 +476,7 @@ NodeStatus MissionRun::Parts::update(int leaf) {
       break;
     }
     case CommandKind::kDropWeight:
-      std::fill(commands.drop.begin(), commands.drop.end(), 1);
+      std::fill(state.commands.drop.begin(), state.commands.drop.end(), 1);
       break;
     case CommandKind::kCheck:
       found = command.condition->holds(state.signals) ? NodeStatus::kSuccess : NodeStatus::kFailure;
@@ -492,11 +492,12 @@ NodeStatus MissionRun::Parts::update(int leaf) {
 
 void MissionRun::Parts::steer(const LiveInputs& inputs) {
   const Vec3 current(state.navigation.now.current.x(), state.navigation.now.current.y(), 0.0);
-  const double voltage = load.voltage > 0.0 ? load.voltage : plan->vehicle.supply_voltage;
+  const double voltage =
+      state.load.voltage > 0.0 ? state.load.voltage : plan->vehicle.supply_voltage;
   pilot.step(state.pilot, estimated(), state.target, current, voltage, failed, extra, plan->tick(),
-             commands);
-  if (!inputs.thrusters.empty()) commands.thrusters = inputs.thrusters;
-  driven = commands;
+             state.commands);
+  if (!inputs.thrusters.empty()) state.commands.thrusters = inputs.thrusters;
+  driven = state.commands;
   for (std::size_t k = 0; k < plan->faults.size(); ++k) {
     const MissionFault& fault = plan->faults[k];
     if (!state.faults[k].active || fault_device[k] < 0 || is_sensor(*plan, fault.device)) continue;
@@ -542,15 +543,15 @@ void MissionRun::Parts::move(const LiveInputs& inputs) {
       return found;
     };
     const Vec6 before = state.vehicle.motion.velocity;
-    load = system->supply(state.vehicle, driven);
+    state.load = system->supply(state.vehicle, driven);
     system->step(state.vehicle, driven, around, plan->step);
     state.leak += leaking * plan->step;
-    state.sums.energy += load.voltage * load.current * plan->step;
+    state.sums.energy += state.load.voltage * state.load.current * plan->step;
     const Vec6 acceleration = (state.vehicle.motion.velocity - before) / plan->step;
     sense(start + (i + 1) * plan->step, acceleration);
   }
   driven.drop.assign(driven.drop.size(), 0);
-  commands.drop = driven.drop;
+  state.commands.drop = driven.drop;
 }
 
 void MissionRun::Parts::account(double before_x, double before_y, double before_z) {
@@ -558,7 +559,9 @@ void MissionRun::Parts::account(double before_x, double before_y, double before_
   MissionSums& sums = state.sums;
   sums.distance += (place - Vec3(before_x, before_y, before_z)).norm();
   sums.deepest = std::max(sums.deepest, plan->water.surface().value_or(0.0) - place.z());
-  if (!std::isnan(altitude)) sums.least_altitude = std::min(sums.least_altitude, altitude);
+  if (!std::isnan(state.altitude)) {
+    sums.least_altitude = std::min(sums.least_altitude, state.altitude);
+  }
   const double error = (estimated().world_from_vehicle.translation() - place).head<2>().norm();
   sums.squared_error += error * error;
   sums.largest_error = std::max(sums.largest_error, error);
@@ -573,9 +576,9 @@ void MissionRun::Parts::record() {
   tick.estimated = estimated();
   tick.position_std = state.signals[static_cast<std::size_t>(Signal::kPositionStd)];
   tick.target = state.target;
-  tick.commands = &commands;
-  tick.load = load;
-  tick.altitude = altitude;
+  tick.commands = &state.commands;
+  tick.load = state.load;
+  tick.altitude = state.altitude;
   tick.depth = plan->water.surface().value_or(0.0) -
                state.vehicle.motion.world_from_vehicle.translation().z();
   sink->tick(tick);

@@ -31,13 +31,11 @@ struct MissionRun::Parts final : TreeLeaves {
   MissionState state;
 
   // What a tick works on, kept so that nothing is allocated.
-  VehicleCommands commands, driven;
+  VehicleCommands driven;
   std::vector<DeviceReport> reports;
   std::vector<int> changed, failed;
   Vec6 extra = Vec6::Zero();  ///< of a sample, known to the pilot
   bool sampling = false;
-  BatteryLoad load;
-  double altitude = 0.0;
 
   double time() const { return static_cast<double>(state.number) * plan->tick(); }
   VehicleState estimated() const;

@@ -90,6 +90,14 @@ void archive(A& a, WatcherState& s) {
   a(s.sensors, s.thrusters, s.fins, s.battery, s.hull);
 }
 template <class A>
+void archive(A& a, VehicleCommands& s) {
+  a(s.thrusters, s.fins, s.drop);
+}
+template <class A>
+void archive(A& a, BatteryLoad& s) {
+  a(s.voltage, s.current, s.collapsed);
+}
+template <class A>
 void archive(A& a, MissionSums& s) {
   a(s.distance, s.deepest, s.least_altitude, s.energy, s.squared_error, s.largest_error);
 }
@@ -102,7 +110,7 @@ template <class A>
 void archive_state(A& a, MissionState& s, std::string& navigation) {
   a(s.number, s.status, s.vehicle, s.lines, s.pending, navigation, s.velocity, s.velocity_time,
     s.attitude, s.spin, s.pilot, s.target, s.tree, s.guard, s.guard_since, s.leaves, s.faults,
-    s.watchers, s.signals, s.held_commands, s.leak, s.sums);
+    s.watchers, s.signals, s.commands, s.held_commands, s.load, s.altitude, s.leak, s.sums);
 }
 
 }  // namespace
