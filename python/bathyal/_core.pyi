@@ -5425,8 +5425,8 @@ class Thruster:
     """
     A thruster in the vehicle's frame.
     
-    Its force is T = k n|n| − inflow |n| u_a, with n the propeller's speed, k by the side and u_a the
-    speed of the water that it meets (Fossen 2011, eq. 12.224). A table, where there is one, gives what
+    Its force is ``T = k n|n| − inflow |n| u_a``, with n the propeller's speed, k by the side and u_a
+    the speed of the water that it meets (Fossen 2011, eq. 12.224). A table, where there is one, gives what
     is reached in still water. Pairs are (ahead, astern).
     
     Parameters
@@ -5443,7 +5443,7 @@ class Thruster:
         The speed goes with the command past the dead zone to the one, the voltage over the nominal one
         to the other.
     power_cubic, power_quartic : (float, float)
-        Electrical power is cubic |n|³ + quartic n⁴ [W s³], [W s⁴].
+        Electrical power is ``cubic |n|³ + quartic n⁴`` [W s³], [W s⁴].
     inflow, torque_inflow : float
         Lost by inflow [N s²/m], [N s²].
     spin : int
@@ -5652,7 +5652,7 @@ class Fin:
     """
     A rudder, stern plane or fixed fin, in the vehicle's frame.
     
-    Without an area its force is a published one, `published` u |u| δ; with one, that of a wing in the
+    Without an area its force is a published one, ``published u |u| δ``; with one, that of a wing in the
     water that it meets, linear in the angle of attack up to the stall and a flat plate beyond (Beard
     and McLain 2012, Small Unmanned Aircraft, eq. 4.9, 4.10).
     
@@ -9274,8 +9274,8 @@ def fit_thruster(table: ThrusterTable, nominal_voltage: typing.SupportsFloat | t
     """
     Fits a thruster's law to a table by least squares.
     
-    Thrust against n² (T = k n|n|), power against |n|³ and n⁴, and in logarithms the speed against the
-    voltage and the command past the dead zone; rows without thrust do not count.
+    Thrust against n², power against its third and fourth power, and in logarithms the speed against
+    the voltage and the command past the dead zone; rows without thrust do not count.
     
     Parameters
     ----------
