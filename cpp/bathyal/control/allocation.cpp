@@ -111,7 +111,7 @@ void Allocation::allocate(const Vec6& wrench, double voltage, const std::vector<
     const bool on = (works >> j & 1U) != 0;
     result.saturated = result.saturated || (on && (found[j] <= low[j] || found[j] >= high[j]));
   }
-  result.achieved = matrix_ * found;
+  result.achieved.noalias() = matrix_ * found;  // else Eigen takes a temporary from the heap
 }
 
 }  // namespace bathyal
