@@ -85,6 +85,35 @@ class RunLog:
                 fields.setdefault(name, []).append(value)
         return {name: _column(values) for name, values in fields.items()}
 
+    def poses(self, topic: str) -> Array:
+        """The poses of a topic, ``/truth`` or ``/estimate``.
+
+        Parameters
+        ----------
+        topic : str
+
+        Returns
+        -------
+        (K, 4, 4) array
+            world_from_vehicle.
+        """
+        rows = self.messages(topic)
+        x, y, z, w = (rows[f"pose.orientation.{axis}"] for axis in "xyzw")
+        poses = np.zeros((len(x), 4, 4))
+        poses[:, 0, :3] = np.stack(
+            [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)], axis=1
+        )
+        poses[:, 1, :3] = np.stack(
+            [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)], axis=1
+        )
+        poses[:, 2, :3] = np.stack(
+            [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)], axis=1
+        )
+        for row, axis in enumerate("xyz"):
+            poses[:, row, 3] = rows[f"pose.position.{axis}"]
+        poses[:, 3, 3] = 1.0
+        return poses
+
 
 def _flat(row: dict[str, Any], before: str) -> list[tuple[str, Any]]:
     found: list[tuple[str, Any]] = []
