@@ -30,7 +30,7 @@ using KeywordValue =
 using StateLike = py::typing::Union<ArrayLike, py::typing::Tuple<ArrayLike, ArrayLike>>;
 using ThrustLike =
     py::typing::Union<ArrayLike, py::typing::Callable<ArrayLike(py::float_, py::array, py::array)>>;
-using CurrentLike =
+using FlowLike =
     py::typing::Union<ArrayLike, py::typing::Callable<ArrayLike(py::array, py::float_)>, py::none>;
 
 Vec6 vec6_argument(std::string_view name, const py::object& object) {
@@ -252,7 +252,7 @@ std::shared_ptr<const Environment> environment_of(const OptionalWorld& given) {
 
 VehicleMotionRecord simulated(const Vehicle& vehicle, const StateLike& state,
                               const ThrustLike& thrust, double duration, double step,
-                              const CurrentLike& current, const FreeLike& free,
+                              const FlowLike& current, const FreeLike& free,
                               const OptionalWorld& world) {
   SimulateOptions options;
   options.duration = duration;
