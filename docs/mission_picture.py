@@ -6,9 +6,10 @@ from __future__ import annotations
 import tempfile
 from pathlib import Path
 
+from small_png import save_png
+
 import bathyal
 from bathyal.mission.example import write_mission_example
-from small_png import save_png
 
 HERE = Path(__file__).parent
 

@@ -64,7 +64,7 @@ def run(
         if event.kind in ("fault", "report", "guard", "mark", "end")
     ]
     facts = {"status": found.status, "seed": seed, **found.metrics}
-    rows: dict[str, object] = {
+    rows: dict[str, str] = {
         "status": found.status,
         "duration": f"{found.metrics['duration']:.1f} s",
         "way": f"{found.metrics['distance']:.1f} m, to {found.metrics['deepest']:.1f} m deep",

@@ -47,6 +47,11 @@ def fit_altitude(first: Floats, altitude: Floats) -> AltitudeFit | None:
     return AltitudeFit(float(slope), float(offset), float(correlation), int(known.sum()))
 
 
+def _is_dated(record: SonarRecord) -> bool:
+    """A simulated survey begins at 0 s, which a file writes as the first day of 1970."""
+    return record.start is not None and record.start > np.datetime64("1971-01-01")
+
+
 def describe_record(record: SonarRecord, bottom: BottomTrack) -> dict[str, str]:
     """Names and texts of what a person asks first.
 
@@ -66,7 +71,7 @@ def describe_record(record: SonarRecord, bottom: BottomTrack) -> dict[str, str]:
     known = record.time[np.isfinite(record.time)]
     if len(known):
         facts["time"] = f"{np.ptp(known):.1f} s" + (
-            f" from {record.start} UTC" if record.start is not None else ""
+            f" from {record.start} UTC" if _is_dated(record) else ", without a date"
         )
     facts["track"] = f"{record.distance()[-1]:.1f} m"
     if nav.longitude is not None and nav.latitude is not None:

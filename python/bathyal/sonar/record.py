@@ -54,7 +54,7 @@ class RecordTruth:
     pose: Floats
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class SonarRecord:
     """Pings one after another.
 
@@ -96,6 +96,11 @@ class SonarRecord:
 
     def __len__(self) -> int:
         return len(self.time)
+
+    def __repr__(self) -> str:
+        pings, beams, samples = self.intensity.shape
+        seconds = float(np.ptp(self.time)) if pings else 0.0
+        return f"SonarRecord({pings:,} pings × {beams} beams × {samples:,} samples, {seconds:.1f} s)"
 
     def distance(self) -> Floats:
         """(P,) along the track [m], by the positions, or by speed and time where there are none."""

@@ -160,6 +160,7 @@ class RecordStore:
         warnings = []
         if len(there) < self.pings:
             warnings.append(f"of {self.pings:,} pings {len(there):,} are there")
+        warnings += self._missing(there)
         columns = {name: StoredArray(self.folder / name, there) for name in self.layouts}
         notes = self.notes
         with reading(self.folder, "sonar record"):
@@ -169,6 +170,16 @@ class RecordStore:
                 columns, float(notes["spacing"]), tuple(map(str, notes["beam_names"])),
                 sonar=sonar, start=start, warnings=tuple(warnings + notes["warnings"]),
             )  # fmt: skip
+
+    def _missing(self, there: NDArray[np.int64]) -> list[str]:
+        """Columns of which chunks are lost that were written once: their rows are NaN or 0."""
+        lost = []
+        for name, layout in self.layouts.items():
+            chunks = np.unique(there // layout.chunk)
+            count = sum(not (self.folder / name / layout.name(int(one))).exists() for one in chunks)
+            if count:
+                lost.append(f"{name}: {count} of {len(chunks)} chunks are missing")
+        return lost
 
     def _kept(self, name: str, chunk: int) -> NDArray[Any]:
         try:
