@@ -114,7 +114,7 @@ Examples
 >>> battery = bathyal.Battery.lithium_ion_4s()
 >>> load = battery.solve(800.0)
 >>> print(f"{load.voltage:.2f} V, {load.current:.1f} A")
-13.92 V, 57.5 A
+13.93 V, 57.4 A
 )";
 
 inline constexpr const char* kSolve =
