@@ -5464,6 +5464,7 @@ class Thruster:
     
     Examples
     --------
+    >>> import bathyal
     >>> t200 = bathyal.Thruster.t200()
     >>> thrust, power, speed = t200.steady(1.0, 16.0)
     >>> print(f"{thrust:.1f} N, {power:.0f} W, {speed:.1f} turns a second")
@@ -5609,10 +5610,11 @@ class Battery:
     
     Examples
     --------
+    >>> import bathyal
     >>> battery = bathyal.Battery.lithium_ion_4s()
     >>> load = battery.solve(800.0)
     >>> print(f"{load.voltage:.2f} V, {load.current:.1f} A")
-    13.92 V, 57.5 A
+    13.93 V, 57.4 A
     """
     @staticmethod
     def lithium_ion_4s() -> Battery:
@@ -5843,6 +5845,7 @@ class VehicleSystem:
     
     Examples
     --------
+    >>> import bathyal
     >>> rov = bathyal.VehicleSystem.bluerov2_heavy()
     >>> state = rov.rest()
     >>> rov.step(state, thrusters=[0, 0, 0, 0, 0.4, 0.4, 0.4, 0.4], step=0.01, steps=500)
@@ -6786,6 +6789,7 @@ class Allocation:
     
     Examples
     --------
+    >>> import bathyal
     >>> rov = bathyal.VehicleSystem.bluerov2_heavy()
     >>> allocation = bathyal.Allocation(rov.thrusters)
     >>> allocation.rank(failed=[0]), allocation.rank(failed=[4, 5])
@@ -7046,6 +7050,7 @@ class LineOfSight:
     
     Examples
     --------
+    >>> import bathyal
     >>> line = bathyal.LineOfSight([[0, 0], [100, 0], [100, 50]])
     >>> state = bathyal.LineOfSightState()
     >>> heading, cross_track = line.step(state, [10, 2, -5], 0.1)
@@ -9323,6 +9328,7 @@ def follow_bottom(position: numpy.typing.ArrayLike, heading: typing.SupportsFloa
     
     Examples
     --------
+    >>> import bathyal
     >>> bathyal.follow_bottom([0, 0, -20], 0.0, lambda x, y: -25.0)
     (-22.0, 0.0)
     """
