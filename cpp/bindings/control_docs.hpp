@@ -24,6 +24,7 @@ ValueError
 
 Examples
 --------
+>>> import bathyal
 >>> rov = bathyal.VehicleSystem.bluerov2_heavy()
 >>> allocation = bathyal.Allocation(rov.thrusters)
 >>> allocation.rank(failed=[0]), allocation.rank(failed=[4, 5])
@@ -190,6 +191,7 @@ ValueError
 
 Examples
 --------
+>>> import bathyal
 >>> line = bathyal.LineOfSight([[0, 0], [100, 0], [100, 50]])
 >>> state = bathyal.LineOfSightState()
 >>> heading, cross_track = line.step(state, [10, 2, -5], 0.1)
@@ -230,6 +232,7 @@ climb : float
 
 Examples
 --------
+>>> import bathyal
 >>> bathyal.follow_bottom([0, 0, -20], 0.0, lambda x, y: -25.0)
 (-22.0, 0.0)
 )";

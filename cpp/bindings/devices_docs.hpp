@@ -65,6 +65,7 @@ ValueError
 
 Examples
 --------
+>>> import bathyal
 >>> t200 = bathyal.Thruster.t200()
 >>> thrust, power, speed = t200.steady(1.0, 16.0)
 >>> print(f"{thrust:.1f} N, {power:.0f} W, {speed:.1f} turns a second")
@@ -109,10 +110,11 @@ ValueError
 
 Examples
 --------
+>>> import bathyal
 >>> battery = bathyal.Battery.lithium_ion_4s()
 >>> load = battery.solve(800.0)
 >>> print(f"{load.voltage:.2f} V, {load.current:.1f} A")
-13.92 V, 57.5 A
+13.93 V, 57.4 A
 )";
 
 inline constexpr const char* kSolve =
@@ -218,6 +220,7 @@ ValueError
 
 Examples
 --------
+>>> import bathyal
 >>> rov = bathyal.VehicleSystem.bluerov2_heavy()
 >>> state = rov.rest()
 >>> rov.step(state, thrusters=[0, 0, 0, 0, 0.4, 0.4, 0.4, 0.4], step=0.01, steps=500)

@@ -5959,6 +5959,7 @@ class Thruster:
     
     Examples
     --------
+    >>> import bathyal
     >>> t200 = bathyal.Thruster.t200()
     >>> thrust, power, speed = t200.steady(1.0, 16.0)
     >>> print(f"{thrust:.1f} N, {power:.0f} W, {speed:.1f} turns a second")
@@ -6104,10 +6105,11 @@ class Battery:
     
     Examples
     --------
+    >>> import bathyal
     >>> battery = bathyal.Battery.lithium_ion_4s()
     >>> load = battery.solve(800.0)
     >>> print(f"{load.voltage:.2f} V, {load.current:.1f} A")
-    13.92 V, 57.5 A
+    13.93 V, 57.4 A
     """
     @staticmethod
     def lithium_ion_4s() -> Battery:
@@ -6338,6 +6340,7 @@ class VehicleSystem:
     
     Examples
     --------
+    >>> import bathyal
     >>> rov = bathyal.VehicleSystem.bluerov2_heavy()
     >>> state = rov.rest()
     >>> rov.step(state, thrusters=[0, 0, 0, 0, 0.4, 0.4, 0.4, 0.4], step=0.01, steps=500)
@@ -7391,6 +7394,7 @@ class Allocation:
     
     Examples
     --------
+    >>> import bathyal
     >>> rov = bathyal.VehicleSystem.bluerov2_heavy()
     >>> allocation = bathyal.Allocation(rov.thrusters)
     >>> allocation.rank(failed=[0]), allocation.rank(failed=[4, 5])
@@ -7651,6 +7655,7 @@ class LineOfSight:
     
     Examples
     --------
+    >>> import bathyal
     >>> line = bathyal.LineOfSight([[0, 0], [100, 0], [100, 50]])
     >>> state = bathyal.LineOfSightState()
     >>> heading, cross_track = line.step(state, [10, 2, -5], 0.1)
@@ -9997,6 +10002,7 @@ def follow_bottom(position: numpy.typing.ArrayLike, heading: typing.SupportsFloa
     
     Examples
     --------
+    >>> import bathyal
     >>> bathyal.follow_bottom([0, 0, -20], 0.0, lambda x, y: -25.0)
     (-22.0, 0.0)
     """
