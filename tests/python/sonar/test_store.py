@@ -299,3 +299,17 @@ def test_broken_chunks_are_named_and_written_anew(tmp_path) -> None:
     shutil.rmtree(folder / "intensity")
     with pytest.raises(bathyal.Error, match="no intensity"):
         bathyal.read_sonar(folder)
+
+
+def test_a_chunk_that_is_lost_is_reported(tmp_path) -> None:
+    fly(out=tmp_path / "survey")
+    chunks = sorted((tmp_path / "survey" / "intensity").glob("[0-9]*"))
+    chunks[1].unlink()
+    record = bathyal.read_sonar(tmp_path / "survey")
+    assert [text for text in record.warnings if "intensity: 1 of" in text]
+    assert np.isnan(np.asarray(record.intensity)).any()
+
+
+def test_a_record_is_named_in_one_line() -> None:
+    record = fly()
+    assert repr(record) == f"SonarRecord({len(record)} pings × 2 beams × 200 samples, 10.0 s)"
