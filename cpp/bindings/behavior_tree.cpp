@@ -33,6 +33,8 @@ struct NamedTree {
   TreeState state;
 };
 
+using NodeValue = py::typing::Union<py::str, py::float_, py::bool_, py::list>;
+using NodeDict = py::typing::Dict<py::str, NodeValue>;
 using Answer = py::typing::Callable<py::str(py::str)>;
 
 class CalledLeaves final : public TreeLeaves {
@@ -115,7 +117,7 @@ Examples
 >>> tree.statuses
 ['running', 'failure', 'running']
 )")
-      .def(py::init([](const py::typing::Dict<py::str, py::object>& tree) {
+      .def(py::init([](const NodeDict& tree) {
              NamedTree named;
              const TreeNode root = tree_argument(tree, [&](const py::dict& leaf) {
                named.leaves.push_back(leaf.contains("name") ? leaf["name"].cast<std::string>()

@@ -26,7 +26,8 @@
 namespace bathyal::python {
 namespace {
 
-using Dict = py::typing::Dict<py::str, py::object>;
+using DictValue = py::typing::Union<py::str, py::float_, ArrayLike, py::list, py::dict>;
+using Dict = py::typing::Dict<py::str, DictValue>;
 using Dicts = py::typing::List<Dict>;
 
 double number(const py::dict& dict, const char* key, double otherwise) {

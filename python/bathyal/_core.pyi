@@ -6445,7 +6445,7 @@ class BehaviorTree:
     >>> tree.statuses
     ['running', 'failure', 'running']
     """
-    def __init__(self, tree: dict[str, typing.Any]) -> None:
+    def __init__(self, tree: dict[str, str | float | bool | list]) -> None:
         ...
     def tick(self, time: typing.SupportsFloat | typing.SupportsIndex, update: collections.abc.Callable[[str], str]) -> str:
         """
@@ -6503,7 +6503,7 @@ class MissionPlan:
     
     All that a run's outcome depends on but its seed.
     """
-    def __init__(self, *, name: str, system: VehicleSystem, vehicle: Vehicle | None, weights: collections.abc.Sequence[DropWeight], hotel_power: typing.SupportsFloat | typing.SupportsIndex, world: World, sensors: list[Sensor], navigation: dict[str, typing.Any], start: numpy.typing.ArrayLike, commands: list[dict[str, typing.Any]], tree: dict[str, typing.Any], guards: list[dict[str, typing.Any]], faults: list[dict[str, typing.Any]], step: typing.SupportsFloat | typing.SupportsIndex = 0.02, steps_per_tick: typing.SupportsInt | typing.SupportsIndex = 5, longest: typing.SupportsFloat | typing.SupportsIndex = 14400.0) -> None:
+    def __init__(self, *, name: str, system: VehicleSystem, vehicle: Vehicle | None, weights: collections.abc.Sequence[DropWeight], hotel_power: typing.SupportsFloat | typing.SupportsIndex, world: World, sensors: list[Sensor], navigation: dict[str, str | float | numpy.typing.ArrayLike | list | dict], start: numpy.typing.ArrayLike, commands: list[dict[str, str | float | numpy.typing.ArrayLike | list | dict]], tree: dict[str, str | float | numpy.typing.ArrayLike | list | dict], guards: list[dict[str, str | float | numpy.typing.ArrayLike | list | dict]], faults: list[dict[str, str | float | numpy.typing.ArrayLike | list | dict]], step: typing.SupportsFloat | typing.SupportsIndex = 0.02, steps_per_tick: typing.SupportsInt | typing.SupportsIndex = 5, longest: typing.SupportsFloat | typing.SupportsIndex = 14400.0) -> None:
         ...
     @property
     def name(self) -> str:
@@ -6955,7 +6955,7 @@ class Sonar:
     @property
     def fan_span(self) -> float:
         """
-        Of ψ that rays cover [rad].
+        Of ψ that rays cover [rad]; an echo sounder's beam is a cone, to which it does not apply.
         """
     @property
     def fan_width(self) -> float:

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Missions from files, their runs and what is left of them."""
+"""Missions from files, their runs and logs."""

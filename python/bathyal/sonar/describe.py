@@ -49,7 +49,7 @@ def fit_altitude(first: Floats, altitude: Floats) -> AltitudeFit | None:
 
 def _is_dated(record: SonarRecord) -> bool:
     """A simulated survey begins at 0 s, which a file writes as the first day of 1970."""
-    return record.start is not None and record.start > np.datetime64("1971-01-01")
+    return record.start is not None and bool(record.start > np.datetime64("1971-01-01"))
 
 
 def describe_record(record: SonarRecord, bottom: BottomTrack) -> dict[str, str]:

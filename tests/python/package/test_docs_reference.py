@@ -101,6 +101,8 @@ def test_every_command_is_in_the_reference(sections: dict[str, str]) -> None:
         "world",
         "survey",
         "xtf",
+        "mission",
+        "run",
     ]
     expected = [*verbs, "touches example", "touches plan", "scenario example"]
     assert set(sections) == {f"bathyal {verb}" for verb in expected}
@@ -109,6 +111,7 @@ def test_every_command_is_in_the_reference(sections: dict[str, str]) -> None:
 @pytest.mark.parametrize(
     "command", ["plan", "triangulate", "info", "survey", "identify", "diagnose",
                 "touches example", "touches plan", "check", "reach", "sample", "profile",
+                "mission", "run",
                 "scenario example"],
 )  # fmt: skip
 def test_every_option_of_a_command_is_in_the_reference(
