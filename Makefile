@@ -78,6 +78,9 @@ demo: $(STAMPS)/venv
 	$(BIN)/bathyal world demo/sea/world.yaml --example --picture demo/sea/world.png
 	$(BIN)/bathyal survey demo/sea/world.yaml --track demo/sea/track.csv --speed 2 --range 40 --out demo/sea/survey
 	$(BIN)/bathyal xtf demo/sea/survey/survey.xtf --out demo/sea/image
+	$(BIN)/bathyal mission demo/dive/mission.yaml --example --picture demo/dive/mission.png
+	$(BIN)/bathyal run demo/dive/mission.yaml --seed 1 --out demo/dive/run
+	@echo "The dive's log is demo/dive/run/log.mcap; its picture is demo/dive/run/run.png."
 	@echo "The side-scan is demo/sea/survey/survey.xtf; its picture is demo/sea/survey/survey.png, from above demo/sea/image/mosaic.png."
 	@echo "The sample's motion is demo/sample/motion.csv; its picture is demo/sample/motion.png, and demo/sample/motion.html plays."
 
