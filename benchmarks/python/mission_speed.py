@@ -3,8 +3,8 @@
 
     python -m benchmarks.python.mission_speed
 
-Processor time of one process. The survey is run five times: all logs must have the same bytes before
-any time is printed.
+Processor time of one process. The survey is run five times: all logs must have the same bytes
+before any time is printed.
 """
 
 from __future__ import annotations

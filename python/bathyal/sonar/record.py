@@ -100,7 +100,8 @@ class SonarRecord:
     def __repr__(self) -> str:
         pings, beams, samples = self.intensity.shape
         seconds = float(np.ptp(self.time)) if pings else 0.0
-        return f"SonarRecord({pings:,} pings × {beams} beams × {samples:,} samples, {seconds:.1f} s)"
+        size = f"{pings:,} pings × {beams} beams × {samples:,} samples"
+        return f"SonarRecord({size}, {seconds:.1f} s)"
 
     def distance(self) -> Floats:
         """(P,) along the track [m], by the positions, or by speed and time where there are none."""
