@@ -210,6 +210,24 @@ TEST(MissionRun, AThrusterThatDiesIsReportedAndTheMissionGoesOn) {
   EXPECT_TRUE(sink.has("report", fault.device + " dead"));
 }
 
+TEST(MissionRun, ADirectionThatNoThrusterGivesIsNamed) {
+  MissionPlan plan = square_mission();
+  for (const std::size_t row : {4U, 5U}) {  // both vertical ones of the bow
+    MissionFault fault;
+    fault.device = plan.vehicle.thrusters[row].name;
+    fault.kind = FaultKind::kDead;
+    fault.at = 3.0;
+    plan.faults.push_back(fault);
+  }
+  TextSink sink;
+  MissionRun run(std::make_shared<MissionPlan>(plan), 1, &sink);
+  for (int i = 0; i < 150; ++i) run.step();
+  const std::vector<int> lost = Pilot(VehicleSystem(plan.vehicle), plan.pilot).lost_axes({4, 5});
+  ASSERT_EQ(lost.size(), 1U);
+  std::string text("no more ");
+  EXPECT_TRUE(sink.has("report", text.append(kAxisNames[static_cast<std::size_t>(lost[0])])));
+}
+
 TEST(MissionRun, AGuardEndsTheMissionAndSurfaces) {
   MissionPlan plan = square_mission();
   const auto signals = mission_signals(plan.vehicle, plan.sensors);

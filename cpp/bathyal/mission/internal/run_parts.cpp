@@ -266,6 +266,13 @@ void MissionRun::Parts::reckon(double measured) {
   filter.predict_motion(state.navigation, at, Eigen::Quaterniond(state.attitude), state.velocity);
 }
 
+void MissionRun::Parts::find_failed() {
+  failed.clear();
+  for (std::size_t i = 0; i < state.watchers.thrusters.size(); ++i) {
+    if (state.watchers.thrusters[i].reported) failed.push_back(static_cast<int>(i));
+  }
+}
+
 void MissionRun::Parts::watch() {
   std::vector<double> speeds, angles;
   for (std::size_t i = 0; i < state.vehicle.thrusters.size(); ++i) {
@@ -275,9 +282,18 @@ void MissionRun::Parts::watch() {
     speeds.push_back(speed * (1.0 + kTelemetryNoise * draw.normal()));
   }
   for (const FinState& fin : state.vehicle.fins) angles.push_back(fin.angle);
+  find_failed();
+  const std::size_t before = failed.size();
   watchers.tick(state.watchers, time(), plan->tick(), state.commands, speeds, angles,
                 state.load.voltage, state.load.current, state.vehicle.battery.charge, reports);
+  find_failed();
   for (const DeviceReport& report : reports) emit("report", report.device + " " + report.kind);
+  if (failed.size() > before) {
+    for (const int axis : pilot.lost_axes(failed)) {
+      std::string text("no more ");
+      emit("report", text.append(kAxisNames[static_cast<std::size_t>(axis)]));
+    }
+  }
   reports.clear();
 }
 
@@ -312,16 +328,12 @@ void MissionRun::Parts::update_signals() {
   }
   std::size_t row = static_cast<std::size_t>(Signal::kCount);
   double count = 0.0;
-  failed.clear();
   const auto put = [&](const DeviceWatch& watch) {
     state.signals[row++] = watch.reported ? 1.0 : 0.0;
     count += watch.reported ? 1.0 : 0.0;
   };
   for (const DeviceWatch& watch : state.watchers.sensors) put(watch);
-  for (std::size_t i = 0; i < state.watchers.thrusters.size(); ++i) {
-    put(state.watchers.thrusters[i]);
-    if (state.watchers.thrusters[i].reported) failed.push_back(static_cast<int>(i));
-  }
+  for (const DeviceWatch& watch : state.watchers.thrusters) put(watch);
   for (const DeviceWatch& watch : state.watchers.fins) put(watch);
   put(state.watchers.battery);
   put(state.watchers.hull);
@@ -330,7 +342,6 @@ void MissionRun::Parts::update_signals() {
 
 void MissionRun::Parts::decide() {
   extra.setZero();
-  sampling = false;
   for (std::size_t i = 0; state.guard < 0 && i < plan->guards.size(); ++i) {
     const MissionGuard& guard = plan->guards[i];
     double& since = state.guard_since[i];
@@ -456,7 +467,6 @@ NodeStatus MissionRun::Parts::update(int leaf) {
     case CommandKind::kSample: {
       const double since = time() - own.since;
       extra = interpolated(command, since);
-      sampling = true;
       const Eigen::Vector2d off =
           estimated().world_from_vehicle.translation().head<2>() - state.target.to;
       if (off.norm() > command.tolerance)

@@ -35,7 +35,6 @@ struct MissionRun::Parts final : TreeLeaves {
   std::vector<DeviceReport> reports;
   std::vector<int> changed, failed;
   Vec6 extra = Vec6::Zero();  ///< of a sample, known to the pilot
-  bool sampling = false;
 
   double time() const { return static_cast<double>(state.number) * plan->tick(); }
   VehicleState estimated() const;
@@ -56,6 +55,7 @@ struct MissionRun::Parts final : TreeLeaves {
   void deliver();
   void take(const PendingReading& pending);
   void reckon(double measured);
+  void find_failed();
   void watch();
   void update_signals();
   void decide();
