@@ -29,7 +29,7 @@ PYTHON = [
     "reach_map",
 ]
 PYTHON += ["sonar_pings", "long_survey"]
-PYTHON += ["uvms_trim", "navigation", "vehicle_step", "mission_speed"]
+PYTHON += ["uvms_trim", "navigation", "vehicle_step", "mission_speed", "watchers"]
 PYTHON += ["read_text", "whole_plan", "identify"]
 PYTHON += ["intervals", "diagnose_speed", "diagnose_real", "score_card"]
 CPP = ["bench_delaunay", "bench_greedy", "bench_arm_forward", "bench_arm_inverse"]

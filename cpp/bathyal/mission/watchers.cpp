@@ -8,7 +8,20 @@
 namespace bathyal {
 namespace {
 
-constexpr double kRecent = 0.1;  // weight of the last reading in the share refused
+constexpr double kRecent = 0.1;    // weight of the last reading in the share refused
+constexpr double kLately = 0.005;  // and in the mean of innovations
+
+/// Whether a velocity changed faster than a vehicle does.
+bool jumps(const SensorOptions& sensor, const SensorReading& before, const SensorReading& reading,
+           double acceleration) {
+  if (before.index < 0 || !before.valid || !reading.valid) return false;
+  double change = 0.0, noise = 0.0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    change = std::max(change, std::abs(reading.values[i] - before.values[i]));
+    noise = std::max(noise, sensor.channels[i].noise);
+  }
+  return change > acceleration * (reading.time - before.time) + 8.0 * noise;
+}
 
 /// Whether it has not been right for long enough, and is not reported yet.
 bool persists(DeviceWatch& watch, bool wrong, double time, double persist) {
@@ -61,12 +74,22 @@ void Watchers::reading(WatcherState& state, int device, const SensorReading& bef
   const bool equal =
       before.index >= 0 && before.valid && reading.valid && before.values == reading.values;
   watch.repeats = equal && noisy ? watch.repeats + 1 : 0;
+  bool drifts = false;
   if (update != nullptr && update->used) {
     watch.refused += kRecent * ((update->accepted ? 0.0 : 1.0) - watch.refused);
+    for (int i = 0; i < std::min(update->count, 3); ++i) {
+      const auto k = static_cast<std::size_t>(i);
+      const double sigma = std::sqrt(update->covariance(i, i));
+      watch.mean[k] += kLately * (update->innovation[k] / sigma - watch.mean[k]);
+      drifts = drifts || std::abs(watch.mean[k]) > options_.mean;
+    }
+  } else if (reading.kind == SensorKind::dvl) {
+    const bool jump = jumps(sensor, before, reading, options_.acceleration);
+    watch.refused += kRecent * ((jump ? 1.0 : 0.0) - watch.refused);
   }
   if (watch.reported) return;
   if (watch.repeats >= options_.repeats) report(watch, sensor.name, "stuck", reports);
-  if (!watch.reported && watch.refused > options_.refused) {
+  if (!watch.reported && (drifts || watch.refused > options_.refused)) {
     report(watch, sensor.name, "wrong", reports);
   }
   if (!watch.reported && sensor.kind == SensorKind::leak && reading.valid &&

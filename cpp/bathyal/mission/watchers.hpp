@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,7 +17,9 @@ namespace bathyal {
 struct WatcherOptions {
   double silence = 3.0;        ///< a sensor is off after so many of its periods, and 1 s
   int repeats = 15;            ///< equal readings in a row: it is stuck
-  double refused = 0.5;        ///< share of readings refused by the filter
+  double refused = 0.5;        ///< share of readings that the filter refuses, or that jump
+  double acceleration = 2.0;   ///< most that a velocity log can mean [m/s²]
+  double mean = 0.3;           ///< of the normalised innovations of some 200 readings
   double speed_share = 0.2;    ///< of a propeller's expected speed
   double speed_least = 3.0;    ///< [1/s]
   double angle_least = 0.05;   ///< of a fin [rad]
@@ -29,7 +33,8 @@ struct DeviceWatch {
   double since = -1.0;  ///< of what is not right [s]; −1: all is right
   double seen = 0.0;    ///< its last sign of life [s]
   std::int32_t repeats = 0;
-  double refused = 0.0;  ///< share, of the last ten or so
+  double refused = 0.0;          ///< share, of the last ten or so
+  std::array<double, 3> mean{};  ///< of normalised innovations, of the last 200 or so
   bool reported = false;
   double expected = 0.0;  ///< speed or angle
 };

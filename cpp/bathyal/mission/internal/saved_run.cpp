@@ -83,7 +83,7 @@ void archive(A& a, FaultState& s) {
 }
 template <class A>
 void archive(A& a, DeviceWatch& s) {
-  a(s.since, s.seen, s.repeats, s.refused, s.reported, s.expected);
+  a(s.since, s.seen, s.repeats, s.refused, s.mean, s.reported, s.expected);
 }
 template <class A>
 void archive(A& a, WatcherState& s) {
