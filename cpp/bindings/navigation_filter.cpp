@@ -61,7 +61,7 @@ void put_options(NavigationOptions& options, const NumbersByName& given) {
     if (known) continue;
     std::vector<std::string> names;
     for (const docs::Option& option : docs::options()) names.emplace_back(option.name);
-    throw_argument(name, "one of the options " + listed(names, names.size()), "none of them");
+    throw_argument(name, "one of the options " + listed(names), "none of them");
   }
 }
 
