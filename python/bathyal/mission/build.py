@@ -108,7 +108,7 @@ class MissionBuilder(VehicleBuilder):
     def step(self, step: own.StepSection, place: Place) -> dict[str, Any]:
         """A node of the tree, its commands numbered."""
         kind = step.kind()
-        inner = (*place, kind)
+        inner = (*place, kind) if (*place, kind) in self.document.marks else place
         given = getattr(step, kind)
         if kind in ("sequence", "fallback", "parallel"):
             steps = [self.step(one, (*inner, row)) for row, one in enumerate(given)]
@@ -153,7 +153,8 @@ class MissionBuilder(VehicleBuilder):
         return {"kind": kind, "name": name, **values}
 
     def sample(self, given: own.SampleSection, place: Place) -> dict[str, Any]:
-        """The wrench of the sample that the scenario's arm takes."""
+        """The wrench of the sample that the scenario's arm takes, beyond that at its start, with
+        which the vehicle is in trim."""
         from bathyal._core import plan_sampling
         from bathyal.workspace.scenario import read_scenario
 
@@ -164,9 +165,10 @@ class MissionBuilder(VehicleBuilder):
             if not 0 <= row < len(scenario.targets):
                 raise ValueError(f"expected the row of a target below {len(scenario.targets)}")
             plan = plan_sampling(scenario.workspace, scenario.targets[row], **scenario.sampling)
-            if plan.status != "solved":
+            if not plan:
                 raise ValueError(f"the sample cannot be taken: {plan.status}")
-        return {"wrench_time": plan.time, "wrench": plan.wrench, "tolerance": given.tolerance}
+        wrench = plan.wrench - plan.wrench[0]
+        return {"wrench_time": plan.time, "wrench": wrench, "tolerance": given.tolerance}
 
 
 def survey_points(section: own.SurveySection) -> list[tuple[float, float]]:

@@ -228,6 +228,49 @@ TEST(MissionRun, ADirectionThatNoThrusterGivesIsNamed) {
   EXPECT_TRUE(sink.has("report", text.append(kAxisNames[static_cast<std::size_t>(lost[0])])));
 }
 
+/// 5 N on the bottom at 0.6 m ahead of the origin: lifted, and pitched bow up.
+MissionPlan pressing_mission() {
+  MissionPlan plan = square_mission();
+  MissionCommand sample = command(CommandKind::kSample, "sample");
+  sample.depth = 5.0;
+  Vec6 press = Vec6::Zero();
+  press[2] = 5.0;
+  press[4] = -3.0;
+  sample.wrench_time = {0.0, 1.0, 11.0, 12.0, 20.0};
+  sample.wrench = {Vec6::Zero(), press, press, Vec6::Zero(), Vec6::Zero()};
+  plan.commands[1] = sample;
+  MissionCommand hold = command(CommandKind::kHold, "hold");
+  hold.depth = 5.0;
+  hold.time = 20.0;
+  plan.commands.push_back(hold);
+  plan.root = sequence({leaf(0), leaf(3), leaf(1), leaf(2)});
+  return plan;
+}
+
+TEST(MissionRun, TrimIsHeldWhileASampleIsTaken) {
+  TextSink sink;
+  MissionRun run(std::make_shared<MissionPlan>(pressing_mission()), 1, &sink);
+  double pitch = 0.0, off = 0.0;
+  while (run.step()) {
+    if (!sink.has("command", "sample starts") || sink.has("command", "sample succeeds")) continue;
+    const Pose& pose = run.state().vehicle.motion.world_from_vehicle;
+    pitch = std::max(pitch, std::abs(std::asin(pose.linear()(2, 0))));
+    off = std::max(off, std::abs(pose.translation().z() + 5.0));
+  }
+  EXPECT_TRUE(sink.has("command", "sample succeeds"));
+  EXPECT_LT(pitch, 5.0 * M_PI / 180.0);
+  EXPECT_LT(off, 0.06);
+}
+
+TEST(MissionRun, ASampleThatPushesTheVehicleAwayFails) {
+  MissionPlan plan = pressing_mission();
+  for (Vec6& wrench : plan.commands[1].wrench) wrench[0] = 500.0;
+  TextSink sink;
+  MissionRun run(std::make_shared<MissionPlan>(plan), 1, &sink);
+  EXPECT_EQ(finish(run), RunStatus::kFailed);
+  EXPECT_TRUE(sink.has("command", "sample fails"));
+}
+
 TEST(MissionRun, AGuardEndsTheMissionAndSurfaces) {
   MissionPlan plan = square_mission();
   const auto signals = mission_signals(plan.vehicle, plan.sensors);

@@ -252,3 +252,20 @@ def test_the_schema_is_json():
     from bathyal.mission.files import mission_schema
 
     assert "mission" in json.loads(json.dumps(mission_schema()))["required"]
+
+
+def test_a_sample_takes_the_wrench_of_its_scenario(tmp_path):
+    from bathyal.workspace.example import write_example
+
+    write_example(tmp_path / "scene")
+    path = tmp_path / "mission.yaml"
+    path.write_text(SHORT.replace("- photo", "- sample: {scenario: scene/scenario.yaml}"))
+    commands = bathyal.read_mission(path).commands
+    sample = next(command for command in commands if command["kind"] == "sample")
+    assert np.abs(sample["wrench"][0]).max() == 0.0
+    assert np.abs(sample["wrench"][:, 4]).max() > 1.0
+    assert (np.diff(sample["wrench_time"]) >= 0).all()
+    # That example's arm is too heavy for this vehicle: the mission says so by failing.
+    run = bathyal.run(path, seed=1)
+    assert run.status == "failed"
+    assert "sample fails" in [event.text for event in run.events]
