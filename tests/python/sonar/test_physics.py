@@ -138,3 +138,16 @@ def test_steel_close_by_does_not_clip(world, name):
     assert sum(sonar.ping(steel, above, seed=seed, truth=False).clipped for seed in range(3)) == 0
     low = sonar.replace(full_scale=-60.0)
     assert low.ping(steel, above, truth=False).clipped > 0
+
+
+def test_shading_puts_down_the_ring_of_the_nadir(world, pose):
+    """A flat bottom 18 m below: the outer beams meet it at twice that."""
+    sonar = bathyal.sonars.multibeam().replace(spreading=True, backscatter="material", range=60.0)
+    ranges = sonar.ping(world, pose).range
+    ring = (ranges > 17.9) & (ranges < 19.0)
+    heard = {
+        pattern: sonar.replace(beam_pattern=pattern, side_lobes=True).ping(world, pose).intensity[0]
+        for pattern in ("uniform", "hann", "taylor")
+    }
+    assert heard["uniform"][ring].max() > 1e-3 * heard["uniform"].max()
+    assert heard["hann"][ring].max() < heard["taylor"][ring].max() < heard["uniform"][ring].max()

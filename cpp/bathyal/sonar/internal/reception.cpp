@@ -11,12 +11,6 @@ namespace {
 
 constexpr double kWidthsOfTable = 16.0;  ///< halves; beyond them the pattern itself
 constexpr std::size_t kRowsOfWidth = 128;
-constexpr double kUnit = 0.1;  ///< a width [rad], of which the table is one
-
-double exact_shape(BeamPattern kind, double off) {
-  return pattern(kind, std::asin(std::min(off * std::sin(0.5 * kUnit), 1.0)), kUnit);
-}
-
 }  // namespace
 
 Reception::Reception(const SonarOptions& options, const Beam& beam)
@@ -37,14 +31,14 @@ Reception::Reception(const SonarOptions& options, const Beam& beam)
   if (pattern_ == BeamPattern::kNone) return;
   const auto rows = static_cast<std::size_t>(kWidthsOfTable) * kRowsOfWidth;
   for (std::size_t row = 0; row <= rows; ++row) {
-    table_.push_back(exact_shape(pattern_, static_cast<double>(row) / kRowsOfWidth));
+    table_.push_back(pattern_shape(pattern_, static_cast<double>(row) / kRowsOfWidth));
   }
 }
 
 double Reception::shape(double off) const {
   const double place = std::abs(off) * kRowsOfWidth;
   const auto row = static_cast<std::size_t>(place);
-  if (row + 1 >= table_.size()) return exact_shape(pattern_, std::abs(off));
+  if (row + 1 >= table_.size()) return pattern_shape(pattern_, std::abs(off));
   return table_[row] + (place - static_cast<double>(row)) * (table_[row + 1] - table_[row]);
 }
 
