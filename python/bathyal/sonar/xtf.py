@@ -47,11 +47,13 @@ def record_of_xtf(data: bytes) -> SonarRecord:
     reach, lengths = np.asarray(pings.slant_range), _lengths(np.asarray(pings.amplitude))
     range_end = float(np.nanmax(reach)) if np.isfinite(reach).any() else float(samples)
     farthest = lengths[(reach == range_end) & (lengths > 0)]
-    step = range_end / (_commonest(farthest) if len(farthest) else max(samples, 1))
+    usual = _commonest(farthest) if len(farthest) else max(samples, 1)
+    step: float = range_end / usual
+    centres: NDArray[np.float64] = (np.arange(samples, dtype=np.float64) + 0.5) * step
     speed = column["sound_speed"]
     speed = speed[np.isfinite(speed) & (speed > 0.0)]
     return SonarRecord(
-        time - start, np.square(pings.amplitude), (np.arange(samples) + 0.5) * step,
+        time - start, np.square(pings.amplitude), centres,
         tuple(pings.beam_names), navigation, None, None,
         _EPOCH + np.timedelta64(round(1000 * start), "ms"), tuple(_warnings(file, reach, lengths)),
         sound_speed=float(np.median(speed)) if len(speed) else 1500.0,
