@@ -142,7 +142,7 @@ bool BentPaths::near_chord(std::size_t row, std::size_t first, std::size_t end) 
   return true;
 }
 
-/// From the launch on, of what is left the longest of the whole, its half, its quarter … that
+/// From the launch on, of the rest the longest of the whole, its half, its quarter … that
 /// stays near both rows, between which rays lie.
 void BentPaths::fill_chords() {
   ends_.resize(rows_ - 1);
