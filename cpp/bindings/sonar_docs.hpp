@@ -181,7 +181,9 @@ inline const std::vector<std::pair<std::string, std::string>>& fields() {
       {"spreading", "Whether power falls with R⁻⁴."},
       {"absorption", "None, \"francois_garrison\" or \"ainslie_mccolm\"."},
       {"backscatter", "\"lambert\", or \"material\": its table or sediment where it has one."},
-      {"beam_pattern", "None, \"uniform\" (sinc² with side lobes) or \"gaussian\"."},
+      {"beam_pattern",
+       "None; of a line array by its shading, \"uniform\" (sinc², first side lobe −13.3 dB), "
+       "\"hann\" (−31.5 dB) or \"taylor\" (−30 dB); or \"gaussian\"."},
       {"pixel_solid_angle",
        "Whether pixels count by their solid angle, cos³ of the angle off axis."},
       {"refraction", "Whether sound runs along arcs, by the profile of the water."},

@@ -168,6 +168,8 @@ std::vector<SonarField> make_fields() {
       choice<BeamPattern>("beam_pattern", &O::beam_pattern,
                           {{"none", BeamPattern::kNone},
                            {"uniform", BeamPattern::kUniform},
+                           {"hann", BeamPattern::kHann},
+                           {"taylor", BeamPattern::kTaylor},
                            {"gaussian", BeamPattern::kGaussian}},
                           true),
       flag("pixel_solid_angle", &O::pixel_solid_angle),

@@ -6930,7 +6930,7 @@ class Sonar:
     @property
     def beam_pattern(self) -> str | None:
         """
-        None, "uniform" (sinc² with side lobes) or "gaussian".
+        None; of a line array by its shading, "uniform" (sinc², first side lobe −13.3 dB), "hann" (−31.5 dB) or "taylor" (−30 dB); or "gaussian".
         """
     @property
     def beam_width(self) -> float:

@@ -46,13 +46,13 @@ struct Echo {
 /// area and R⁻² by themselves. Without spreading R⁻⁴ is left out: w = σ₀ b² e^(−4αR) dA.
 ///
 /// The power of a ray belongs to the ranges that its cell covers on the plane of what it met, R ±
-/// ½ R |n·∂u/∂ψ| / |n·u| Δψ, and is spread over their samples; what lies beyond the last sample is
-/// not heard. Ranges count by time: R = ½ c₀ t, with c₀ the sound speed at the sonar. Where sound
-/// is bent, R² in w is the area that a tube of rays has spread to over its solid angle (within 0.1
-/// to 10 of the straight one's, near caustics); after reflections R is the whole way, and w has
-/// |Γ|⁴ of each, there and back. What lies above a sea surface is not seen. With RayModel::kCamera
-/// (Bobkov and others 2014) every pixel counts the same, I = K_d cos θ, and all of it falls into
-/// one sample, E_s = Σ I; spreading divides by R².
+/// ½ R |n·∂u/∂ψ| / |n·u| Δψ or as much by φ, and is spread over their samples; what lies beyond the
+/// last sample is not heard. Ranges count by time: R = ½ c₀ t, with c₀ the sound speed at the
+/// sonar. Where sound is bent, R² in w is the area that a tube of rays has spread to over its solid
+/// angle (within 0.1 to 10 of the straight one's, near caustics); after reflections R is the whole
+/// way, and w has |Γ|⁴ of each, there and back. What lies above a sea surface is not seen. With
+/// RayModel::kCamera (Bobkov and others 2014) every pixel counts the same, I = K_d cos θ, and all
+/// of it falls into one sample, E_s = Σ I; spreading divides by R².
 class Sonar {
  public:
   /// \throw std::invalid_argument as SonarOptions::check, or for more than 3·10⁸ rays a ping.

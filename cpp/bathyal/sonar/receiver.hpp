@@ -41,7 +41,7 @@ struct ReceiverOptions {
   double dropout_rate = 0.0;          ///< part of the pings that bring nothing, 0 to 1
   double beam_dropout_rate = 0.0;     ///< part of the rows that do, of the other pings, 0 to 1
   int bits = 0;                       ///< of the samples' amplitude, 0 (not quantised) to 32
-  double full_scale = -40.0;          ///< intensity at which it clips [dB]
+  double full_scale = -10.0;          ///< intensity at which it clips [dB]
 
   void check() const;
 };

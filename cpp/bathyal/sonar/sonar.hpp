@@ -25,6 +25,8 @@ enum class RayModel {
 enum class BeamPattern {
   kNone,     ///< the same in all of beam_width and fan_span, nothing outside
   kUniform,  ///< of a uniform line array: sinc², side lobes at −13.3 dB
+  kHann,     ///< of one under a Hann window, −31.5 dB
+  kTaylor,   ///< under Taylor's window of four nearly even lobes, −30 dB
   kGaussian,
 };
 

@@ -44,20 +44,35 @@ def record_of_xtf(data: bytes) -> SonarRecord:
         column["x"] if pings.geographic else None,
     )  # fmt: skip
     samples = pings.amplitude.shape[2]
-    reach = np.asarray(pings.slant_range)
+    reach, lengths = np.asarray(pings.slant_range), _lengths(np.asarray(pings.amplitude))
     range_end = float(np.nanmax(reach)) if np.isfinite(reach).any() else float(samples)
-    step = range_end / max(samples, 1)
+    farthest = lengths[(reach == range_end) & (lengths > 0)]
+    usual = _commonest(farthest) if len(farthest) else max(samples, 1)
+    step: float = range_end / usual
+    centres: NDArray[np.float64] = (np.arange(samples, dtype=np.float64) + 0.5) * step
     speed = column["sound_speed"]
     speed = speed[np.isfinite(speed) & (speed > 0.0)]
     return SonarRecord(
-        time - start, np.square(pings.amplitude), (np.arange(samples) + 0.5) * step,
+        time - start, np.square(pings.amplitude), centres,
         tuple(pings.beam_names), navigation, None, None,
-        _EPOCH + np.timedelta64(round(1000 * start), "ms"), tuple(_warnings(file, reach)),
+        _EPOCH + np.timedelta64(round(1000 * start), "ms"), tuple(_warnings(file, reach, lengths)),
         sound_speed=float(np.median(speed)) if len(speed) else 1500.0,
     )  # fmt: skip
 
 
-def _warnings(file: XtfFile, reach: NDArray[np.float64]) -> list[str]:
+def _lengths(amplitude: NDArray[np.float32]) -> NDArray[np.int64]:
+    """(pings, beams) samples of each row: what it lacks is NaN at its end."""
+    there = ~np.isnan(amplitude[..., ::-1])
+    last = np.argmax(there, axis=2) if amplitude.shape[2] else 0
+    return np.where(there.any(axis=2), amplitude.shape[2] - last, 0)
+
+
+def _commonest(lengths: NDArray[np.int64]) -> int:
+    values, counts = np.unique(lengths, return_counts=True)
+    return int(values[np.argmax(counts)])
+
+
+def _warnings(file: XtfFile, reach: NDArray[np.float64], lengths: NDArray[np.int64]) -> list[str]:
     found = []
     if file.damaged or file.lost_bytes:
         found.append(f"{file.damaged} damaged packets, {file.lost_bytes} bytes left out")
@@ -67,6 +82,15 @@ def _warnings(file: XtfFile, reach: NDArray[np.float64]) -> list[str]:
     known = reach[np.isfinite(reach)]
     if len(known) and np.ptp(known) > 1e-3 * known.max():
         found.append(f"slant range varies from {known.min():g} to {known.max():g} m")
+    if lengths.size:
+        usual = _commonest(lengths)
+        other = np.argwhere(lengths != usual)
+        if len(other):
+            ping, beam = other[0]
+            found.append(
+                f"{len(other)} of {lengths.size} rows have other than {usual} samples, "
+                f"the first in ping {ping} with {lengths[ping, beam]}"
+            )
     return found
 
 

@@ -361,7 +361,7 @@ TEST(Physics, TransmissionAndReceptionMakeTheBeam) {
   const WorldSnapshot world = world_of({flat(0.0)}, {1.0});
   const VehicleMotion creeping{Vec3(1e-9, 0, 0), Vec3(0, 0, 1e-12)};
   for (const BeamPattern pattern :
-       {BeamPattern::kNone, BeamPattern::kUniform, BeamPattern::kGaussian}) {
+       {BeamPattern::kNone, BeamPattern::kUniform, BeamPattern::kHann, BeamPattern::kGaussian}) {
     for (SonarOptions options : {side_scan_sonar(), multibeam_sonar(), echo_sounder_sonar(),
                                  imaging_sonar(), scanning_sonar()}) {
       options.beam_pattern = pattern;

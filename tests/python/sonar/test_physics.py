@@ -120,3 +120,34 @@ def test_refuses_nonsense(field, value):
 def test_refuses_a_motion_that_is_none(world, pose, name, value):
     with pytest.raises((ValueError, TypeError), match=name):
         bathyal.sonars.side_scan().ping(world, pose, **{name: value})
+
+
+@pytest.mark.parametrize("name", bathyal.sonars.__all__)
+def test_steel_close_by_does_not_clip(world, name):
+    corners = np.array([[-9, -9, -20], [9, -9, -20], [9, 9, -20], [-9, 9, -20.0]])
+    steel = bathyal.World()
+    steel.water = world.water
+    steel.add(bathyal.TriangleMesh(corners * [30, 30, 1], [[0, 1, 2], [0, 2, 3]]), material="sand")
+    steel.add(
+        bathyal.TriangleMesh(corners + np.array([0, 0, 0.5]), [[0, 1, 2], [0, 2, 3]]),
+        material="steel",
+    )
+    above = np.eye(4)
+    above[2, 3] = -14.0
+    sonar = getattr(bathyal.sonars, name)(physics="real")
+    assert sum(sonar.ping(steel, above, seed=seed, truth=False).clipped for seed in range(3)) == 0
+    low = sonar.replace(full_scale=-60.0)
+    assert low.ping(steel, above, truth=False).clipped > 0
+
+
+def test_shading_puts_down_the_ring_of_the_nadir(world, pose):
+    """A flat bottom 18 m below: the outer beams meet it at twice that."""
+    sonar = bathyal.sonars.multibeam().replace(spreading=True, backscatter="material", range=60.0)
+    ranges = sonar.ping(world, pose).range
+    ring = (ranges > 17.9) & (ranges < 19.0)
+    heard = {
+        pattern: sonar.replace(beam_pattern=pattern, side_lobes=True).ping(world, pose).intensity[0]
+        for pattern in ("uniform", "hann", "taylor")
+    }
+    assert heard["uniform"][ring].max() > 1e-3 * heard["uniform"].max()
+    assert heard["hann"][ring].max() < heard["taylor"][ring].max() < heard["uniform"][ring].max()

@@ -32,10 +32,10 @@ def test_the_table_of_differences(script) -> None:
     wide = one.angle > np.radians(10)
     off = [found.level_by_angle - np.nanmedian(found.level_by_angle) for found in (one, two)]
     rms = np.sqrt(np.nanmean((off[0] - off[1])[:, wide] ** 2, axis=1))
-    assert rms == pytest.approx([1.8, 2.4], abs=0.15)
+    assert rms == pytest.approx([1.7, 2.3], abs=0.1)
     water = [found.water_level - np.nanmedian(found.level_by_angle) for found in (one, two)]
     assert water[0] == pytest.approx([-31.5, -29.4], abs=1)
-    assert water[1] == pytest.approx(-75.8, abs=1.5)
+    assert water[1] == pytest.approx(-75.0, abs=1)
     assert one.contrast == pytest.approx([0.40, 0.44], abs=0.01)
     assert two.contrast == pytest.approx(0.525, abs=0.015)
     assert one.correlation_range == pytest.approx([0.22, 0.28], abs=0.01)

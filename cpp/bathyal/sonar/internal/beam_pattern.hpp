@@ -5,6 +5,9 @@
 
 namespace bathyal::sonar {
 
+/// One-way power `off` half-power places off the axis of a line array: 1 at 0, ½ at 1.
+double pattern_shape(BeamPattern kind, double off);
+
 /// One-way power at `angle` from the direction that is steered to, in the plane of a line array
 /// whose pattern is half at ±½ `width`. The array's own coordinate is the sine: steered to
 /// `steered`, its lobes are those at sin(angle + steered) − sin(steered).

@@ -46,11 +46,13 @@ BentPaths::BentPaths(const SpeedProfile& profile, double depth, double range, do
   const double high = std::min(std::max(steepest_down, low_ + 4.0 * kStep), kVertical);
   rows_ = static_cast<std::size_t>(std::ceil((high - low_) / kStep)) + 1;
   apart_ = (high - low_) / static_cast<double>(rows_ - 1);
-  while (chords_ < kMostChords && !close_enough(depth, chords_)) chords_ *= 2;
-  steps_ = static_cast<std::size_t>(std::max(kLeastSteps, 4 * chords_));
+  int chords = 1;
+  while (chords < kMostChords && !close_enough(depth, chords)) chords *= 2;
+  steps_ = static_cast<std::size_t>(std::max(kLeastSteps, 4 * chords));
   points_.resize(rows_ * (steps_ + 1));
   fill(depth, num_threads);
   fill_tubes();
+  fill_chords();
 }
 
 double BentPaths::angle_of(std::size_t row) const {
@@ -118,6 +120,42 @@ void BentPaths::fill_tubes() {
     }
     tube(0, step) = tube(1, step);
     tube(rows_ - 1, step) = tube(rows_ - 2, step);
+  }
+}
+
+/// Whether a row's places between two steps lie near the chord, by some of them.
+bool BentPaths::near_chord(std::size_t row, std::size_t first, std::size_t end) const {
+  const double angle = angle_of(row);
+  const auto place_of = [&](std::size_t step) {
+    const double range = step_range() * static_cast<double>(step);
+    SoundState state;
+    state.distance = at(row, step).out + range * std::cos(angle);
+    state.depth = at(row, step).down + range * std::sin(angle);
+    return state;
+  };
+  const SoundState from = place_of(first), to = place_of(end);
+  constexpr std::size_t kPlaces = 16;
+  const std::size_t apart = std::max<std::size_t>(1, (end - first) / kPlaces);
+  for (std::size_t step = first + apart; step < end; step += apart) {
+    if (off_chord(from, to, place_of(step)) > kFarthest) return false;
+  }
+  return true;
+}
+
+/// From the launch on, of the rest the longest of the whole, its half, its quarter … that
+/// stays near both rows, between which rays lie.
+void BentPaths::fill_chords() {
+  ends_.resize(rows_ - 1);
+  for (std::size_t row = 0; row + 1 < rows_; ++row) {
+    for (std::size_t first = 0; first < steps_;) {
+      std::size_t count = steps_ - first;
+      while (count > 1 && !(near_chord(row, first, first + count) &&
+                            near_chord(row + 1, first, first + count))) {
+        count = (count + 1) / 2;
+      }
+      first += count;
+      ends_[row].push_back(static_cast<int>(first));
+    }
   }
 }
 

@@ -12,7 +12,7 @@ namespace bathyal::sonar {
 
 /// The paths of sound that leave a depth: an exact path every 0.35° of launch, at steps of equal
 /// time; what differs from the straight line is linear between. Rays are cast along chords of
-/// several steps, none of which lies farther than 2 cm from its arc.
+/// as many steps as stay within 2 cm of the arc.
 class BentPaths {
  public:
   /// \param depth of the sonar [m]
@@ -30,8 +30,9 @@ class BentPaths {
   };
   Launch launch(const Vec3& direction) const;
 
-  int chords() const { return chords_; }
-  int steps_of_chord() const { return static_cast<int>(steps_) / chords_; }
+  /// Steps at which the chords of a ray end: few where it runs straight, many where it bends.
+  const std::vector<int>& chord_ends(const Launch& launch) const { return ends_[launch.row]; }
+
   double step_range() const { return range_ / static_cast<double>(steps_); }  ///< of its time
 
   /// Where the end of a number of steps lies, from the launch.
@@ -60,6 +61,8 @@ class BentPaths {
   SoundPath path_of(double depth, std::size_t row) const;
   void fill(double depth, int num_threads);
   void fill_tubes();
+  void fill_chords();
+  bool near_chord(std::size_t row, std::size_t first, std::size_t end) const;
   bool close_enough(double depth, int chords) const;
   const Point& at(std::size_t row, std::size_t step) const {
     return points_[row * (steps_ + 1) + step];
@@ -69,9 +72,9 @@ class BentPaths {
   double range_, speed_;
   double low_ = 0.0, apart_ = 1.0;  ///< launch angle of row 0, and from row to row [rad]
   std::size_t rows_ = 0;
-  int chords_ = 1;
   std::size_t steps_ = 0;
   std::vector<Point> points_;
+  std::vector<std::vector<int>> ends_;  ///< between each row and the next
 };
 
 }  // namespace bathyal::sonar

@@ -16,6 +16,9 @@ double snapped(double place) {
   return std::abs(place - border) < kRounding ? border : place;
 }
 
+/// The whole number below one that is not negative.
+double whole(double place) { return static_cast<double>(static_cast<std::int64_t>(place)); }
+
 }  // namespace
 
 void EchoRow::reset(std::size_t samples, double sample_length) {
@@ -38,13 +41,21 @@ void EchoRow::put(std::size_t sample, double weight, const Return& back) {
 void EchoRow::add(const Return& back) {
   const auto count = static_cast<double>(power_.size());
   const double middle = back.range / sample_length_;
+  if (!(back.half > 0.0)) {  // a point
+    const double place = snapped(middle);
+    if (!(place >= 0.0 && place < count)) return;
+    const auto sample = static_cast<std::size_t>(place);
+    touch(sample, sample);
+    put(sample, back.weight, back);
+    return;
+  }
   const double half = back.half / sample_length_;
   const double low =
       snapped(std::max(middle - half, std::min(middle, back.least / sample_length_)));
   const double high = snapped(middle + half);
   if (!(low < count) || high < 0.0) return;
-  const double first = std::floor(std::max(low, 0.0));
-  const double last = std::min(std::floor(high), count - 1.0);
+  const double first = whole(std::max(low, 0.0));
+  const double last = std::min(whole(std::min(high, count)), count - 1.0);
   touch(static_cast<std::size_t>(first), static_cast<std::size_t>(last));
   if (first >= last && low >= first && high < first + 1.0) {
     put(static_cast<std::size_t>(first), back.weight, back);

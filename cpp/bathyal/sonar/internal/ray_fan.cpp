@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "bathyal/sonar/internal/beam_pattern.hpp"
+#include "bathyal/sonar/internal/pattern_mean.hpp"
 
 namespace bathyal::sonar {
 namespace {
@@ -20,43 +21,62 @@ bool beam_counts_twice(SonarKind kind) {
 
 double twice(double power, bool counts_twice) { return counts_twice ? power * power : power; }
 
-/// Two-way power of the beam at φ, ψ.
-double two_way(const SonarOptions& options, const Beam& beam, double phi, double psi) {
-  if (options.kind == SonarKind::kEchoSounder) {  // round: by the angle off its axis
-    const double off = std::acos(std::clamp(beam.direction(phi, psi).dot(beam.axis), -1.0, 1.0));
-    if (options.beam_pattern == BeamPattern::kNone) return off <= 0.5 * options.beam_width;
-    return twice(pattern(options.beam_pattern, off, options.beam_width), true);
+/// Mean power over what a ray covers in φ, one way or, `squared`, two ways.
+double across(const SonarOptions& options, const Beam& beam, double phi, double half_phi,
+              bool squared) {
+  const double width = std::sin(0.5 * options.beam_width);
+  const double off = std::sin(phi) * std::cos(half_phi) - std::sin(beam.steered);
+  return pattern_mean(options.beam_pattern, squared)(off / width,
+                                                     std::cos(phi) * std::sin(half_phi) / width);
+}
+
+/// One-way power over ψ.
+double along(const SonarOptions& options, double psi) {
+  return pattern(options.beam_pattern, psi - (options.tilt - options.axis_tilt), options.fan_width);
+}
+
+/// Of a round beam, by the angle off its axis, one way.
+double round_power(const SonarOptions& options, const Beam& beam, double phi, double psi) {
+  const double off = std::acos(std::clamp(beam.direction(phi, psi).dot(beam.axis), -1.0, 1.0));
+  if (options.beam_pattern == BeamPattern::kNone) return off <= 0.5 * options.beam_width;
+  return pattern(options.beam_pattern, off, options.beam_width);
+}
+
+/// Two-way power of the beam at φ, ψ, over half of a ray's cell to either side of φ.
+double two_way(const SonarOptions& options, const Beam& beam, double phi, double psi,
+               double half_phi) {
+  if (options.kind == SonarKind::kEchoSounder) {
+    return twice(round_power(options, beam, phi, psi), true);
   }
-  const double across =
-      pattern(options.beam_pattern, phi - beam.steered, options.beam_width, beam.steered);
-  const double off_axis = psi - (options.tilt - options.axis_tilt);
-  const double along = pattern(options.beam_pattern, off_axis, options.fan_width);
-  return twice(across, beam_counts_twice(options.kind)) *
-         twice(along, options.kind != SonarKind::kMultibeam);
+  return across(options, beam, phi, half_phi, beam_counts_twice(options.kind)) *
+         twice(along(options, psi), options.kind != SonarKind::kMultibeam);
 }
 
 /// One-way power of what is transmitted at φ, ψ; of an imaging sonar and a multibeam over all φ.
-double transmitted(const SonarOptions& options, const Beam& beam, double phi, double psi) {
+/// By that which the beam receives, the mean over a cell, it makes the mean of both.
+double transmitted(const SonarOptions& options, const Beam& beam, double phi, double psi,
+                   double half_phi) {
   if (options.beam_pattern == BeamPattern::kNone) return 1.0;
-  if (options.kind == SonarKind::kEchoSounder) return std::sqrt(two_way(options, beam, phi, psi));
-  const double off_axis = psi - (options.tilt - options.axis_tilt);
-  const double along = pattern(options.beam_pattern, off_axis, options.fan_width);
-  if (!beam_counts_twice(options.kind)) return along;
-  return along *
-         pattern(options.beam_pattern, phi - beam.steered, options.beam_width, beam.steered);
+  if (options.kind == SonarKind::kEchoSounder) return round_power(options, beam, phi, psi);
+  if (!beam_counts_twice(options.kind)) return along(options, psi);
+  const double received = across(options, beam, phi, half_phi, false);
+  if (!(received > 0.0)) return 0.0;
+  return along(options, psi) * across(options, beam, phi, half_phi, true) / received;
 }
 
 /// A ray with what it counts, `solid` apart from the beam's pattern; none where the pattern has no
 /// power.
 void add_ray(const SonarOptions& options, double phi, double psi, const Vec3& direction,
              double solid, BeamRays& rays) {
-  const double weight = solid * two_way(options, rays.beam, phi, psi);
+  const double weight = solid * two_way(options, rays.beam, phi, psi, rays.half_phi);
   if (weight <= 0.0) return;
   rays.least = rays.weight.empty() ? direction : Vec3(rays.least.cwiseMin(direction));
   rays.most = rays.weight.empty() ? direction : Vec3(rays.most.cwiseMax(direction));
   rays.direction.insert(rays.direction.end(), direction.data(), direction.data() + 3);
   rays.weight.push_back(weight);
-  if (options.motion) rays.transmitted.push_back(solid * transmitted(options, rays.beam, phi, psi));
+  if (options.motion) {
+    rays.transmitted.push_back(solid * transmitted(options, rays.beam, phi, psi, rays.half_phi));
+  }
 }
 
 /// The span of ψ that rays cover: of a round beam, that of φ.

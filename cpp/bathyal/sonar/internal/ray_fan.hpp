@@ -15,7 +15,7 @@ struct BeamRays {
   double half_psi = 0.0;  ///< half of what a ray covers in ψ [rad]; 0 of pixels, which are points
   double half_phi = 0.0;  ///< and in φ
   std::vector<double> direction;     ///< (N, 3), unit
-  std::vector<double> weight;        ///< (N,) b² ΔΩ, or what a pixel counts
+  std::vector<double> weight;        ///< (N,) ∫ b² dΩ, or what a pixel counts
   std::vector<double> transmitted;   ///< the same by what the beam transmits alone; where it moves
   std::vector<std::size_t> columns;  ///< first ray of each, then N
   Vec3 least = Vec3::Zero(), most = Vec3::Zero();  ///< of the directions, axis by axis

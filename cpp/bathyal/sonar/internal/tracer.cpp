@@ -41,7 +41,7 @@ EchoPart Tracer::trace(const BeamRays& fan, const Task& task) const {
   EchoRow& row = batch.row;
   row.reset(static_cast<std::size_t>(options_.samples), options_.sample_length());
   batch.facet = Facet();
-  if (moves_) batch.reception.emplace(options_, fan.beam);
+  if (moves_) batch.reception.emplace(options_, fan.beam, fan.half_phi);
   for (std::size_t column = task.first_column; column < task.last_column; ++column) {
     double farthest = 0.0;  // of what lies lower in the column
     for (std::size_t first = fan.columns[column]; first < fan.columns[column + 1];

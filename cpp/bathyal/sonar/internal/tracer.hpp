@@ -75,8 +75,8 @@ class Tracer {
   void launch(const BeamRays& fan, Batch& batch) const;
   void arrive_straight(Batch& batch) const;
   void arrive_bent(Batch& batch) const;
-  void arrive_on_chord(Batch& batch, const Traveller& traveller, int chord, const Vec3& on_chord,
-                       const RayHit& hit) const;
+  void arrive_on_chord(Batch& batch, const Traveller& traveller, std::size_t chord,
+                       const Vec3& on_chord, const RayHit& hit) const;
   void follow_reflections(const BeamRays& fan, Batch& batch) const;
   bool reflect(Arrival& arrival, double& power) const;
 

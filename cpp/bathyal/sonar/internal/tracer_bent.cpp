@@ -19,11 +19,10 @@ void Tracer::arrive_bent(Batch& batch) const {
     batch.launches[i] = bent.launch(batch.direction(i));
     going.push_back({i, origin, 1.0});
   }
-  const int last = bent.chords() - 1;
-  for (int chord = 0; chord <= last && !going.empty(); ++chord) {
-    const int end = (chord + 1) * bent.steps_of_chord();
+  for (std::size_t chord = 0; !going.empty(); ++chord) {
     for (std::size_t i = 0; i < going.size(); ++i) {
-      const Vec3 to = origin + bent.place(batch.launches[going[i].ray], end);
+      const BentPaths::Launch& launch = batch.launches[going[i].ray];
+      const Vec3 to = origin + bent.place(launch, bent.chord_ends(launch)[chord]);
       Eigen::Map<Vec3>(batch.origins.data() + 3 * i) = going[i].from;
       Eigen::Map<Vec3>(batch.chords.data() + 3 * i) = to - going[i].from;
     }
@@ -36,10 +35,12 @@ void Tracer::arrive_bent(Batch& batch) const {
       const Vec3 way = Eigen::Map<const Vec3>(batch.chords.data() + 3 * i);
       const double length = way.norm();
       RayHit& hit = batch.hits[i];
+      const bool last = chord + 1 == bent.chord_ends(batch.launches[going[i].ray]).size();
       const bool over = meets_surface(going[i].from, way / length, hit);
-      if (hit.range <= length || (chord == last && hit.mesh != -1)) {
+      if (hit.range <= length || (last && hit.mesh != -1)) {
         arrive_on_chord(batch, going[i], chord, hit.range / length * way, hit);
-      } else if (!(over && hit.mesh == -1 && going[i].from.z() + way.z() > *setting_.surface)) {
+      } else if (!last &&
+                 !(over && hit.mesh == -1 && going[i].from.z() + way.z() > *setting_.surface)) {
         going[left] = going[i];
         going[left++].from += way;
       }
@@ -50,7 +51,7 @@ void Tracer::arrive_bent(Batch& batch) const {
 
 /// A hit at `on_chord` from the chord's start: of the steps of the arc, the one that is near it
 /// meets its plane.
-void Tracer::arrive_on_chord(Batch& batch, const Traveller& traveller, int chord,
+void Tracer::arrive_on_chord(Batch& batch, const Traveller& traveller, std::size_t chord,
                              const Vec3& on_chord, const RayHit& hit) const {
   const BentPaths& bent = *setting_.bent;
   const BentPaths::Launch& launch = batch.launches[traveller.ray];
@@ -59,13 +60,22 @@ void Tracer::arrive_on_chord(Batch& batch, const Traveller& traveller, int chord
   arrival.normal = normal(hit, batch.facet);
 
   const Vec3 met = traveller.from + on_chord - setting_.world_from_head.translation();
-  const int first = chord * bent.steps_of_chord();
-  const int end = first + bent.steps_of_chord();
+  const std::vector<int>& ends = bent.chord_ends(launch);
+  const int first = chord == 0 ? 0 : ends[chord - 1];
+  const int end = ends[chord];
   const double guess = first + std::floor(on_chord.norm() / bent.step_range());
-  const int step = std::clamp(static_cast<int>(guess), first, end - 1);
-  const Vec3 from = bent.place(launch, step);
-  const Vec3 way = bent.place(launch, step + 1) - from;
-  double part = way.dot(met - from) / way.squaredNorm();
+  int step = std::clamp(static_cast<int>(guess), first, end - 1);
+  Vec3 from, way;
+  double part = 0.0;
+  const auto look = [&](int at) {
+    step = at;
+    from = bent.place(launch, step);
+    way = bent.place(launch, step + 1) - from;
+    part = way.dot(met - from) / way.squaredNorm();
+  };
+  look(step);
+  while (part > 1.0 && step + 1 < end) look(step + 1);  // where sound is faster, steps are longer
+  while (part < 0.0 && step > first) look(step - 1);
   const double facing = arrival.normal.dot(way) / way.norm();
   if (std::abs(facing) > 10.0 * kLeastCosine) {
     const double moved = arrival.normal.dot(met - from) / arrival.normal.dot(way) - part;
