@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <numbers>
+#include <string_view>
 
 namespace bathyal {
 
@@ -45,5 +46,17 @@ class RandomStream {
 
   std::uint64_t state_;
 };
+
+/// A stream of its own for a device, a channel and a sample: what else there is changes nothing.
+inline RandomStream keyed_stream(std::uint64_t seed, std::string_view device, std::uint64_t channel,
+                                 std::uint64_t sample) {
+  std::uint64_t hash = 0xcbf29ce484222325U;  // FNV-1a
+  for (const char c : device) {
+    hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3U;
+  }
+  RandomStream of_device(seed, hash);
+  RandomStream of_channel(of_device.next(), channel);
+  return RandomStream(of_channel.next(), sample);
+}
 
 }  // namespace bathyal

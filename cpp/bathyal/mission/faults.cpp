@@ -46,17 +46,6 @@ FaultKind fault_kind(std::string_view name) {
   throw_argument("fault", all.insert(0, "one of "), got);
 }
 
-RandomStream keyed_stream(std::uint64_t seed, std::string_view device, std::uint64_t channel,
-                          std::uint64_t sample) {
-  std::uint64_t hash = 0xcbf29ce484222325U;  // FNV-1a
-  for (const char c : device) {
-    hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3U;
-  }
-  RandomStream of_device(seed, hash);
-  RandomStream of_channel(of_device.next(), channel);
-  return RandomStream(of_channel.next(), sample);
-}
-
 void update_faults(const std::vector<MissionFault>& faults, std::vector<FaultState>& states,
                    double time, double tick, std::int64_t number, std::span<const double> signals,
                    std::uint64_t seed, std::vector<int>& changed) {

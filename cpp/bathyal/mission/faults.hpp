@@ -17,10 +17,6 @@ struct FaultState {
   bool over = false;   ///< one that comes once has come
 };
 
-/// A stream of its own for a device, a channel and a sample: what else there is changes nothing.
-RandomStream keyed_stream(std::uint64_t seed, std::string_view device, std::uint64_t channel,
-                          std::uint64_t sample);
-
 /// Begins and ends faults. \param changed rows that did either
 void update_faults(const std::vector<MissionFault>& faults, std::vector<FaultState>& states,
                    double time, double tick, std::int64_t number, std::span<const double> signals,
