@@ -31,6 +31,7 @@ void bind_navigation_filter(pybind11::module_& module);
 void bind_workspace(pybind11::module_& module);
 void bind_behavior_tree(pybind11::module_& module);
 void bind_mission(pybind11::module_& module);
+void bind_protocol(pybind11::module_& module);
 void bind_vehicle(pybind11::module_& module);
 void bind_devices(pybind11::module_& module);  // of the room vehicle, as the next one
 void bind_vehicle_system(pybind11::module_& module);

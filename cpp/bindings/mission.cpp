@@ -219,8 +219,16 @@ py::dict messages_of(const py::bytes& bytes) {
   return py::dict(py::arg("topics") = found, py::arg("reason") = reason);
 }
 
+std::vector<std::pair<std::string, py::bytes>> mcap_messages(const py::bytes& content) {
+  std::vector<std::pair<std::string, py::bytes>> all;
+  read_mcap(std::string_view(content), [&all](const McapMessage& message) {
+    all.emplace_back(message.topic, py::bytes(message.data.data(), message.data.size()));
+  });
+  return all;
+}
+
 LiveInputs inputs_of(bool stop, const OptionalArray& wrench, const OptionalArray& thrusters,
-                     const MissionPlan& plan) {
+                     const OptionalArray& fins, const MissionPlan& plan) {
   LiveInputs inputs;
   inputs.stop = stop;
   const auto numbers = [](const char* name, const py::object& given, std::size_t count) {
@@ -238,7 +246,26 @@ LiveInputs inputs_of(bool stop, const OptionalArray& wrench, const OptionalArray
   };
   inputs.wrench = numbers("wrench", wrench, 6);
   inputs.thrusters = numbers("thrusters", thrusters, plan.vehicle.thrusters.size());
+  for (const double command : inputs.thrusters) {
+    if (!(std::abs(command) <= 1.0)) {
+      throw_argument("thrusters", "commands of -1 to 1", to_text(command));
+    }
+  }
+  inputs.fins = numbers("fins", fins, plan.vehicle.fins.size());
   return inputs;
+}
+
+using Arrived =
+    std::tuple<std::string, std::string, double, double, std::int64_t, bool, std::vector<double>>;
+
+std::vector<Arrived> arrived_of(const LoggedRun& run) {
+  std::vector<Arrived> all;
+  for (const ArrivedReading& found : run.run().arrived()) {
+    const SensorReading& r = found.reading;
+    all.emplace_back(found.device, sensor_kind_name(r.kind), r.time, r.arrival, r.index, r.valid,
+                     std::vector<double>(r.values.begin(), r.values.begin() + r.count));
+  }
+  return all;
 }
 
 }  // namespace
@@ -266,6 +293,24 @@ void bind_mission(py::module_& module) {
           "name", [](const MissionPlan& p) { return p.name; }, "As given.")
       .def_property_readonly("tick", &MissionPlan::tick, "[s]")
       .def_property_readonly(
+          "thrusters",
+          [](const MissionPlan& p) {
+            std::vector<std::string> names;
+            for (const ThrusterOptions& t : p.vehicle.thrusters) names.push_back(t.name);
+            return names;
+          },
+          "Their names, in the order of commands.")
+      .def_property_readonly(
+          "fins",
+          [](const MissionPlan& p) {
+            std::vector<std::string> names;
+            for (const FinOptions& f : p.vehicle.fins) names.push_back(f.name);
+            return names;
+          },
+          "Their names, in the order of angles.")
+      .def_property_readonly(
+          "sensors", [](const MissionPlan& p) { return p.sensors; }, "In their order.")
+      .def_property_readonly(
           "signals", [](const MissionPlan& p) { return mission_signals(p.vehicle, p.sensors); },
           "Names that conditions may use.");
 
@@ -285,15 +330,25 @@ void bind_mission(py::module_& module) {
       .def(
           "step",
           [](LoggedRun& r, int count, bool stop, const OptionalArray& wrench,
-             const OptionalArray& thrusters) {
-            const LiveInputs inputs = inputs_of(stop, wrench, thrusters, r.run().plan());
+             const OptionalArray& thrusters, const OptionalArray& fins) {
+            const LiveInputs inputs = inputs_of(stop, wrench, thrusters, fins, r.run().plan());
             const py::gil_scoped_release unlocked;
             bool on = true;
             for (int i = 0; on && i < count; ++i) on = r.run().step(inputs);
             return on;
           },
           py::arg("count") = 1, py::kw_only(), py::arg("stop") = false,
-          py::arg("wrench") = py::none(), py::arg("thrusters") = py::none(), mission_docs::kStep)
+          py::arg("wrench") = py::none(), py::arg("thrusters") = py::none(),
+          py::arg("fins") = py::none(), mission_docs::kStep)
+      .def_property_readonly("arrived", &arrived_of, mission_docs::kArrived)
+      .def_property_readonly(
+          "number", [](const LoggedRun& r) { return r.run().state().number; }, "Of the next tick.")
+      .def_property_readonly(
+          "velocity",
+          [](const LoggedRun& r) {
+            return to_numpy(Eigen::VectorXd(r.run().state().vehicle.motion.velocity));
+          },
+          "(6,) of the vehicle over ground and of turn, in its frame, the true one [m/s, rad/s].")
       .def_property_readonly(
           "time", [](const LoggedRun& r) { return r.run().time(); }, "[s]")
       .def_property_readonly(
@@ -333,6 +388,7 @@ void bind_mission(py::module_& module) {
           "save", [](LoggedRun& r) { return py::bytes(r.save()); },
           "The state, from which another goes on with the same bytes, log included.")
       .def("close", &LoggedRun::close, "Ends the log.");
+  module.def("mcap_messages", &mcap_messages, py::arg("content"), mission_docs::kMcapMessages);
   module.def("read_mcap", &messages_of, py::arg("bytes"), mission_docs::kReadMcap);
 }
 

@@ -28,6 +28,31 @@ bathyal.Error
     For a log that cannot be written, or a state of another plan or seed.
 )";
 
+inline constexpr const char* kMcapMessages = R"(All messages of an MCAP file, in their order.
+
+Parameters
+----------
+content : bytes
+    Of the file; of one that breaks off, the whole messages.
+
+Returns
+-------
+list of tuples
+    Topic and data.
+
+Raises
+------
+Error
+    For bytes that are no MCAP, or compressed ones.)";
+
+inline constexpr const char* kArrived = R"(What the next tick takes in, in its order.
+
+Returns
+-------
+list of tuples
+    Device, kind, time at which it was so and at which it arrived [s], index, whether it is valid,
+    values: see `Sensor`.)";
+
 inline constexpr const char* kStep = R"(Some ticks.
 
 Parameters
@@ -39,6 +64,8 @@ wrench : (6,) array, optional
     On the vehicle about its origin, in its frame, besides all others [N, N m].
 thrusters : (n,) array, optional
     Commands of −1 to 1 in place of the pilot's.
+fins : (m,) array, optional
+    Angles in place of the pilot's [rad].
 
 Returns
 -------

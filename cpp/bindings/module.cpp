@@ -35,6 +35,7 @@ PYBIND11_MODULE(_core, module) {
   bind_vehicle_system(module);
   bind_behavior_tree(module);
   bind_mission(module);
+  bind_protocol(module);
   bind_sonar(module);
   bind_sidescan(module);
   bind_navigation(module);

@@ -155,6 +155,13 @@ from bathyal.mission.files import Mission, read_mission
 from bathyal.mission.log import RunLog
 from bathyal.mission.run import Run, RunEvent, RunResult, read_run, run
 from bathyal.navigation.logs import NavigationLog, NavigationLogWarning, read_navigation_log
+from bathyal.onboard.moments import Moment, Reading
+from bathyal.onboard.vehicles import (
+    OnboardVehicle,
+    ReplayedVehicle,
+    SerialVehicle,
+    SimulatedVehicle,
+)
 from bathyal.seabed import methods as _seabed_methods  # noqa: F401
 from bathyal.seabed.clouds import read_cloud, write_cloud
 from bathyal.seabed.meshes import read_mesh, write_mesh
@@ -223,6 +230,7 @@ __all__ = [
     "Material",
     "MeshReport",
     "Mission",
+    "Moment",
     "Mosaic",
     "MotionCheck",
     "MotionPlan",
@@ -236,6 +244,7 @@ __all__ = [
     "NavigationUpdate",
     "Nearest",
     "NearestSegments",
+    "OnboardVehicle",
     "Ping",
     "PingTruth",
     "Pipeline",
@@ -248,7 +257,9 @@ __all__ = [
     "Profile",
     "RangeWarning",
     "ReachMap",
+    "Reading",
     "RecordTruth",
+    "ReplayedVehicle",
     "RigidBody",
     "Run",
     "RunEvent",
@@ -262,10 +273,12 @@ __all__ = [
     "Sediment",
     "Sensor",
     "SensorReadings",
+    "SerialVehicle",
     "Shape",
     "SheetPatch",
     "SheetReport",
     "SheetWarning",
+    "SimulatedVehicle",
     "Sonar",
     "SonarRecord",
     "SoundPath",

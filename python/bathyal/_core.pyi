@@ -12,7 +12,7 @@ import numpy.typing
 import os
 import plotly.graph_objects
 import typing
-__all__: list[str] = ['Allocation', 'AllocationResult', 'Arm', 'ArmFit', 'BEYOND_NOISE', 'Battery', 'BatteryLoad', 'BehaviorTree', 'Capsule', 'Cause', 'CleanReport', 'CleanResult', 'Clearances', 'Condition', 'CorrectedArm', 'CruiseControl', 'CruiseState', 'Current', 'DhTable', 'Diagnosis', 'DropWeight', 'Effect', 'EffectRange', 'EffectRows', 'Eigenray', 'Error', 'Estimate', 'Fin', 'FitParameter', 'FollowedPath', 'FoundEffect', 'HeldOut', 'HeldOutPart', 'Hits', 'Hull', 'HullReport', 'InverseResult', 'KeepOut', 'LineOfSight', 'LineOfSightState', 'Link', 'Material', 'MeshReport', 'MissionPlan', 'MissionRun', 'MotionCheck', 'MotionPlan', 'NamedEffect', 'NavigationErrors', 'NavigationFilter', 'NavigationReport', 'NavigationTrack', 'NavigationUpdate', 'Nearest', 'NearestSegments', 'Outlier', 'Ping', 'PingTruth', 'Pipeline', 'Plane', 'PlaneFit', 'PointCloud', 'Polyline', 'PoseHold', 'PoseHoldState', 'Profile', 'ReachMap', 'RigidBody', 'SamplingPhase', 'SamplingPlan', 'Scene', 'SeabedModel', 'Sediment', 'Sensor', 'SensorReadings', 'Shape', 'SheetPatch', 'SheetReport', 'SidescanPings', 'Sonar', 'SoundPath', 'Standpoint', 'StaticTrim', 'Structure', 'Support', 'TargetChecks', 'Targets', 'Tether', 'TextTable', 'Thruster', 'ThrusterFit', 'ThrusterTable', 'Tide', 'TipMove', 'ToolPath', 'TouchForecast', 'TouchPlan', 'Touches', 'TracedSound', 'Tracked', 'Trade', 'Trajectory', 'TriangleMesh', 'Vehicle', 'VehicleMotion', 'VehicleSystem', 'VehicleSystemState', 'Verification', 'Voxels', 'Water', 'Waves', 'Workspace', 'World', 'WorldObject', 'WorldSnapshot', 'XtfFile', 'absorption', 'allan_deviation', 'ambient_noise', 'arm_from_chain', 'arm_from_parts', 'arm_parts', 'best_standpoint', 'chain_from_arm', 'check_bytes', 'clean_cloud', 'cover_polygon', 'dead_reckon', 'depth_from_pressure', 'diagnose', 'eigenrays', 'ellipsoid_added_mass', 'find_effect_with', 'find_sheets', 'find_targets', 'fish_paths', 'fit_plane', 'fit_thruster', 'follow_bottom', 'forecast_touches', 'generate_survey', 'identify_arm', 'intersect_moller_trumbore', 'library_effects', 'make_boulder', 'make_cable', 'make_fish', 'make_mine', 'make_pipeline', 'make_seabed', 'make_wreck', 'make_xtf', 'mesh_report', 'parse_xtf', 'plan_sampling', 'plan_toolpath', 'plan_touches', 'practical_salinity', 'pressure_from_depth', 'read_mcap', 'read_mesh_with', 'read_pcd', 'read_text_table', 'seawater_density', 'set_simd_level', 'sidescan_bottom', 'sidescan_ground', 'sidescan_mosaic', 'simd_level', 'smooth', 'sound_speed', 'sound_speed_teos10_with', 'survey_height', 'trace_sound', 'triangle_material', 'triangulate', 'triangulate_delaunay', 'typical_sensors', 'verify_positions', 'warn_of_range_with', 'warn_of_support_with', 'with_link_radii', 'write_xyz']
+__all__: list[str] = ['Allocation', 'AllocationResult', 'Arm', 'ArmFit', 'BEYOND_NOISE', 'Battery', 'BatteryLoad', 'BehaviorTree', 'Capsule', 'Cause', 'CleanReport', 'CleanResult', 'Clearances', 'Condition', 'CorrectedArm', 'CruiseControl', 'CruiseState', 'Current', 'DhTable', 'Diagnosis', 'DropWeight', 'Effect', 'EffectRange', 'EffectRows', 'Eigenray', 'Error', 'Estimate', 'Fin', 'FitParameter', 'FollowedPath', 'FoundEffect', 'HeldOut', 'HeldOutPart', 'Hits', 'Hull', 'HullReport', 'InverseResult', 'KeepOut', 'LineOfSight', 'LineOfSightState', 'Link', 'Material', 'MeshReport', 'MissionPlan', 'MissionRun', 'MotionCheck', 'MotionPlan', 'NamedEffect', 'NavigationErrors', 'NavigationFilter', 'NavigationReport', 'NavigationTrack', 'NavigationUpdate', 'Nearest', 'NearestSegments', 'NmeaReader', 'Outlier', 'Ping', 'PingTruth', 'Pipeline', 'Plane', 'PlaneFit', 'PointCloud', 'Polyline', 'PoseHold', 'PoseHoldState', 'Profile', 'ReachMap', 'RigidBody', 'SamplingPhase', 'SamplingPlan', 'Scene', 'SeabedModel', 'Sediment', 'Sensor', 'SensorReadings', 'SerialLine', 'Shape', 'SheetPatch', 'SheetReport', 'SidescanPings', 'Sonar', 'SoundPath', 'Standpoint', 'StaticTrim', 'Structure', 'Support', 'TargetChecks', 'Targets', 'Tether', 'TextTable', 'Thruster', 'ThrusterFit', 'ThrusterTable', 'Tide', 'TipMove', 'ToolPath', 'TouchForecast', 'TouchPlan', 'Touches', 'TracedSound', 'Tracked', 'Trade', 'Trajectory', 'TriangleMesh', 'Vehicle', 'VehicleMotion', 'VehicleSystem', 'VehicleSystemState', 'Verification', 'Voxels', 'Water', 'Waves', 'Workspace', 'World', 'WorldObject', 'WorldSnapshot', 'XtfFile', 'absorption', 'allan_deviation', 'ambient_noise', 'ardupilot_json', 'arm_from_chain', 'arm_from_parts', 'arm_parts', 'best_standpoint', 'chain_from_arm', 'check_bytes', 'clean_cloud', 'cover_polygon', 'dead_reckon', 'depth_from_pressure', 'diagnose', 'eigenrays', 'ellipsoid_added_mass', 'find_effect_with', 'find_sheets', 'find_targets', 'fish_paths', 'fit_plane', 'fit_thruster', 'follow_bottom', 'forecast_touches', 'generate_survey', 'identify_arm', 'intersect_moller_trumbore', 'library_effects', 'make_boulder', 'make_cable', 'make_fish', 'make_mine', 'make_pipeline', 'make_seabed', 'make_wreck', 'make_xtf', 'mcap_messages', 'mesh_report', 'nmea_dpt', 'nmea_hdt', 'nmea_position', 'nmea_sentence', 'nmea_vbw', 'parse_xtf', 'pd6_text', 'plan_sampling', 'plan_toolpath', 'plan_touches', 'practical_salinity', 'pressure_from_depth', 'read_mcap', 'read_mesh_with', 'read_pcd', 'read_servo_packet', 'read_text_table', 'seawater_density', 'servo_packet', 'set_simd_level', 'sidescan_bottom', 'sidescan_ground', 'sidescan_mosaic', 'simd_level', 'smooth', 'sound_speed', 'sound_speed_teos10_with', 'survey_height', 'trace_sound', 'triangle_material', 'triangulate', 'triangulate_delaunay', 'typical_sensors', 'verify_positions', 'warn_of_range_with', 'warn_of_support_with', 'with_link_radii', 'write_xyz']
 class Error(RuntimeError):
     """
     A broken file, a solver that failed or a part that is not installed.
@@ -6506,14 +6506,29 @@ class MissionPlan:
     def __init__(self, *, name: str, system: VehicleSystem, vehicle: Vehicle | None, weights: collections.abc.Sequence[DropWeight], hotel_power: typing.SupportsFloat | typing.SupportsIndex, world: World, sensors: list[Sensor], navigation: dict[str, str | float | numpy.typing.ArrayLike | list | dict], start: numpy.typing.ArrayLike, commands: list[dict[str, str | float | numpy.typing.ArrayLike | list | dict]], tree: dict[str, str | float | numpy.typing.ArrayLike | list | dict], guards: list[dict[str, str | float | numpy.typing.ArrayLike | list | dict]], faults: list[dict[str, str | float | numpy.typing.ArrayLike | list | dict]], step: typing.SupportsFloat | typing.SupportsIndex = 0.02, steps_per_tick: typing.SupportsInt | typing.SupportsIndex = 5, longest: typing.SupportsFloat | typing.SupportsIndex = 14400.0) -> None:
         ...
     @property
+    def fins(self) -> list[str]:
+        """
+        Their names, in the order of angles.
+        """
+    @property
     def name(self) -> str:
         """
         As given.
         """
     @property
+    def sensors(self) -> list[Sensor]:
+        """
+        In their order.
+        """
+    @property
     def signals(self) -> list[str]:
         """
         Names that conditions may use.
+        """
+    @property
+    def thrusters(self) -> list[str]:
+        """
+        Their names, in the order of commands.
         """
     @property
     def tick(self) -> float:
@@ -6551,7 +6566,7 @@ class MissionRun:
         """
         The state, from which another goes on with the same bytes, log included.
         """
-    def step(self, count: typing.SupportsInt | typing.SupportsIndex = 1, *, stop: bool = False, wrench: numpy.typing.ArrayLike | None = None, thrusters: numpy.typing.ArrayLike | None = None) -> bool:
+    def step(self, count: typing.SupportsInt | typing.SupportsIndex = 1, *, stop: bool = False, wrench: numpy.typing.ArrayLike | None = None, thrusters: numpy.typing.ArrayLike | None = None, fins: numpy.typing.ArrayLike | None = None) -> bool:
         """
         Some ticks.
         
@@ -6564,6 +6579,8 @@ class MissionRun:
             On the vehicle about its origin, in its frame, besides all others [N, N m].
         thrusters : (n,) array, optional
             Commands of −1 to 1 in place of the pilot's.
+        fins : (m,) array, optional
+            Angles in place of the pilot's [rad].
         
         Returns
         -------
@@ -6578,6 +6595,17 @@ class MissionRun:
             Where the motion is no longer finite.
         """
     @property
+    def arrived(self) -> list[tuple[str, str, float, float, int, bool, list[float]]]:
+        """
+        What the next tick takes in, in its order.
+        
+        Returns
+        -------
+        list of tuples
+            Device, kind, time at which it was so and at which it arrived [s], index, whether it is valid,
+            values: see `Sensor`.
+        """
+    @property
     def events(self) -> list[tuple[float, str, str]]:
         """
         Of (time, kind, text), of a run with a log.
@@ -6586,6 +6614,11 @@ class MissionRun:
     def metrics(self) -> dict[str, float]:
         """
         By name.
+        """
+    @property
+    def number(self) -> int:
+        """
+        Of the next tick.
         """
     @property
     def pose(self) -> numpy.ndarray:
@@ -6606,6 +6639,82 @@ class MissionRun:
     def time(self) -> float:
         """
         [s]
+        """
+    @property
+    def velocity(self) -> numpy.ndarray:
+        """
+        (6,) of the vehicle over ground and of turn, in its frame, the true one [m/s, rad/s].
+        """
+class NmeaReader:
+    """
+    Cuts a stream of bytes into sentences of NMEA 0183.
+    
+    What is no sentence is skipped and counted.
+    
+    Examples
+    --------
+    >>> from bathyal._core import NmeaReader, nmea_sentence
+    >>> reader = NmeaReader()
+    >>> reader.feed(nmea_sentence("HEHDT,12.00,T")[:8])
+    []
+    >>> reader.feed(nmea_sentence("HEHDT,12.00,T")[8:])
+    ['HEHDT,12.00,T']
+    >>> reader.counts["wrong_checksum"]
+    0
+    """
+    def __init__(self) -> None:
+        ...
+    def feed(self, given: bytes) -> list[str]:
+        """
+        Bodies of the sentences that these bytes complete.
+        """
+    @property
+    def counts(self) -> dict[str, int]:
+        """
+        bytes, sentences, wrong_checksum, broken.
+        """
+class SerialLine:
+    """
+    A serial line: so many bytes a second, a buffer that overruns, bits that turn.
+    
+    Parameters
+    ----------
+    name : str
+        Keys the bit errors.
+    baud : float
+        Bits a second; a byte takes ten.
+    buffer : int
+        Bytes that wait at most; what finds it full is lost.
+    bit_error_rate : float
+        Part of the bits that arrive turned.
+    seed : int
+    
+    Raises
+    ------
+    ValueError
+        For numbers that no line has.
+    """
+    def __init__(self, name: str = 'line', *, baud: typing.SupportsFloat | typing.SupportsIndex = 4800.0, buffer: typing.SupportsInt | typing.SupportsIndex = 4096, bit_error_rate: typing.SupportsFloat | typing.SupportsIndex = 0.0, seed: typing.SupportsInt | typing.SupportsIndex = 1) -> None:
+        ...
+    def carry(self, given: bytes, duration: typing.SupportsFloat | typing.SupportsIndex) -> bytes:
+        """
+        What arrives, in whole lines.
+        
+        Parameters
+        ----------
+        given : bytes
+            Sent now.
+        duration : float
+            Since the last call [s].
+        
+        Returns
+        -------
+        bytes
+        """
+    @property
+    def counts(self) -> dict[str, int]:
+        """
+        Bytes carried, lost to overrun and waiting; turned_bits.
         """
 class PingTruth:
     """
@@ -9411,6 +9520,29 @@ def ambient_noise(frequency: numpy.typing.ArrayLike, wind_speed: numpy.typing.Ar
     >>> bathyal.ambient_noise([1e3, 100e3, 600e3]).round(1).tolist()
     [61.0, 28.9, 40.6]
     """
+def ardupilot_json(*, time: typing.SupportsFloat | typing.SupportsIndex, gyro: numpy.typing.ArrayLike, force: numpy.typing.ArrayLike, position: numpy.typing.ArrayLike, attitude: numpy.typing.ArrayLike, velocity: numpy.typing.ArrayLike, altitude: typing.SupportsFloat | typing.SupportsIndex | None = None) -> bytes:
+    """
+    The line of JSON that ArduPilot takes from a simulator.
+    
+    Parameters
+    ----------
+    time : float
+        [s]
+    gyro, force, position, attitude, velocity : (3,) array
+        Rates and specific force along ahead, starboard, down; position and velocity along north, east,
+        down; roll, pitch, yaw [rad, m, s].
+    altitude : float, optional
+        [m]
+    
+    Returns
+    -------
+    bytes
+    
+    Raises
+    ------
+    ValueError
+        For numbers that are not finite.
+    """
 def arm_from_chain(chain: dict, *, nearly_parallel: typing.SupportsFloat | typing.SupportsIndex = 0.1) -> Arm:
     """
     The Arm of joint origins, axes and links: what a URDF describes.
@@ -10483,6 +10615,25 @@ def make_xtf(amplitude: numpy.typing.ArrayLike, beam_names: collections.abc.Sequ
     """
     An XTF file of side-scan pings, 16 bits a sample; `columns` as `SidescanPings.column`, `amplitude_step` 0 finds one so that the largest amplitude has the highest step.
     """
+def mcap_messages(content: bytes) -> list[tuple[str, bytes]]:
+    """
+    All messages of an MCAP file, in their order.
+    
+    Parameters
+    ----------
+    content : bytes
+        Of the file; of one that breaks off, the whole messages.
+    
+    Returns
+    -------
+    list of tuples
+        Topic and data.
+    
+    Raises
+    ------
+    Error
+        For bytes that are no MCAP, or compressed ones.
+    """
 def mesh_report(mesh: TriangleMesh, *, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> MeshReport:
     """
     Measure a mesh: area, rims, pieces, defects, slopes, rugosity.
@@ -10510,6 +10661,81 @@ def mesh_report(mesh: TriangleMesh, *, num_threads: typing.SupportsInt | typing.
     >>> round(report.rugosity, 6), report.inverted_triangles, len(report.boundary_loops)
     (1.414214, 0, 1)
     """
+def nmea_dpt(depth: typing.SupportsFloat | typing.SupportsIndex) -> bytes:
+    """
+    A sentence DPT of a depth below the transducer [m].
+    """
+def nmea_hdt(heading: typing.SupportsFloat | typing.SupportsIndex) -> bytes:
+    """
+    A sentence HDT of a true heading [deg].
+    """
+def nmea_position(*, date: tuple[typing.SupportsInt | typing.SupportsIndex, typing.SupportsInt | typing.SupportsIndex, typing.SupportsInt | typing.SupportsIndex], time: typing.SupportsFloat | typing.SupportsIndex, latitude: typing.SupportsFloat | typing.SupportsIndex, longitude: typing.SupportsFloat | typing.SupportsIndex, altitude: typing.SupportsFloat | typing.SupportsIndex, speed: typing.SupportsFloat | typing.SupportsIndex, course: typing.SupportsFloat | typing.SupportsIndex, valid: bool) -> bytes:
+    """
+    Sentences GGA and RMC, five decimals of a minute (1.9 cm).
+    
+    Parameters
+    ----------
+    date : tuple of int
+        Year, month, day.
+    time : float
+        UTC, of the day [s].
+    latitude, longitude : float
+        [deg]
+    altitude : float
+        [m]
+    speed : float
+        Over ground [m/s].
+    course : float
+        From north to east [deg].
+    valid : bool
+        False: all but the time is left out.
+    
+    Returns
+    -------
+    bytes
+    
+    Raises
+    ------
+    ValueError
+        For numbers that are no position.
+    """
+def nmea_sentence(body: str) -> bytes:
+    """
+    A sentence of NMEA 0183, checksum and line end included.
+    
+    Parameters
+    ----------
+    body : str
+        What lies between $ and \\*.
+    
+    Returns
+    -------
+    bytes
+    
+    Raises
+    ------
+    ValueError
+        For an empty body, or one with other characters than printable ASCII without $ ! \\* \\\\ ^ ~.
+    """
+def nmea_vbw(ahead: typing.SupportsFloat | typing.SupportsIndex, port: typing.SupportsFloat | typing.SupportsIndex, valid: bool = True) -> bytes:
+    """
+    A sentence VBW: speeds over ground.
+    
+    Parameters
+    ----------
+    ahead, port : float
+        [m/s]
+    valid : bool
+    
+    Returns
+    -------
+    bytes
+    
+    Raises
+    ------
+    ValueError
+        For numbers that are not finite.
+    """
 def parse_xtf(data: bytes) -> XtfFile:
     """
     Reads the bytes of an XTF file.
@@ -10527,6 +10753,40 @@ def parse_xtf(data: bytes) -> XtfFile:
     ------
     bathyal.Error
         For what does not begin as an XTF file.
+    """
+def pd6_text(*, date: tuple[typing.SupportsInt | typing.SupportsIndex, typing.SupportsInt | typing.SupportsIndex, typing.SupportsInt | typing.SupportsIndex], time: typing.SupportsFloat | typing.SupportsIndex, heading: typing.SupportsFloat | typing.SupportsIndex, pitch: typing.SupportsFloat | typing.SupportsIndex, roll: typing.SupportsFloat | typing.SupportsIndex, depth: typing.SupportsFloat | typing.SupportsIndex, velocity: numpy.typing.ArrayLike, altitude: typing.SupportsFloat | typing.SupportsIndex | None = None, age: typing.SupportsFloat | typing.SupportsIndex = 0.0, valid: bool = True) -> bytes:
+    """
+    An ensemble of a Doppler log as PD6 text.
+    
+    Parameters
+    ----------
+    date : tuple of int
+        Year, month, day.
+    time : float
+        UTC, of the day [s].
+    heading : float
+        From north to east [deg].
+    pitch, roll : float
+        Bow up, port up [deg].
+    depth : float
+        [m]
+    velocity : (3,) array
+        Of the vehicle over ground: ahead, to port, up [m/s].
+    altitude : float, optional
+        [m]
+    age : float
+        Since the last good velocity [s].
+    valid : bool
+        Of the velocity.
+    
+    Returns
+    -------
+    bytes
+    
+    Raises
+    ------
+    ValueError
+        For numbers that do not fit.
     """
 def plan_sampling(ws: Workspace, target: numpy.typing.ArrayLike, *, q_start: numpy.typing.ArrayLike | None = None, q_transport: numpy.typing.ArrayLike | None = None, tool: RigidBody | None = None, tool_capsules: collections.abc.Sequence[Capsule] = [], tool_pose: numpy.typing.ArrayLike | None = None, sample: RigidBody | None = None, sample_capsules: collections.abc.Sequence[Capsule] = [], direction: numpy.typing.ArrayLike | None = None, align: bool | None = None, tool_axis: numpy.typing.ArrayLike = (0.0, 0.0, 1.0), standoff: typing.SupportsFloat | typing.SupportsIndex = 0.1, depth: typing.SupportsFloat | typing.SupportsIndex = 0.02, stiffness: typing.SupportsFloat | typing.SupportsIndex = 5000.0, force_limit: typing.SupportsFloat | typing.SupportsIndex = 100.0, grab_time: typing.SupportsFloat | typing.SupportsIndex = 3.0, press_speed: typing.SupportsFloat | typing.SupportsIndex = 0.02, line_tolerance: typing.SupportsFloat | typing.SupportsIndex = 0.001, velocity: numpy.typing.ArrayLike | None = None, acceleration: numpy.typing.ArrayLike | None = None, jerk: numpy.typing.ArrayLike | None = None, step: typing.SupportsFloat | typing.SupportsIndex = 0.02, time: typing.SupportsFloat | typing.SupportsIndex = 0.0, max_checks: typing.SupportsInt | typing.SupportsIndex = 20000, seed: typing.SupportsInt | typing.SupportsIndex = 0, inertia: bool = False, gravity: numpy.typing.ArrayLike = (0.0, 0.0, -9.80665), water_density: typing.SupportsFloat | typing.SupportsIndex = 1025.0, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> SamplingPlan:
     """
@@ -10857,6 +11117,24 @@ def read_pcd(path: os.PathLike | str | bytes, *, num_threads: typing.SupportsInt
     
     Fields other than x, y, z become attributes; `rgb` and `rgba` are taken apart into red, green, blue.
     """
+def read_servo_packet(packet: bytes) -> tuple[int, int, list[float]]:
+    """
+    A packet of ArduPilot's servo outputs.
+    
+    Parameters
+    ----------
+    packet : bytes
+    
+    Returns
+    -------
+    tuple
+        Rate [Hz], number of the frame, commands of −1 to 1 of 16 or 32 channels (1 100 to 1 900 µs).
+    
+    Raises
+    ------
+    Error
+        For other bytes.
+    """
 def read_text_table(path: os.PathLike | str | bytes, *, separator: str | None = None, decimal: str | None = None, comments: collections.abc.Sequence[str] = ['#', '//', '%', '!', ';'], header_lines: typing.SupportsInt | typing.SupportsIndex = -1, skip_lines: typing.SupportsInt | typing.SupportsIndex = 0, columns: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex | str] = (), leading: typing.SupportsInt | typing.SupportsIndex = 0, empty_is_nan: bool = False, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> TextTable:
     """
     Numbers in columns of a text file, or an ESRI ASCII grid as x, y, z.
@@ -10912,6 +11190,27 @@ def seawater_density(temperature: numpy.typing.ArrayLike, salinity: numpy.typing
     -------
     float or array
         [kg/m³]
+    """
+def servo_packet(*, rate: typing.SupportsInt | typing.SupportsIndex, frame: typing.SupportsInt | typing.SupportsIndex, pulses: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex]) -> bytes:
+    """
+    A packet of ArduPilot's servo outputs, as the autopilot sends it.
+    
+    Parameters
+    ----------
+    rate : int
+        [Hz]
+    frame : int
+    pulses : list of int
+        16 or 32 [µs].
+    
+    Returns
+    -------
+    bytes
+    
+    Raises
+    ------
+    ValueError
+        For another number of pulses.
     """
 def set_simd_level(level: str) -> None:
     """

@@ -39,7 +39,8 @@ void archive(A& a, MissionEvent& s) {
 
 namespace {
 
-constexpr std::uint16_t kTruth = 1, kEstimate = 2, kState = 3, kThrusters = 4, kEvents = 5;
+constexpr std::uint16_t kTruth = 1, kEstimate = 2, kState = 3, kThrusters = 4, kEvents = 5,
+                        kInputs = 6;
 
 constexpr const char* kTime =
     R"("timestamp":{"type":"object","properties":{"sec":{"type":"integer"},"nsec":{"type":"integer"}}})";
@@ -138,29 +139,39 @@ MissionLog::MissionLog(const std::string& path, const MissionPlan& plan) {
   std::string pose = R"("frame_id":{"type":"string"},"pose":{"type":"object","properties":{)";
   pose.append("\"position\":").append(vector_schema("xyz"));
   pose.append(",\"orientation\":").append(vector_schema("xyzw")).append("}}");
-  std::string state;
-  for (const char* name : {"depth", "altitude", "voltage", "current", "charge", "position_std",
-                           "target_x", "target_y", "target_z"}) {
+  std::string state(R"("number":{"type":"integer"},)");
+  for (const char* name : {"elapsed", "depth", "altitude", "voltage", "current", "charge",
+                           "position_std", "target_x", "target_y", "target_z"}) {
     state.append("\"").append(name).append("\":").append(kNumber).append(",");
   }
   state.append("\"velocity\":").append(kNumbers);
   std::string thrusters("\"command\":");
   thrusters.append(kNumbers).append(",\"speed\":").append(kNumbers);
-  std::string reading("\"arrival\":");
-  reading.append(kNumber).append(R"(,"valid":{"type":"boolean"},"values":)").append(kNumbers);
+  std::string reading(R"("kind":{"type":"string"},"index":{"type":"integer"},"sampled":)");
+  reading.append(kNumber)
+      .append(",\"arrival\":")
+      .append(kNumber)
+      .append(R"(,"valid":{"type":"boolean"},"values":)")
+      .append(kNumbers);
   const std::string log =
       R"("level":{"type":"integer"},"message":{"type":"string"},"name":{"type":"string"})";
+  std::string inputs(R"("number":{"type":"integer"},"stop":{"type":"boolean"})");
+  for (const char* name : {"wrench", "thrusters", "fins"}) {
+    inputs.append(",\"").append(name).append("\":").append(kNumbers);
+  }
   const auto add = [this](const char* name, const std::string& properties) {
     return writer_->add_schema({name, "jsonschema", schema(properties)});
   };
   const auto of_pose = add("foxglove.PoseInFrame", pose), of_state = add("bathyal.State", state);
   const auto of_thrusters = add("bathyal.Thrusters", thrusters);
   const auto of_log = add("foxglove.Log", log), of_reading = add("bathyal.Reading", reading);
+  const auto of_inputs = add("bathyal.Inputs", inputs);
   writer_->add_channel({of_pose, "/truth", "json"});
   writer_->add_channel({of_pose, "/estimate", "json"});
   writer_->add_channel({of_state, "/state", "json"});
   writer_->add_channel({of_thrusters, "/thrusters", "json"});
   writer_->add_channel({of_log, "/events", "json"});
+  writer_->add_channel({of_inputs, "/inputs", "json"});
   for (const SensorOptions& sensor : plan.sensors) {
     std::string topic("/sensors/");
     writer_->add_channel({of_reading, topic.append(sensor.name), "json"});
@@ -177,7 +188,7 @@ MissionLog::MissionLog(const std::string& path, const MissionPlan& plan, const s
 }
 
 void MissionLog::name_channels(const MissionPlan& plan) {
-  auto next = static_cast<std::uint16_t>(kEvents + 1);
+  auto next = static_cast<std::uint16_t>(kInputs + 1);
   for (const SensorOptions& sensor : plan.sensors) sensors_[sensor.name] = next++;
 }
 
@@ -201,7 +212,9 @@ void MissionLog::tick(const MissionTick& tick) {
   put_pose(estimate, tick.estimated.world_from_vehicle);
   writer_->write(kEstimate, time, text_);
   Json state(text_);
-  state.time(time).field("depth").number(tick.depth).field("altitude").number(tick.altitude);
+  state.time(time).field("number").whole(static_cast<std::uint64_t>(tick.number));
+  state.field("elapsed").number(tick.time);
+  state.field("depth").number(tick.depth).field("altitude").number(tick.altitude);
   state.field("voltage").number(tick.load.voltage).field("current").number(tick.load.current);
   state.field("charge").number(tick.truth->battery.charge);
   state.field("position_std").number(tick.position_std);
@@ -222,10 +235,22 @@ void MissionLog::tick(const MissionTick& tick) {
 void MissionLog::reading(const SensorOptions& sensor, const SensorReading& reading) {
   const std::uint64_t time = nanoseconds(reading.time);
   Json json(text_);
-  json.time(time).field("arrival").number(reading.arrival);
+  json.time(time).field("kind").text(sensor_kind_name(reading.kind));
+  json.field("index").whole(static_cast<std::uint64_t>(reading.index));
+  json.field("sampled").number(reading.time).field("arrival").number(reading.arrival);
   json.field("valid").raw(reading.valid ? "true" : "false").field("values");
   json.numbers({reading.values.data(), static_cast<std::size_t>(reading.count)}).raw("}");
   writer_->write(sensors_.at(sensor.name), time, text_);
+}
+
+void MissionLog::inputs(double time, std::int64_t number, const LiveInputs& inputs) {
+  const std::uint64_t at = nanoseconds(time);
+  Json json(text_);
+  json.time(at).field("number").whole(static_cast<std::uint64_t>(number));
+  json.field("stop").raw(inputs.stop ? "true" : "false");
+  json.field("wrench").numbers(inputs.wrench).field("thrusters").numbers(inputs.thrusters);
+  json.field("fins").numbers(inputs.fins).raw("}");
+  writer_->write(kInputs, at, text_);
 }
 
 void MissionLog::event(const MissionEvent& event) {

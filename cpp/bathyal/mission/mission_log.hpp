@@ -11,7 +11,8 @@
 namespace bathyal {
 
 /// A run's log as MCAP with JSON messages: /truth and /estimate (foxglove.PoseInFrame), /state,
-/// /thrusters, /sensors/NAME, /events (foxglove.Log). Times count from 0 at the start.
+/// /thrusters, /sensors/NAME, /events (foxglove.Log), and /inputs from outside, tick by
+/// tick. Times count from 0 at the start.
 class MissionLog final : public MissionSink {
  public:
   MissionLog(const std::string& path, const MissionPlan& plan);
@@ -22,6 +23,7 @@ class MissionLog final : public MissionSink {
   void tick(const MissionTick& tick) override;
   void reading(const SensorOptions& sensor, const SensorReading& reading) override;
   void event(const MissionEvent& event) override;
+  void inputs(double time, std::int64_t number, const LiveInputs& inputs) override;
 
   /// What a new one goes on from; the file is flushed.
   std::string save();

@@ -32,6 +32,17 @@ const MissionState& MissionRun::state() const { return parts_->state; }
 VehicleState MissionRun::estimated() const { return parts_->estimated(); }
 const std::vector<std::string>& MissionRun::signals() const { return parts_->names; }
 
+std::vector<ArrivedReading> MissionRun::arrived() const {
+  std::vector<PendingReading> pending = parts_->state.pending;
+  const std::size_t count = sort_arrived(pending, time());
+  std::vector<ArrivedReading> found;
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto row = static_cast<std::size_t>(pending[i].device);
+    found.push_back({parts_->plan->sensors[row].name, pending[i].reading});
+  }
+  return found;
+}
+
 std::map<std::string, double> MissionRun::metrics() const {
   const MissionState& s = parts_->state;
   const double ticks = static_cast<double>(std::max<std::int64_t>(1, s.number));

@@ -36,6 +36,9 @@ struct LiveInputs {
   bool stop = false;                   ///< ends the run
   std::vector<double> wrench = {};     ///< (6,) on the vehicle besides; empty: none
   std::vector<double> thrusters = {};  ///< commands in place of the pilot's; or empty
+  std::vector<double> fins = {};       ///< angles in place of the pilot's [rad]; or empty
+
+  bool none() const { return !stop && wrench.empty() && thrusters.empty() && fins.empty(); }
 };
 
 /// A moment of a run, for its log.
@@ -58,6 +61,7 @@ class MissionSink {
   virtual void tick(const MissionTick& tick) = 0;
   virtual void reading(const SensorOptions& sensor, const SensorReading& reading) = 0;
   virtual void event(const MissionEvent& event) = 0;
+  virtual void inputs(double time, std::int64_t number, const LiveInputs& inputs) = 0;
 
   MissionSink() = default;
   MissionSink(const MissionSink&) = delete;
@@ -80,6 +84,12 @@ struct LineState {
 
 struct PendingReading {
   std::int32_t device = 0;
+  SensorReading reading;
+};
+
+/// A reading, and of what.
+struct ArrivedReading {
+  std::string device;
   SensorReading reading;
 };
 
@@ -140,6 +150,10 @@ class MissionRun {
   const MissionState& state() const;
   VehicleState estimated() const;
   const std::vector<std::string>& signals() const;
+
+  /// What the next tick takes in, in its order.
+  std::vector<ArrivedReading> arrived() const;
+
   std::map<std::string, double> metrics() const;
 
   /// The state as bytes, and back into a run of the same plan and seed.

@@ -29,7 +29,7 @@ std::string servo_packet(const ServoPacket& packet);
 /// −1 to 1 of a pulse of 1 100 to 1 900 µs; 0 where there is none (0 µs).
 double command_of_pulse(std::uint16_t pulse);
 
-/// What the autopilot is told. Axes ahead, starboard, down; north, east, down.
+/// What the autopilot receives. Axes ahead, starboard, down; north, east, down.
 struct ArduPilotState {
   double time = 0.0;               ///< [s]
   Vec3 gyro = Vec3::Zero();        ///< [rad/s]

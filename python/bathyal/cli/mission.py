@@ -20,7 +20,10 @@ def mission(
         typer.Option("--picture", "-p", help="Also draw it over the bottom, .png."),
     ] = None,
     example: Annotated[
-        bool, typer.Option("--example", help="First write an example there.")
+        bool,
+        typer.Option(
+            "--example", help="First write an example there, and one with a program on board."
+        ),
     ] = False,
     schema: Annotated[
         Path | None,
@@ -47,12 +50,14 @@ def mission(
     from bathyal.mission.describe import describe_mission, mission_figure
     from bathyal.mission.example import write_mission_example
     from bathyal.mission.files import mission_schema, read_mission
+    from bathyal.onboard.example import write_onboard_example
 
     talk = Talk(json=json, quiet=quiet)
     written: list[str] = []
     with talk.progress() as progress:
         if example:
-            written += [str(path) for path in write_mission_example(file)]
+            made = [*write_mission_example(file), *write_onboard_example(file.parent)]
+            written += [str(path) for path in made]
         with progress("Building"):
             given = read_mission(file, inside=inside)
         if schema is not None:

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
@@ -22,6 +22,17 @@ def run(
     resume: Annotated[
         bool, typer.Option("--resume", help="Go on where a run in that folder was interrupted.")
     ] = False,
+    speed: Annotated[
+        float | None,
+        typer.Option(help="Times real time; as fast as it goes unless given.", show_default=False),
+    ] = None,
+    replay: Annotated[
+        Path | None,
+        typer.Option(
+            help="Folder of a run whose inputs are taken, in place of the mission's links.",
+            show_default=False,
+        ),
+    ] = None,
     picture: Annotated[
         bool, typer.Option("--picture/--no-picture", help="Draw four views, run.png.")
     ] = True,
@@ -35,13 +46,16 @@ def run(
     json: opt.Json = False,
     quiet: opt.Quiet = False,
 ) -> None:
-    """Run a mission: the same bytes for the same mission and seed.
+    """Run a mission: the same bytes for the same mission, seed and inputs.
 
-    Writes mission.yaml, log.mcap (opens in Foxglove), run.json and run.png.
+    Writes mission.yaml, log.mcap (opens in Foxglove), run.json and run.png. Waits for programs at
+    the mission's links; what they command is recorded.
 
     [bold]Example:[/]
 
       bathyal run dive/mission.yaml --seed 1 --out dive/run
+
+      bathyal run dive/mission.yaml --seed 1 --out dive/again --replay dive/run
     """
     from bathyal.mission.files import read_mission
     from bathyal.mission.run import run as run_mission
@@ -50,9 +64,14 @@ def run(
     with talk.progress() as progress:
         with progress("Building"):
             given = read_mission(file, inside=inside)
-        with progress("Running"):
-            found = run_mission(given, seed=seed, out=out, resume=resume)
+        ports = [] if replay else _ports(given.sections, out)
+        with progress(f"Running with programs at {', '.join(ports)}" if ports else "Running"):
+            found = run_mission(
+                given, seed=seed, out=out, resume=resume, speed=speed, replay=replay
+            )
         files = [out / name for name in ("mission.yaml", "log.mcap", "run.json")]
+        if ports or speed is not None:
+            files.append(out / "links.json")
         if picture:
             with progress("Drawing"):
                 found.plot(out / "run.png")
@@ -77,3 +96,8 @@ def run(
         "written": "\n".join(names),
     }
     talk.result({**facts, "events": [vars(event) for event in found.events], "files": names}, rows)
+
+
+def _ports(sections: Any, out: Path) -> list[str]:
+    """Where programs find the vehicle."""
+    return [str(link.path(out)) if link.where == "pty" else link.where for link in sections.links]

@@ -52,6 +52,7 @@ class MissionBuilder(VehicleBuilder):
                 guards=guards,
                 faults=faults,
                 step=sections.step,
+                steps_per_tick=sections.steps_per_tick,
                 longest=sections.longest,
             )
         return plan, world

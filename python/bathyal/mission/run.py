@@ -14,13 +14,17 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
-from bathyal._core import Error, MissionRun
+import numpy as np
+from numpy.typing import NDArray
+
+from bathyal._core import Error, MissionPlan, MissionRun
 from bathyal.io.files import PathLike, replacing, shown
 from bathyal.mission.files import Mission, read_mission
+from bathyal.mission.live import LiveRun, recorded_inputs
 from bathyal.mission.log import LOG, RunLog
+from bathyal.onboard.moments import Moment, Reading
 
-SCENARIO, STATE, RECORD = "mission.yaml", "state.bin", "run.json"
-_TICKS = 100  # between two looks at whether to save
+SCENARIO, STATE, RECORD, LINKS = "mission.yaml", "state.bin", "run.json", "links.json"
 
 
 @dataclass(frozen=True)
@@ -142,7 +146,8 @@ class Run:
         ----------
         inputs : dict, optional
             ``stop`` (True ends the run), ``wrench`` (6,) on the vehicle besides all others
-            [N, N m], ``thrusters`` commands of −1 to 1 in place of the pilot's.
+            [N, N m], ``thrusters`` commands of −1 to 1 and ``fins`` angles [rad] in place of the
+            pilot's. They are recorded in the log.
         count : int
 
         Returns
@@ -156,15 +161,42 @@ class Run:
             For inputs that are not known, of another size or not finite.
         """
         given = dict(inputs or {})
-        unknown = given.keys() - {"stop", "wrench", "thrusters"}
+        unknown = given.keys() - {"stop", "wrench", "thrusters", "fins"}
         if unknown:
-            raise ValueError(f"inputs: expected stop, wrench, thrusters, got {sorted(unknown)}")
+            raise ValueError(
+                f"inputs: expected stop, wrench, thrusters, fins, got {sorted(unknown)}"
+            )
         return self._run.step(count, **given)
 
     @property
     def time(self) -> float:
         """[s]"""
         return self._run.time
+
+    @property
+    def number(self) -> int:
+        """Of the next tick."""
+        return self._run.number
+
+    @property
+    def plan(self) -> MissionPlan:
+        """What is run."""
+        return self.mission.plan
+
+    @property
+    def arrived(self) -> list[Reading]:
+        """What sensors have reported to the next tick."""
+        return [Reading(*row[:-1], tuple(row[-1])) for row in self._run.arrived]
+
+    @property
+    def pose(self) -> NDArray[np.float64]:
+        """(4, 4) world_from_vehicle, the true one."""
+        return self._run.pose
+
+    @property
+    def velocity(self) -> NDArray[np.float64]:
+        """(6,) over ground and of turn, in the vehicle, the true one [m/s, rad/s]."""
+        return self._run.velocity
 
     @property
     def status(self) -> str:
@@ -202,12 +234,17 @@ def run(
     out: PathLike | None = None,
     resume: bool = False,
     save_every: float = 60.0,
+    speed: float | None = None,
+    inputs: Callable[[Moment], dict[str, Any] | None] | None = None,
+    replay: PathLike | None = None,
     progress: Callable[[float], None] | None = None,
 ) -> RunResult:
     """Run a mission to its end.
 
-    A pure function of mission and seed: the same bytes on every machine of one kind, whatever the
-    clock, the locale, the environment or the number of threads, and wherever it was interrupted.
+    A pure function of mission, seed and inputs: the same bytes on every machine of one kind,
+    whatever the clock, the locale, the environment or the number of threads, and wherever it was
+    interrupted. The links of the mission's file are opened, and programs waited for; what they
+    command is recorded, and with `replay` comes from the record.
 
     Parameters
     ----------
@@ -220,6 +257,12 @@ def run(
         Goes on where a run of the same mission and seed in `out` was interrupted.
     save_every : float
         Of the run's time, between two saved states in `out` [s].
+    speed : float, optional
+        Times real time; as fast as it goes unless given. Late ticks are counted in ``links.json``.
+    inputs : function, optional
+        Asked each tick for inputs as `Run.step` takes them; in place of the links.
+    replay : path, optional
+        Folder of a run whose inputs are taken, in place of the links.
     progress : function, optional
         Called with the run's time [s] now and then.
 
@@ -232,7 +275,10 @@ def run(
     OSError
         Where the folder cannot be written.
     Error
-        For a mission that cannot be read, a motion that runs away, or a saved state of another run.
+        For a mission that cannot be read, a motion that runs away, a saved state of another run, a
+        port that is taken, or a program that does not answer.
+    ValueError
+        For a speed that is not above 0, or `inputs` with `replay`.
 
     Examples
     --------
@@ -250,19 +296,36 @@ def run(
     folder = Path(tempfile.mkdtemp(prefix="bathyal-run-") if out is None else out)
     folder.mkdir(parents=True, exist_ok=True)
     state = _saved(folder) if resume else None
+    if inputs is not None and replay is not None:
+        raise ValueError("inputs: expected none with replay, got a function")
+    recorded = recorded_inputs(Path(replay) / LOG) if replay is not None else {}
+    if state is not None:
+        recorded |= recorded_inputs(folder / LOG)
+    live = LiveRun(given, folder, seed=seed, speed=speed, inputs=inputs, replay=replay is not None)
     (folder / RECORD).unlink(missing_ok=True)
     _write(folder / SCENARIO, given.text.encode())
     going = Run(given, seed=seed, log=folder / LOG, state=state)
     saved = going.time
-    while going.step(count=_TICKS):
+
+    def look() -> None:
+        nonlocal saved
         if out is not None and going.time >= saved + save_every:
             _write(folder / STATE, going.save())
             saved = going.time
         if progress is not None:
             progress(going.time)
+
+    try:
+        live.finish(going, recorded, look)
+    except BaseException:
+        if live.asking and out is not None:
+            _write(folder / STATE, going.save())
+        raise
     going.close()
     result = _result(going, folder)
     _write(folder / RECORD, _record(result))
+    if live.is_live:
+        _write(folder / LINKS, json.dumps(live.report(), indent=1).encode() + b"\n")
     (folder / STATE).unlink(missing_ok=True)
     return result
 

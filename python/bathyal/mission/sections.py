@@ -31,6 +31,7 @@ from bathyal.mission.quantities import (
     Seconds,
     Speed,
 )
+from bathyal.onboard.sections import OnboardSections
 from bathyal.vehicle.sections import VehicleSections
 from bathyal.world.sections import WorldSections
 
@@ -298,7 +299,7 @@ class NavigationSection(Section):
     lag: Seconds | None = None
 
 
-class MissionSections(Section):
+class MissionSections(OnboardSections):
     """A mission."""
 
     name: Name = "mission"
@@ -311,6 +312,7 @@ class MissionSections(Section):
     always: Annotated[list[GuardSection], Field(max_length=100)] = []
     mission: Step
     step: Annotated[Number, Field(gt=0, le=0.1)] = 0.02
+    steps_per_tick: Annotated[int, Field(strict=True, ge=1, le=1000)] = 5
     longest: PositiveSeconds = 4 * 3600.0
 
 

@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -29,3 +31,21 @@ def local_position(
     north = -np.sin(latitude[0]) * across + np.cos(latitude[0]) * (axis - axis[0])
     origin = (float(latitude[0]), float(longitude[0]))
     return np.column_stack([ring * np.sin(turn), north]), origin
+
+
+def local_place(east: float, north: float, origin: tuple[float, float]) -> tuple[float, float]:
+    """Latitude and longitude [rad] of a place `east` and `north` of an origin [m].
+
+    The inverse of `local_position`, by Newton's steps.
+    """
+    square = _FLATTENING * (2.0 - _FLATTENING)
+    latitude, longitude = origin
+    root = 1.0 - square * math.sin(latitude) ** 2
+    along = _EQUATOR * (1.0 - square) / root**1.5
+    across = _EQUATOR / math.sqrt(root) * math.cos(latitude)
+    for _ in range(5):
+        places = np.degrees([[origin[0], latitude], [origin[1], longitude]])
+        (_, found), _ = local_position(*places)
+        latitude += (north - found[1]) / along
+        longitude += (east - found[0]) / across
+    return latitude, longitude

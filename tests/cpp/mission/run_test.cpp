@@ -93,8 +93,12 @@ class TextSink final : public MissionSink {
     bytes.append(reinterpret_cast<const char*>(place.data()), sizeof(double) * 3);
     bytes.append(reinterpret_cast<const char*>(truth.velocity.data()), sizeof(double) * 6);
   }
+  void inputs(double /*time*/, std::int64_t number, const LiveInputs& /*inputs*/) override {
+    numbers.push_back(number);
+  }
   void reading(const SensorOptions& sensor, const SensorReading& reading) override {
     bytes += sensor.name;
+    readings.push_back(sensor.name);
     bytes.append(reinterpret_cast<const char*>(reading.values.data()), sizeof(reading.values));
   }
   void event(const MissionEvent& event) override {
@@ -109,6 +113,8 @@ class TextSink final : public MissionSink {
   }
 
   std::string bytes;
+  std::vector<std::int64_t> numbers;  ///< of ticks with inputs
+  std::vector<std::string> readings;  ///< devices', in their order
   std::vector<Vec3> track;
   std::vector<MissionEvent> events;
 };
@@ -180,6 +186,40 @@ TEST(MissionRun, SavedRunsOfAnotherSeedOrCutOnesAreRefused) {
     EXPECT_ANY_THROW(run.load(bytes.substr(0, size))) << size;
   }
   EXPECT_ANY_THROW(run.load(bytes + "x"));
+}
+
+TEST(MissionRun, TellsWhatTheNextTickTakesIn) {
+  TextSink sink;
+  MissionRun run(std::make_shared<MissionPlan>(square_mission()), 1, &sink);
+  std::vector<std::string> told;
+  for (int i = 0; i < 50; ++i) {
+    for (const ArrivedReading& found : run.arrived()) told.push_back(found.device);
+    run.step();
+    EXPECT_EQ(told, sink.readings) << i;
+  }
+  EXPECT_GT(told.size(), 300U);
+}
+
+TEST(MissionRun, InputsAreRecordedByTickAndReplayed) {
+  const auto plan = std::make_shared<MissionPlan>(square_mission());
+  const auto inputs_at = [](int tick) {
+    LiveInputs inputs;
+    if (tick >= 20 && tick < 60) inputs.wrench = {0.0, 10.0 + 0.1 * tick, 0.0, 0.0, 0.0, 0.0};
+    if (tick == 80) inputs.thrusters.assign(8, 0.3);
+    return inputs;
+  };
+  TextSink pushed, again, alone;
+  MissionRun first(plan, 1, &pushed), second(plan, 1, &again), third(plan, 1, &alone);
+  for (int i = 0; i < 100; ++i) {
+    first.step(inputs_at(i));
+    second.step(inputs_at(i));
+    third.step();
+  }
+  EXPECT_EQ(pushed.numbers.size(), 41U);
+  EXPECT_EQ(pushed.numbers.back(), 80);
+  EXPECT_TRUE(alone.numbers.empty());
+  EXPECT_TRUE(pushed.bytes == again.bytes);
+  EXPECT_GT((pushed.track.back() - alone.track.back()).norm(), 0.01);
 }
 
 TEST(MissionRun, ANewSensorChangesNobodysNoise) {

@@ -102,6 +102,7 @@ MissionRun::Parts::Parts(std::shared_ptr<const MissionPlan> given, std::uint64_t
   state.commands.drop.assign(plan->vehicle.drop_weights.size(), 0);
   state.load = system->supply(state.vehicle, state.commands);
   state.altitude = altitude_at(plan->start.world_from_vehicle.translation());
+  sense(0.0, Vec6::Zero());
 }
 
 void MissionRun::Parts::emit(const char* kind, std::string text) {
@@ -198,12 +199,12 @@ void MissionRun::Parts::sense(double at, const Vec6& acceleration) {
   }
 }
 
-void MissionRun::Parts::deliver() {
-  const double now = time() + 1e-9;
+std::size_t sort_arrived(std::vector<PendingReading>& pending, double time) {
+  const double now = time + 1e-9;
   const auto due =
-      std::stable_partition(state.pending.begin(), state.pending.end(),
+      std::stable_partition(pending.begin(), pending.end(),
                             [now](const PendingReading& p) { return p.reading.arrival <= now; });
-  std::stable_sort(state.pending.begin(), due, [](const auto& a, const auto& b) {
+  std::stable_sort(pending.begin(), due, [](const auto& a, const auto& b) {
     const auto later = [](SensorKind kind) {  // what says how it moves comes first
       return kind == SensorKind::imu || kind == SensorKind::compass ? 0
              : kind == SensorKind::dvl                              ? 1
@@ -212,8 +213,13 @@ void MissionRun::Parts::deliver() {
     return std::pair(a.reading.arrival, later(a.reading.kind)) <
            std::pair(b.reading.arrival, later(b.reading.kind));
   });
-  for (auto at = state.pending.begin(); at != due; ++at) take(*at);
-  state.pending.erase(state.pending.begin(), due);
+  return static_cast<std::size_t>(due - pending.begin());
+}
+
+void MissionRun::Parts::deliver() {
+  const auto count = static_cast<std::ptrdiff_t>(sort_arrived(state.pending, time()));
+  for (std::ptrdiff_t i = 0; i < count; ++i) take(state.pending[static_cast<std::size_t>(i)]);
+  state.pending.erase(state.pending.begin(), state.pending.begin() + count);
 }
 
 void MissionRun::Parts::take(const PendingReading& pending) {
@@ -507,6 +513,7 @@ void MissionRun::Parts::steer(const LiveInputs& inputs) {
   pilot.step(state.pilot, estimated(), state.target, current, voltage, failed, extra, plan->tick(),
              state.commands);
   if (!inputs.thrusters.empty()) state.commands.thrusters = inputs.thrusters;
+  if (!inputs.fins.empty()) state.commands.fins = inputs.fins;
   driven = state.commands;
   for (std::size_t k = 0; k < plan->faults.size(); ++k) {
     const MissionFault& fault = plan->faults[k];
@@ -596,10 +603,8 @@ void MissionRun::Parts::record() {
 
 bool MissionRun::Parts::step(const LiveInputs& inputs) {
   if (state.status != RunStatus::kRunning) return false;
-  if (state.number == 0) {
-    emit("start", plan->name);
-    sense(0.0, Vec6::Zero());
-  }
+  if (state.number == 0) emit("start", plan->name);
+  if (sink != nullptr && !inputs.none()) sink->inputs(time(), state.number, inputs);
   update_faults_now();
   deliver();
   const bool silent = time() > std::max(0.0, state.velocity_time) + kSilence;

@@ -10,6 +10,9 @@
 
 namespace bathyal {
 
+/// Puts first what has arrived by then, in the order in which it is taken in. \return how many
+std::size_t sort_arrived(std::vector<PendingReading>& pending, double time);
+
 /// What a run is made of; its tick is in this order: faults, sensors, navigation, watchers,
 /// signals, guards and tree, pilot, motion.
 struct MissionRun::Parts final : TreeLeaves {
