@@ -86,7 +86,6 @@ ThrusterOptions t200_benchmark() {
 
 BatteryOptions lithium_ion_4s() {
   BatteryOptions battery;
-  battery.name = "lithium_ion_4s";
   battery.capacity = 18.0;
   battery.resistance = 0.05;
   battery.charge = {0.0, 0.05, 0.1, 0.2, 0.4, 0.6, 0.8, 1.0};

@@ -260,7 +260,7 @@ void MissionRun::Parts::take(const PendingReading& pending) {
     }
   }
   watchers.reading(state.watchers, pending.device, line.latest, reading,
-                   updated ? &update : nullptr, reports);
+                   Eigen::Quaterniond(state.attitude), updated ? &update : nullptr, reports);
   line.latest = reading;
 }
 
@@ -334,11 +334,11 @@ void MissionRun::Parts::update_signals() {
   }
   std::size_t row = static_cast<std::size_t>(Signal::kCount);
   double count = 0.0;
-  const auto put = [&](const DeviceWatch& watch) {
+  const auto put = [&](const auto& watch) {
     state.signals[row++] = watch.reported ? 1.0 : 0.0;
     count += watch.reported ? 1.0 : 0.0;
   };
-  for (const DeviceWatch& watch : state.watchers.sensors) put(watch);
+  for (const SensorWatch& watch : state.watchers.sensors) put(watch);
   for (const DeviceWatch& watch : state.watchers.thrusters) put(watch);
   for (const DeviceWatch& watch : state.watchers.fins) put(watch);
   put(state.watchers.battery);

@@ -83,11 +83,20 @@ void archive(A& a, FaultState& s) {
 }
 template <class A>
 void archive(A& a, DeviceWatch& s) {
-  a(s.since, s.seen, s.repeats, s.refused, s.mean, s.reported, s.expected);
+  a(s.since, s.reported, s.expected);
+}
+template <class A>
+void archive(A& a, SensorWatch& s) {
+  a(s.seen, s.index, s.repeats, s.lost, s.late, s.refused, s.mean, s.reported);
+}
+template <class A>
+void archive(A& a, RateWatch& s) {
+  a(s.time, s.value, s.since, s.mean);
 }
 template <class A>
 void archive(A& a, WatcherState& s) {
-  a(s.sensors, s.thrusters, s.fins, s.battery, s.hull);
+  a(s.sensors, s.thrusters, s.fins, s.battery, s.hull, s.depth_rise, s.log_rise, s.altimeter_rise,
+    s.compass_turn, s.gyro_turn, s.roll, s.pitch, s.force, s.level_x, s.level_y, s.turn_since);
 }
 template <class A>
 void archive(A& a, VehicleCommands& s) {
