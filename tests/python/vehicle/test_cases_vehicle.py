@@ -738,7 +738,9 @@ def test_a_hostile_vehicle_file_is_refused_by_name(tmp_path, monkeypatch, text, 
     assert not Path("pwned").exists()
 
 
-def test_a_vehicle_heavier_than_its_water_may_be_read_and_sinks(tmp_path):
+@pytest.mark.xfail(strict=True, reason="no warning of a weight above buoyancy")
+def test_a_vehicle_heavier_than_its_water_is_read_and_warned_of(tmp_path):
     path = tmp_path / "vehicle.yaml"
     path.write_text("preset: bluerov2_heavy\nmass: 20\n")
-    assert bathyal.read_vehicle(path).acceleration(STILL, np.zeros(6))[2] < 0
+    with pytest.warns(UserWarning, match=r"(?i)weight|buoyan|sink"):
+        bathyal.read_vehicle(path)
