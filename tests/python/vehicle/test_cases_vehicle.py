@@ -1,4 +1,4 @@
-"""Bodies in water against closed forms, and what must be refused: from the issue and the documentation alone."""
+"""Bodies in water against closed forms, and what must be refused."""
 
 import math
 import pickle
@@ -71,7 +71,7 @@ def test_a_flat_disc_has_the_added_mass_of_a_disc():
     "axes", [[0, 1, 1], [-1, 1, 1], [math.nan, 1, 1], [math.inf, 1, 1], [1, 1]]
 )
 def test_half_axes_that_are_none_are_refused(axes):
-    with pytest.raises((ValueError, TypeError), match="half_axes|half axis"):
+    with pytest.raises((ValueError, TypeError), match=r"half_axes|half axis"):
         bathyal.ellipsoid_added_mass(axes)
 
 
@@ -172,7 +172,7 @@ def test_statics_trim_a_bluerov_by_three_newton_metres():
 
 
 def kirchhoff(angle, duration):
-    """REMUS without weight or drag, diagonal added mass, centred, thrown at an angle off broadside."""
+    """REMUS without weight or drag, centred, thrown at an angle off broadside."""
     added = np.diag(np.diag(bathyal.vehicles.remus100().added_mass))
     body = bathyal.vehicles.remus100().replace(
         center_of_mass=[0, 0, 0], added_mass=added, terms=[], gravity=0.0, linear_drag=None
@@ -648,7 +648,7 @@ def test_a_motion_that_is_none_is_refused_by_name(arguments, named):
 def test_a_step_beyond_stability_names_the_mode():
     body = ball(linear_drag=np.diag([20.0, 20, 20, 1e5, 20, 20]))
     limit = 2.785 * body.mass_matrix[3, 3] / 1e5
-    with pytest.raises(ValueError, match="(?i)step.*roll|roll.*step"):
+    with pytest.raises(ValueError, match=r"(?i)step.*roll|roll.*step"):
         body.simulate(STILL, np.zeros(6), 0.1, step=1.02 * limit)
     body.simulate(STILL, np.zeros(6), 0.1, step=0.98 * limit)
 
@@ -698,7 +698,7 @@ def test_a_systems_step_refuses_nonsense_by_name_and_leaves_the_state(keywords, 
 
 def test_a_state_of_another_system_is_refused():
     rov, remus = bathyal.VehicleSystem.bluerov2_heavy(), bathyal.VehicleSystem.remus100()
-    with pytest.raises(ValueError, match="state|thrusters"):
+    with pytest.raises(ValueError, match=r"state|thrusters"):
         rov.step(remus.rest())
 
 
@@ -733,7 +733,7 @@ def test_a_hostile_vehicle_file_is_refused_by_name(tmp_path, monkeypatch, text, 
     monkeypatch.chdir(tmp_path)
     path = tmp_path / "vehicle.yaml"
     path.write_text(text)
-    with pytest.raises(bathyal.Error, match="(?is)vehicle.yaml.*(" + named + ")"):
+    with pytest.raises(bathyal.Error, match=r"(?is)vehicle.yaml.*(" + named + ")"):
         bathyal.read_vehicle(path)
     assert not Path("pwned").exists()
 
