@@ -1,4 +1,4 @@
-"""Sensors, filter and reckoning against closed forms and bad input; from the documentation alone."""
+"""Sensors, filter and reckoning against closed forms and bad input."""
 
 import math
 
