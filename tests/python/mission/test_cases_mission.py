@@ -859,7 +859,7 @@ def test_a_vehicle_does_not_fly(tmp_path):
 
 @pytest.mark.xfail(strict=True, reason="a start 40 m below the bottom is taken")
 def test_a_start_below_the_bottom_is_refused(tmp_path):
-    with pytest.raises(bathyal.Error, match="start|bottom"):
+    with pytest.raises(bathyal.Error, match=r"start|bottom"):
         run(tmp_path, PLAIN + "start: {position: [0, 0, -50]}\n")
 
 
