@@ -114,7 +114,9 @@ struct MissionState {
   Vec3 velocity = Vec3::Zero();  ///< the last from a log, in the vehicle [m/s]
   double velocity_time = -1.0;   ///< of it [s]
   Eigen::Vector4d attitude{0, 0, 0, 1};
+  double attitude_time = 0.0;  ///< of the last that a compass has reported [s]
   Vec3 spin = Vec3::Zero();
+  double spin_time = 0.0;  ///< of it [s]
   PilotState pilot;
   PilotTarget target;
   TreeState tree;

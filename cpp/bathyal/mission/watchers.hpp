@@ -92,6 +92,7 @@ class Watchers {
            WatcherOptions options = {});
 
   WatcherState fresh() const;
+  const WatcherOptions& options() const { return options_; }
 
   /// \param attitude world_from_vehicle, the last one reported \param update of the filter, if any
   void reading(WatcherState& state, int device, const SensorReading& before,

@@ -202,13 +202,15 @@ void NavigationFilter::predict(NavigationState& state, double time, const Vec3& 
 
 void NavigationFilter::predict_motion(NavigationState& state, double time,
                                       const Eigen::Quaterniond& attitude, const Vec3& velocity,
-                                      std::vector<NavigationStep>* record) const {
+                                      std::vector<NavigationStep>* record, double walk) const {
   check_after(state, time);
   if (!(std::abs(attitude.norm() - 1.0) < 1e-6)) {
     throw_argument("attitude", "a unit quaternion", "norm " + to_text(attitude.norm()));
   }
   check_vector("velocity", velocity);
+  check_not_negative("walk", walk);
   NavigationInput input;
+  input.first.x() = walk;
   input.kind = kMotion;
   input.time = time;
   input.second = velocity;

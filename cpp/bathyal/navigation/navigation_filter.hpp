@@ -49,7 +49,7 @@ struct NavigationEstimate {
 struct NavigationInput {
   int kind = 0;  ///< 1 inertial, 2 motion, 3 reading
   double time = 0.0;
-  Vec3 first = Vec3::Zero();             ///< rate
+  Vec3 first = Vec3::Zero();             ///< rate; of a motion its walk, 0, 0
   Vec3 second = Vec3::Zero();            ///< force, or velocity
   Eigen::Vector4d attitude{0, 0, 0, 1};  ///< of a motion
   SensorReading reading;
@@ -108,9 +108,11 @@ class NavigationFilter {
   /// By an attitude as reported (its turn since the last one counts) and a velocity over ground in
   /// the vehicle [m/s], or through the water where the option `current` is above 0; between times
   /// the velocity in the world changes linearly.
+  /// \param walk of the position beyond the options', of a velocity that is not measured [m/√s]
   /// \throw std::invalid_argument likewise
   void predict_motion(NavigationState& state, double time, const Eigen::Quaterniond& attitude,
-                      const Vec3& velocity, std::vector<NavigationStep>* record = nullptr) const;
+                      const Vec3& velocity, std::vector<NavigationStep>* record = nullptr,
+                      double walk = 0.0) const;
 
   /// By a reading of a device, at the reading's own time: what came since is done again; until a
   /// time ahead of the last input, that input holds. One of an imu predicts. Kinds that say nothing

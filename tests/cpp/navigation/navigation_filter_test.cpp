@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "bathyal/base/random.hpp"
 #include "bathyal/navigation/navigation_state_bytes.hpp"
 #include "bathyal/navigation/navigation_track.hpp"
 #include "navigation/simulated_run.hpp"
@@ -39,6 +40,32 @@ TEST(NavigationFilter, ItsErrorsAreAsLargeAsItSays) {
   }
   ASSERT_EQ(count, seeds);
   EXPECT_NEAR(sum / seeds, 15.0, 1.96 * std::sqrt(2.0 * 15.0 / seeds));
+}
+
+// A depth between two velocities is reached by holding the last turn; noise of the attitude must
+// not make what is held swing farther and farther.
+TEST(NavigationFilter, HoldsTheTurnBetweenNoisyAttitudes) {
+  NavigationOptions options;
+  options.initial_position = Vec3(0.5, 0.5, 0.1);
+  options.log_noise = 0.02;
+  options.log_walk = 0.05;
+  options.devices = {device("depth", SensorKind::depth, 10.0, {0.01})};
+  const NavigationFilter filter(options);
+  NavigationState state = filter.start(0.0, Pose::Identity());
+  RandomStream draw(1);
+  double worst = 0.0;
+  for (int k = 0; k < 5 * 600; ++k) {
+    const Vec3 angles(0.003 * draw.normal(), 0.003 * draw.normal(), 0.003 * draw.normal());
+    filter.predict_motion(state, 0.2 * (k + 1), Eigen::Quaterniond(rotation_of(angles)),
+                          Vec3(1.5, 0.0, 0.0));
+    SensorReading depth;
+    depth.count = 1;
+    depth.time = depth.arrival = 0.2 * (k + 1) + 0.1;
+    filter.update(state, 0, depth);
+    worst = std::max(worst, state.now.velocity.tail<2>().norm());
+  }
+  EXPECT_LT(worst, 0.1);
+  EXPECT_NEAR(state.now.position.x(), 1.5 * 599.9, 1.5);
 }
 
 TEST(NavigationFilter, FindsWhatTheLogAndTheCurrentAreOffBy) {

@@ -12,7 +12,8 @@
 namespace bathyal {
 namespace {
 
-constexpr double kSilence = 0.5;  // of a velocity log, before its last value is taken again [s]
+constexpr double kSilence = 0.5;    // of a velocity log or compass, before it is done without [s]
+constexpr double kModelWalk = 0.5;  // of the position, reckoned by the vehicle's model [m/√s]
 constexpr double kTelemetryNoise = 0.005;  // share of a propeller's speed as its motor reports it
 
 NavigationOptions with_devices(const MissionPlan& plan) {
@@ -73,6 +74,7 @@ MissionRun::Parts::Parts(std::shared_ptr<const MissionPlan> given, std::uint64_t
       pilot(*system, plan->pilot),
       filter(with_devices(*plan)),
       environment(plan->water, plan->scene, plan->contact),
+      known(Water({.surface = plan->water.surface()}), std::nullopt, plan->contact),
       tree(plan->root),
       responses(responses_of(*plan)),
       names(mission_signals(plan->vehicle, plan->sensors)),
@@ -230,15 +232,16 @@ void MissionRun::Parts::take(const PendingReading& pending) {
   const Eigen::Matrix3d mount = sensor.vehicle_from_sensor.linear();
   NavigationUpdate update;
   bool updated = false;
-  if (reading.valid) {
+  if (reading.valid && is_trusted(pending.device)) {
     const Vec3 first(reading.values[0], reading.values[1], reading.values[2]);
     switch (reading.kind) {
       case SensorKind::imu:
-        state.spin = mount * first;
+        turn_by_gyro(mount * first, reading.time);
         break;
       case SensorKind::compass: {
         const Eigen::Quaterniond turn(rotation_of_angles(first));
         state.attitude = turn.coeffs();
+        state.attitude_time = reading.time;
         break;
       }
       case SensorKind::dvl: {
@@ -264,7 +267,48 @@ void MissionRun::Parts::take(const PendingReading& pending) {
   line.latest = reading;
 }
 
-/// By a velocity of the log; where it is silent, by the last one again.
+/// Not of a sensor that repeats itself; nor of one that jumps, where nothing else would stop it.
+bool MissionRun::Parts::is_trusted(int device) const {
+  const SensorWatch& watch = state.watchers.sensors[static_cast<std::size_t>(device)];
+  const SensorKind kind = plan->sensors[static_cast<std::size_t>(device)].kind;
+  const bool ungated = kind == SensorKind::dvl || kind == SensorKind::compass;
+  return watch.repeats < watchers.options().repeats &&
+         !(ungated && watch.refused > watchers.options().refused);
+}
+
+/// Keeps the attitude while the compass is silent.
+void MissionRun::Parts::turn_by_gyro(const Vec3& spin, double measured) {
+  state.spin = spin;
+  const double since = std::max(state.spin_time, state.attitude_time);
+  state.spin_time = measured;
+  if (measured <= state.attitude_time + kSilence || measured <= since) return;
+  const Vec3 turn = (measured - since) * spin;
+  const double angle = turn.norm();
+  if (angle == 0.0) return;
+  const Eigen::Quaterniond by(Eigen::AngleAxisd(angle, turn / angle));
+  state.attitude = (Eigen::Quaterniond(state.attitude) * by).normalized().coeffs();
+}
+
+/// Where the log is silent, by the vehicle's model from the last velocity on, in water at rest.
+void MissionRun::Parts::reckon_by_model() {
+  VehicleSystemState model = state.vehicle;
+  model.motion = estimated();
+  const auto around = [&](double, const VehicleState& motion) {
+    StepConditions found;
+    found.wrench = extra + known.wrench(system->vehicle(), motion, found.flow, time());
+    return found;
+  };
+  for (int i = 0; i < plan->steps_per_tick; ++i) {
+    system->step(model, state.commands, around, plan->step);
+  }
+  state.velocity = model.motion.velocity.head<3>();
+  const NavigationEstimate& now = state.navigation.now;
+  if (time() <= now.time && now.input != 0) return;
+  filter.predict_motion(state.navigation, time(), Eigen::Quaterniond(state.attitude),
+                        state.velocity, nullptr, kModelWalk);
+}
+
+/// By a velocity of the log.
 void MissionRun::Parts::reckon(double measured) {
   const NavigationEstimate& now = state.navigation.now;
   const double at = measured > now.time || now.input == 0 ? measured : time();
@@ -608,7 +652,11 @@ bool MissionRun::Parts::step(const LiveInputs& inputs) {
   update_faults_now();
   deliver();
   const bool silent = time() > std::max(0.0, state.velocity_time) + kSilence;
-  if (silent || state.navigation.now.input == 0) reckon(time());
+  if (silent) {
+    reckon_by_model();
+  } else if (state.navigation.now.input == 0) {
+    reckon(time());
+  }
   watch();
   update_signals();
   decide();

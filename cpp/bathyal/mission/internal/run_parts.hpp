@@ -26,6 +26,7 @@ struct MissionRun::Parts final : TreeLeaves {
   Pilot pilot;
   NavigationFilter filter;
   Environment environment;
+  Environment known;  ///< of it what software on board knows: no bottom, no current
   BehaviorTree tree;
   std::vector<BehaviorTree> responses;
   std::vector<std::string> names;  ///< of the signals
@@ -57,7 +58,10 @@ struct MissionRun::Parts final : TreeLeaves {
   void sense(double at, const Vec6& acceleration);
   void deliver();
   void take(const PendingReading& pending);
+  bool is_trusted(int device) const;
+  void turn_by_gyro(const Vec3& spin, double measured);
   void reckon(double measured);
+  void reckon_by_model();
   void find_failed();
   void watch();
   void update_signals();

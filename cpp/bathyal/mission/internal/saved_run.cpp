@@ -118,8 +118,9 @@ constexpr std::uint64_t kMagic = 0x3152594854414221U;  // "!BATHYR1"
 template <class A>
 void archive_state(A& a, MissionState& s, std::string& navigation) {
   a(s.number, s.status, s.vehicle, s.lines, s.pending, navigation, s.velocity, s.velocity_time,
-    s.attitude, s.spin, s.pilot, s.target, s.tree, s.guard, s.guard_since, s.leaves, s.faults,
-    s.watchers, s.signals, s.commands, s.held_commands, s.load, s.altitude, s.leak, s.sums);
+    s.attitude, s.attitude_time, s.spin, s.spin_time, s.pilot, s.target, s.tree, s.guard,
+    s.guard_since, s.leaves, s.faults, s.watchers, s.signals, s.commands, s.held_commands, s.load,
+    s.altitude, s.leak, s.sums);
 }
 
 }  // namespace

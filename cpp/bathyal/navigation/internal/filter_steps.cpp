@@ -138,7 +138,7 @@ Eigen::Matrix<double, 3, kNavigationErrors> reckoned_slope(const Matrix3d& turn,
 }
 
 Transition go_reckoned(const NavigationOptions& options, NavigationEstimate& estimate, double dt,
-                       const Quaterniond& turn, const Vec3& log) {
+                       const Quaterniond& turn, const Vec3& log, double walk) {
   Transition step;
   step.current_kept = std::exp(-dt / options.current_time);
   estimate.attitude = (quaternion_of(estimate.attitude) * turn).normalized().coeffs();
@@ -158,7 +158,7 @@ Transition go_reckoned(const NavigationOptions& options, NavigationEstimate& est
   step.top.block<3, 3>(kPosition, kVelocity).diagonal().setConstant(0.5 * dt);
   NavigationMatrix& p = estimate.covariance;
   transport(p, step);
-  add_noise(p, kPosition, square(options.log_walk) * dt);
+  add_noise(p, kPosition, (square(options.log_walk) + square(walk)) * dt);
   add_noise(p, kVelocity, square(options.log_noise));
   age(options, estimate, dt, step);
   return step;
@@ -181,8 +181,15 @@ Transition apply_prediction(const NavigationOptions& options, NavigationEstimate
     const Quaterniond turn =
         goes_on ? quaternion_of(estimate.reported).conjugate() * quaternion_of(input.attitude)
                 : Quaterniond::Identity();
-    step = go_reckoned(options, estimate, goes_on ? dt : 0.0, turn, input.second);
-    if (goes_on && dt > 0.0) estimate.rate = vector_of(turn.toRotationMatrix()) / dt;
+    step = go_reckoned(options, estimate, goes_on ? dt : 0.0, turn, input.second, input.first.x());
+    if (goes_on && input.time > estimate.input_time) {
+      // since the last report, not since the attitude that was held for a reading in between: that
+      // would swing by what was held too far
+      const Quaterniond held = turn_by(estimate.rate * (estimate.time - estimate.input_time));
+      const Quaterniond last = quaternion_of(estimate.reported) * held.conjugate();
+      const Quaterniond turned = last.conjugate() * quaternion_of(input.attitude);
+      estimate.rate = vector_of(turned.toRotationMatrix()) / (input.time - estimate.input_time);
+    }
     estimate.reported = input.attitude;
   }
   estimate.force = input.second;
@@ -199,7 +206,7 @@ Transition hold_until(const NavigationOptions& options, NavigationEstimate& esti
   if (estimate.input == 2) {
     const Quaterniond turn = turn_by(estimate.rate * dt);
     estimate.reported = (quaternion_of(estimate.reported) * turn).normalized().coeffs();
-    step = go_reckoned(options, estimate, dt, turn, estimate.force);
+    step = go_reckoned(options, estimate, dt, turn, estimate.force, 0.0);
   }
   estimate.time = time;
   return step;
