@@ -120,6 +120,18 @@ void put_navigation(NavigationOptions& options, const py::dict& dict) {
   }
 }
 
+/// Names the row in what is wrong with it.
+template <class Make>
+void in_row(const char* list, std::size_t row, const Make& make) {
+  try {
+    make();
+  } catch (const std::invalid_argument& error) {
+    std::string text(list);
+    text.append("[").append(std::to_string(row)).append("]: ").append(error.what());
+    throw std::invalid_argument(text);
+  }
+}
+
 std::shared_ptr<const MissionPlan> made(
     const std::string& name, const VehicleSystem& system,
     const py::typing::Optional<Vehicle>& vehicle, const std::vector<DropWeightOptions>& weights,
@@ -148,12 +160,15 @@ std::shared_ptr<const MissionPlan> made(
   }
   plan->root = tree_of(tree);
   for (const py::handle item : guards) {
-    const auto dict = item.cast<py::dict>();
-    plan->guards.push_back({text(dict, "name"), Condition(text(dict, "when"), signals),
-                            number(dict, "persist", 0.0), tree_of(dict["response"])});
+    in_row("always", plan->guards.size(), [&] {
+      const auto dict = item.cast<py::dict>();
+      plan->guards.push_back({text(dict, "name"), Condition(text(dict, "when"), signals),
+                              number(dict, "persist", 0.0), tree_of(dict["response"])});
+    });
   }
   for (const py::handle item : faults) {
-    plan->faults.push_back(fault_of(item.cast<py::dict>(), signals));
+    in_row("faults", plan->faults.size(),
+           [&] { plan->faults.push_back(fault_of(item.cast<py::dict>(), signals)); });
   }
   plan->step = step;
   plan->steps_per_tick = steps_per_tick;
@@ -172,6 +187,7 @@ class LoggedRun {
     if (saved) {
       ByteReader reader(*saved);
       reader(of_run, of_log);
+      if (reader.left() != 0) throw Error("a saved run with other bytes behind it");
     }
     if (log && saved) log_.emplace(*log, *plan, of_log);
     if (log && !saved) log_.emplace(*log, *plan);

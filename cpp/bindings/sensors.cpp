@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "bathyal/base/check.hpp"
 #include "bathyal/base/error.hpp"
 #include "bathyal/base/text.hpp"
 #include "bathyal/navigation/allan_deviation.hpp"
@@ -102,6 +103,8 @@ SensorReadings simulate(const SensorOptions& sensor, const ArrayLike& time, cons
                         const OptionalArray& water_velocity, const OptionalArray& altitude,
                         const OptionalArray& propeller_rate, const OptionalArray& leak,
                         double surface, double gravity, std::uint64_t seed) {
+  check_finite("surface", surface);
+  check_finite("gravity", gravity);
   const std::vector<double> times = numbers_argument("time", time);
   const std::vector<Pose> poses = poses_argument("pose", pose);
   const std::size_t count = times.size();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bathyal/mission/faults.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <string>
@@ -29,6 +30,7 @@ constexpr std::array<std::pair<std::string_view, FaultKind>, 15> kNames{
      {"leak", FaultKind::kLeak}}};
 
 constexpr std::uint64_t kFaultChannel = 1'000'000;  // apart from every sensor's own
+constexpr std::uint64_t kRateChannel = 2'000'000;
 
 }  // namespace
 
@@ -61,8 +63,14 @@ void update_faults(const std::vector<MissionFault>& faults, std::vector<FaultSta
     if (state.active || state.over) continue;
     bool begins = time >= fault.at || (fault.when && fault.when->holds(signals));
     if (fault.rate > 0.0) {
+      const auto nth = static_cast<std::uint64_t>(std::count_if(
+          faults.begin(), faults.begin() + static_cast<std::ptrdiff_t>(i), [&](const auto& other) {
+            return other.device == fault.device && other.kind == fault.kind;
+          }));  // so that faults of others change nothing
+      const std::uint64_t channel =
+          kRateChannel + 64 * nth + static_cast<std::uint64_t>(fault.kind);
       RandomStream draw =
-          keyed_stream(seed, fault.device, kFaultChannel + i, static_cast<std::uint64_t>(number));
+          keyed_stream(seed, fault.device, channel, static_cast<std::uint64_t>(number));
       begins = begins || draw.uniform() < 1.0 - std::exp(-fault.rate * tick / 3600.0);
     }
     if (!begins) continue;

@@ -25,6 +25,35 @@ bool of_drive(FaultKind kind) {
          kind == FaultKind::kWeak || kind == FaultKind::kReversed;
 }
 
+/// Kinds that are a matter of how much need a size; of some it is a share.
+void check_size(const MissionFault& fault) {
+  const std::string name = "fault " + std::string(fault_name(fault.kind)) + " size";
+  check_finite(name, fault.size);
+  switch (fault.kind) {
+    case FaultKind::kIntermittent:
+    case FaultKind::kWeak:
+      check_range(name, fault.size, 0.0, 1.0);
+      [[fallthrough]];
+    case FaultKind::kWrong:
+    case FaultKind::kBias:
+    case FaultKind::kDrift:
+      if (fault.size == 0.0) throw_argument(name, "another than 0", "0");
+      return;
+    case FaultKind::kSlow:
+    case FaultKind::kDelayed:
+    case FaultKind::kNoise:
+    case FaultKind::kSag:
+    case FaultKind::kLeak:
+      check_positive(name, fault.size);
+      return;
+    case FaultKind::kGarbage:
+      check_not_negative(name, fault.size);
+      return;
+    default:
+      if (fault.size != 0.0) throw_argument(name, "none", to_text(fault.size));
+  }
+}
+
 void check_fault(const MissionPlan& plan, const MissionFault& fault) {
   const auto named = [&fault](const auto& devices) {
     return std::any_of(devices.begin(), devices.end(),
@@ -39,7 +68,7 @@ void check_fault(const MissionPlan& plan, const MissionFault& fault) {
   if (!known) throw_argument("fault device", "a device of the vehicle", fault.device);
   if (!fits)
     throw_argument("fault kind", "one that the device may have", "another of " + fault.device);
-  check_finite("fault size", fault.size);
+  check_size(fault);
   if (std::isnan(fault.at) || fault.at < 0.0) {
     throw_argument("fault at", "a time of 0 or more", to_text(fault.at));
   }
@@ -96,7 +125,15 @@ void MissionPlan::check() const {
     check_leaves(guard.response, commands.size());
     check_not_negative("guard persist", guard.persist);
   }
-  for (const MissionFault& fault : faults) check_fault(*this, fault);
+  for (std::size_t i = 0; i < faults.size(); ++i) {
+    try {
+      check_fault(*this, faults[i]);
+    } catch (const std::invalid_argument& error) {
+      std::string text("faults[");
+      throw std::invalid_argument(
+          text.append(std::to_string(i)).append("]: ").append(error.what()));
+    }
+  }
   check_positive("step", step);
   check_range("steps_per_tick", steps_per_tick, 1, 1000);
   check_positive("longest", longest);
@@ -104,6 +141,12 @@ void MissionPlan::check() const {
   check_not_negative("weight_of_leak", weight_of_leak);
   check_rigid("start", start.world_from_vehicle);
   if (!start.velocity.allFinite()) throw_argument("start", "a finite velocity", "another");
+  const Vec3 place = start.world_from_vehicle.translation();
+  if (scene && scene->cast(place, -Vec3::UnitZ()).mesh < 0 &&
+      scene->cast(place, Vec3::UnitZ()).mesh >= 0) {
+    throw_argument("start", "a place above the bottom",
+                   "z = " + to_text(place.z()) + " m below it");
+  }
   const double largest = Environment(water, scene, contact).largest_step(Vehicle(vehicle.vehicle));
   if (step > largest) {
     throw_argument("step", "at most " + to_text(largest) + " s, the limit of contact",

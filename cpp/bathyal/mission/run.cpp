@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <utility>
 
 #include "bathyal/base/check.hpp"
+#include "bathyal/base/error.hpp"
 #include "bathyal/mission/internal/run_parts.hpp"
 #include "bathyal/mission/internal/saved_run.hpp"
 
@@ -25,7 +27,15 @@ MissionRun::MissionRun(std::shared_ptr<const MissionPlan> plan, std::uint64_t se
 
 MissionRun::~MissionRun() = default;
 
-bool MissionRun::step(const LiveInputs& inputs) { return parts_->step(inputs); }
+bool MissionRun::step(const LiveInputs& inputs) {
+  const double at = time();
+  try {
+    return parts_->step(inputs);
+  } catch (const std::invalid_argument& error) {  // a plan and inputs that were right: it runs away
+    std::string text("the motion runs away at ");
+    throw Error(text.append(to_text(at)).append(" s: ").append(error.what()));
+  }
+}
 double MissionRun::time() const { return parts_->time(); }
 const MissionPlan& MissionRun::plan() const { return *parts_->plan; }
 const MissionState& MissionRun::state() const { return parts_->state; }

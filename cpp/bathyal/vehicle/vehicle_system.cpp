@@ -204,7 +204,7 @@ vehicle_system::ThrusterCourse VehicleSystem::thruster_course(const VehicleSyste
 void VehicleSystem::advance(VehicleSystemState& state, const VehicleCommands& commands,
                             const StepConditionsFunction& around, double time) const {
   check_commands(state, commands);
-  check_positive("time", time);
+  check_positive("step", time);
   const BatteryLoad load = supply(state, commands);
   for (std::size_t i = 0; i < commands.drop.size(); ++i) {
     if (commands.drop[i] != 0) state.drop_weights[i].released = 1;

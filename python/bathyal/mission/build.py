@@ -3,6 +3,9 @@
 
 from __future__ import annotations
 
+import re
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import Any
 
 import numpy as np
@@ -12,7 +15,7 @@ from bathyal import _core
 from bathyal._core import DropWeight, MissionPlan, Sensor, Vehicle, VehicleSystem, World
 from bathyal.io.yaml_documents import Place
 from bathyal.mission import sections as own
-from bathyal.vehicle.files import VehicleBuilder
+from bathyal.vehicle.files import VehicleBuilder, warn_of_weight
 from bathyal.world.build import WorldBuilder
 from bathyal.world.files import read_world
 
@@ -36,7 +39,7 @@ class MissionBuilder(VehicleBuilder):
         tree = self.step(sections.mission, ("mission",))
         guards = [self.guard(one, ("always", row)) for row, one in enumerate(sections.always)]
         faults = [one.model_dump(exclude_none=True) for one in sections.faults]
-        with self.placed(()):
+        with self.placed_by_row():
             plan = MissionPlan(
                 name=sections.name,
                 system=system,
@@ -55,7 +58,20 @@ class MissionBuilder(VehicleBuilder):
                 steps_per_tick=sections.steps_per_tick,
                 longest=sections.longest,
             )
+        weights = sum(one.mass for one in sections.vehicle.weights)
+        volumes = sum(one.volume for one in sections.vehicle.weights)
+        warn_of_weight(vehicle or system.vehicle, mass=weights, volume=volumes)
         return plan, world
+
+    @contextmanager
+    def placed_by_row(self) -> Iterator[None]:
+        """Puts an error where its row is: "faults[2]: …" at the third fault."""
+        try:
+            yield
+        except ValueError as error:
+            row = re.match(r"`?(faults|always)\[(\d+)\]", str(error))
+            with self.placed((row[1], int(row[2])) if row else ()):
+                raise
 
     def world(self, sections: own.MissionSections) -> World:
         """In the document, or from a file of its own."""
@@ -89,7 +105,12 @@ class MissionBuilder(VehicleBuilder):
         if sections is None:
             return _core.typical_sensors()
         sensors = []
+        names: set[str] = set()
         for row, one in enumerate(sections):
+            with self.placed(("sensors", row)):
+                if (name := one.name or one.kind) in names:
+                    raise ValueError(f"name: expected names that differ, got {name!r} again")
+                names.add(name)
             given = one.model_dump(exclude_none=True, exclude={"pose"})
             if one.pose is not None:
                 given["vehicle_from_sensor"] = one.pose.matrix()
@@ -136,8 +157,10 @@ class MissionBuilder(VehicleBuilder):
             values["points"] = [values.pop("to")]
             kind, name = "follow", "leg"
         elif kind == "survey":
+            with self.placed(place):
+                points = survey_points(given)
             values = {
-                "points": survey_points(given),
+                "points": points,
                 **{
                     key: values[key]
                     for key in ("depth", "altitude", "speed", "tolerance")

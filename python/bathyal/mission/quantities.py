@@ -44,6 +44,9 @@ def parsed(value: Any, dimension: str) -> Any:
 
 
 Metres = Annotated[Number, BeforeValidator(lambda value: parsed(value, "m"))]
+NotNegativeMetres = Annotated[
+    Number, Field(ge=0, le=1e6), BeforeValidator(lambda value: parsed(value, "m"))
+]
 PositiveMetres = Annotated[
     Number, Field(gt=0, le=1e6), BeforeValidator(lambda value: parsed(value, "m"))
 ]

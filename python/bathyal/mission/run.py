@@ -113,6 +113,11 @@ class Run:
     state : bytes, optional
         Of `save`, from which it goes on; the log, too.
 
+    Raises
+    ------
+    Error
+        For a state of another mission or seed, or one that was cut.
+
     Examples
     --------
     >>> import bathyal, pathlib, tempfile
@@ -137,6 +142,8 @@ class Run:
         self.mission = mission if isinstance(mission, Mission) else read_mission(mission)
         self.seed = seed
         path = None if log is None else str(Path(log))
+        if state is not None:
+            state = self._own_state(state)
         self._run = MissionRun(self.mission.plan, seed, log=path, state=state)
 
     def step(self, inputs: dict[str, Any] | None = None, *, count: int = 1) -> bool:
@@ -220,7 +227,16 @@ class Run:
 
     def save(self) -> bytes:
         """The state, from which another `Run` goes on with the same bytes, log included."""
-        return self._run.save()
+        return self._digest() + self._run.save()
+
+    def _digest(self) -> bytes:
+        return hashlib.sha256(self.mission.text.encode()).digest()
+
+    def _own_state(self, state: bytes) -> bytes:
+        digest = self._digest()
+        if not state.startswith(digest):
+            raise Error("state: expected one of this mission, got a saved run of another, or none")
+        return state[len(digest) :]
 
     def close(self) -> None:
         """Ends the log."""

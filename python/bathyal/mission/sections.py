@@ -25,6 +25,7 @@ from bathyal.io.yaml_sections import (
 from bathyal.mission.quantities import (
     Angle,
     Metres,
+    NotNegativeMetres,
     PositiveMetres,
     PositiveSeconds,
     Rate,
@@ -59,7 +60,7 @@ FLOWS = ("sequence", "fallback", "parallel", "retry", "timeout", "invert")
 class HeightSection(Section):
     """A depth below the surface, or an altitude above the bottom."""
 
-    depth: Metres | None = None
+    depth: NotNegativeMetres | None = None
     altitude: PositiveMetres | None = None
 
     @model_validator(mode="after")

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import warnings
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -59,8 +60,36 @@ def read_vehicle(path: PathLike, *, inside: PathLike | None = None) -> Vehicle:
     document = read_yaml(path)
     builder = VehicleBuilder(document, inside)
     if own.is_section(document.value):
-        return builder.vehicle(validated(own.VehicleDocument, document).vehicle, ("vehicle",))
-    return builder.vehicle(validated(own.VehicleSections, document), ())
+        section = validated(own.VehicleDocument, document).vehicle
+        vehicle = builder.vehicle(section, ("vehicle",))
+    else:
+        vehicle = builder.vehicle(validated(own.VehicleSections, document), ())
+    warn_of_weight(vehicle)
+    return vehicle
+
+
+class HeavyVehicleWarning(UserWarning):
+    """A vehicle that sinks."""
+
+
+def warn_of_weight(vehicle: Vehicle, *, mass: float = 0.0, volume: float = 0.0) -> None:
+    """Warns of a weight above buoyancy, beyond a hundredth.
+
+    Parameters
+    ----------
+    vehicle : Vehicle
+    mass, volume : float
+        Of what it carries [kg, m³].
+    """
+    weight = (vehicle.mass + mass) * vehicle.gravity
+    buoyancy = (vehicle.volume + volume) * vehicle.water_density * vehicle.gravity
+    if weight > 1.01 * buoyancy:
+        warnings.warn(
+            f"{vehicle.name}: a weight of {weight:.1f} N above its buoyancy of {buoyancy:.1f} N: "
+            "it sinks",
+            HeavyVehicleWarning,
+            stacklevel=3,
+        )
 
 
 class VehicleBuilder(DocumentFiles):
@@ -99,8 +128,10 @@ class VehicleBuilder(DocumentFiles):
 
 def _keywords(section: VehicleSections) -> dict[str, Any]:
     """Those of `Vehicle` that the section gives."""
+    from bathyal.vehicle.sections import VehicleSections
+
     own = {"preset", "hull", "z_down", "terms", "parts"}
-    given = section.model_dump(exclude_none=True, exclude=own)
+    given = section.model_dump(exclude_none=True, include=set(VehicleSections.model_fields) - own)
     for name in ("inertia", "added_mass", "linear_drag"):
         if name in given and np.ndim(given[name]) == 1:
             given[name] = np.diag(given[name])

@@ -13,23 +13,12 @@ import pytest
 
 import bathyal
 
-AT_ONE = pytest.mark.xfail(
-    strict=True, reason="said to be at 1:1, the document, instead of where it is"
-)
-NO_SIZE = pytest.mark.xfail(strict=True, reason="a fault without `size` begins, and does nothing")
-ACCUSED = pytest.mark.xfail(
-    strict=True, reason="sound sensors are reported as wrong besides the faulty one"
-)
 SUNK = pytest.mark.xfail(
-    strict=True, reason="the sound depth sensor is refused; surface succeeds far below, or never"
+    strict=True, reason="garbage until it is reported moves the estimate by more than a metre"
 )
 STUCK_DEPTH = pytest.mark.xfail(
-    strict=True, reason="a sensor that is reported stuck still moves the estimate"
+    strict=True, reason="a depth that is stuck until it is reported moves the estimate"
 )
-GARBAGE = pytest.mark.xfail(
-    strict=True, reason="garbage that passes the gate moves the estimate by more than a metre"
-)
-NO_SAG = pytest.mark.xfail(strict=True, reason="the preset's battery is no device that faults know")
 
 HEAD = """world:
   water: {surface: 0}
@@ -219,8 +208,6 @@ HOSTILE = {
 OPEN = {
     "an unknown command": "an unknown command in a list is refused without its name",
     "a guard with wrong units": "a condition compares a depth with seconds",
-    "a survey of a million lines": "too many lines of a survey: no file, line and key",
-    "no positive mass": "numbers besides a preset are refused in a mission",
 }
 
 
@@ -245,13 +232,13 @@ def test_a_hostile_mission_is_refused_by_file_line_and_name(tmp_path, monkeypatc
 @pytest.mark.parametrize(
     ("line", "row"),
     [
-        pytest.param("faults: [{device: warp core, kind: off, at: 3}]", 7, marks=AT_ONE),
-        pytest.param("faults: [{device: dvl, kind: dead, at: 3}]", 7, marks=AT_ONE),
-        pytest.param("faults: [{device: dvl, kind: off, when: moonrise > 3}]", 7, marks=AT_ONE),
-        pytest.param("always: [{name: a, when: dept > 3, do: surface}]", 7, marks=AT_ONE),
+        ("faults: [{device: warp core, kind: off, at: 3}]", 7),
+        ("faults: [{device: dvl, kind: dead, at: 3}]", 7),
+        ("faults: [{device: dvl, kind: off, when: moonrise > 3}]", 7),
+        ("always: [{name: a, when: dept > 3, do: surface}]", 7),
         ("sensors: [{kind: depth, noise: -1}]", 7),
         ("sensors: [{kind: nose}]", 7),
-        pytest.param("sensors: [{kind: depth}, {kind: depth}]", 7, marks=AT_ONE),
+        ("sensors: [{kind: depth}, {kind: depth}]", 7),
         ("longst: 3", 7),
         ("step: 5", 7),
     ],
@@ -299,14 +286,12 @@ def test_units_are_numbers(tmp_path):
     assert one.metrics == other.metrics
 
 
-@pytest.mark.xfail(strict=True, reason="numbers besides a preset are refused in a mission")
 @pytest.mark.parametrize("number", ["mass: 14", "volume: 0.0137", "name: mine", "gravity: 9.81"])
 def test_a_missions_preset_takes_numbers_of_its_own(tmp_path, number):
     text = PLAIN.replace("bluerov2_heavy}", f"bluerov2_heavy, {number}}}")
     assert bathyal.read_mission(write(tmp_path, text)).name == "mission"
 
 
-@pytest.mark.xfail(strict=True, reason="no warning of a weight above buoyancy")
 def test_a_weight_above_buoyancy_is_warned_of(tmp_path):
     text = PLAIN.replace("bluerov2_heavy}", "bluerov2_heavy, weights: [{mass: 60}]}")
     with pytest.warns(UserWarning, match=r"(?i)weight|buoyan|sink"):
@@ -426,16 +411,10 @@ def test_one_step_of_many_ticks_is_many_steps_of_one(tmp_path):
     [
         "empty",
         "short",
-        pytest.param(
-            "long",
-            marks=pytest.mark.xfail(strict=True, reason="bytes after a saved state are not seen"),
-        ),
+        "long",
         "noise",
         "seed",
-        pytest.param(
-            "mission",
-            marks=pytest.mark.xfail(strict=True, reason="a state of another mission is taken"),
-        ),
+        "mission",
     ],
 )
 def test_a_state_of_something_else_is_refused(tmp_path, cut):
@@ -661,18 +640,7 @@ def marked(marks):
     return [pytest.param(*row, marks=marks.get(row[:2], [])) for row in LOUD]
 
 
-@pytest.mark.parametrize(
-    ("device", "kind", "size"),
-    marked(
-        {
-            ("dvl", "off"): ACCUSED,
-            ("dvl", "stuck"): ACCUSED,
-            ("dvl", "garbage"): ACCUSED,
-            ("depth", "stuck"): ACCUSED,
-            ("battery", "sag"): NO_SAG,
-        }
-    ),
-)
+@pytest.mark.parametrize(("device", "kind", "size"), LOUD)
 def test_a_fault_is_reported_of_its_device_and_of_no_other(tmp_path, device, kind, size):
     result = run(
         tmp_path, PLAIN + f"faults: [{{device: {device}, kind: {kind}, size: {size}, at: 20}}]\n"
@@ -684,18 +652,7 @@ def test_a_fault_is_reported_of_its_device_and_of_no_other(tmp_path, device, kin
 
 @pytest.mark.parametrize(
     ("device", "kind", "size"),
-    marked(
-        {
-            ("dvl", "off"): SUNK,
-            ("dvl", "stuck"): SUNK,
-            ("dvl", "garbage"): SUNK,
-            ("compass", "off"): SUNK,
-            ("compass", "stuck"): SUNK,
-            ("depth", "stuck"): STUCK_DEPTH,
-            ("depth", "garbage"): GARBAGE,
-            ("battery", "sag"): NO_SAG,
-        }
-    ),
+    marked({("dvl", "garbage"): SUNK, ("depth", "stuck"): STUCK_DEPTH}),
 )
 def test_a_loud_fault_still_lets_the_vehicle_come_up(tmp_path, device, kind, size):
     result = run(
@@ -745,7 +702,6 @@ def test_a_fault_changes_its_devices_readings_and_no_others(tmp_path, kind):
         assert same == (name != "leak"), name
 
 
-@NO_SIZE
 @pytest.mark.parametrize(
     "kind", ["wrong", "slow", "delayed", "intermittent", "bias", "drift", "noise"]
 )
@@ -761,7 +717,6 @@ def test_a_fault_without_its_size_does_something_or_is_refused(tmp_path, kind):
     )
 
 
-@NO_SIZE
 @pytest.mark.parametrize(("device", "kind"), [("thruster_6", "weak"), ("hull", "leak")])
 def test_a_fault_of_the_vehicle_without_its_size_does_something_or_is_refused(
     tmp_path, device, kind
@@ -789,9 +744,6 @@ def test_a_fault_by_condition_begins_then(tmp_path):
     assert -2.3 < np.interp(begun, truth["time"], truth["pose.position.z"]) < -1.7
 
 
-@pytest.mark.xfail(
-    strict=True, reason="a fault that is put before another in the file changes its times"
-)
 def test_faults_by_rate_are_seeded_by_themselves(tmp_path):
     def begun(text, seed):
         events = run(tmp_path, text, seed=seed).events
@@ -820,7 +772,6 @@ def test_faults_by_rate_are_seeded_by_themselves(tmp_path):
         ("hull", "leak", -1),
     ],
 )
-@pytest.mark.xfail(strict=True, reason="sizes below 0 are taken")
 def test_a_fault_of_a_size_that_is_none_is_refused(tmp_path, device, kind, size):
     text = PLAIN + f"faults: [{{device: {device}, kind: {kind}, size: {size}, at: 1}}]\n"
     with pytest.raises(bathyal.Error, match="size"):
@@ -838,17 +789,11 @@ def test_a_fault_of_a_size_that_is_none_is_refused(tmp_path, device, kind, size)
         "faults: [{device: dvl, kind: bias, size: 1.0e+300, at: 1}]",
     ],
 )
-@pytest.mark.xfail(
-    strict=True, reason="a motion that runs away is a ValueError of `points` or `wrench`"
-)
 def test_a_run_that_runs_away_is_an_error_or_ends(tmp_path, rows):
     with contextlib.suppress(bathyal.Error):
         run(tmp_path, PLAIN + rows + "\n")
 
 
-@pytest.mark.xfail(
-    strict=True, reason="thrusters push in the air: the vehicle climbs to 5 m above the sea"
-)
 def test_a_vehicle_does_not_fly(tmp_path):
     try:
         result = run(tmp_path, HEAD + "mission: [dive: {depth: -5}]\n")
@@ -857,15 +802,11 @@ def test_a_vehicle_does_not_fly(tmp_path):
     assert result.log.messages("/truth")["pose.position.z"].max() < 0.5
 
 
-@pytest.mark.xfail(strict=True, reason="a start 40 m below the bottom is taken")
 def test_a_start_below_the_bottom_is_refused(tmp_path):
     with pytest.raises(bathyal.Error, match=r"start|bottom"):
         run(tmp_path, PLAIN + "start: {position: [0, 0, -50]}\n")
 
 
-@pytest.mark.xfail(
-    strict=True, reason="without bottom lock the sound depth sensor is refused; it sinks"
-)
 def test_a_leg_beyond_the_charted_bottom_keeps_its_depth(tmp_path):
     result = run(tmp_path, HEAD + "mission: [dive: {depth: 3}, leg: {to: [100, 0], depth: 3}]\n")
     depth = -result.log.messages("/truth")["pose.position.z"]

@@ -11,9 +11,6 @@ import bathyal
 
 SURGE = [True, False, False, False, False, False]
 STILL = np.eye(4)
-STEP_CALLED_TIME = pytest.mark.xfail(
-    strict=True, reason="VehicleSystem.step calls its argument `step` `time`"
-)
 
 
 def ball(mass=100.0, radius=0.3, **changes):
@@ -682,8 +679,8 @@ def test_an_unknown_change_is_named():
         ({"wrench": [0.0] * 5}, "wrench"),
         ({"wrench": [math.inf] * 6}, "wrench"),
         ({"current": [0.0]}, "current"),
-        pytest.param({"step": 0.0}, "step", marks=STEP_CALLED_TIME),
-        pytest.param({"step": math.nan}, "step", marks=STEP_CALLED_TIME),
+        ({"step": 0.0}, "step"),
+        ({"step": math.nan}, "step"),
         ({"steps": -1}, "steps"),
     ],
 )
@@ -738,7 +735,6 @@ def test_a_hostile_vehicle_file_is_refused_by_name(tmp_path, monkeypatch, text, 
     assert not Path("pwned").exists()
 
 
-@pytest.mark.xfail(strict=True, reason="no warning of a weight above buoyancy")
 def test_a_vehicle_heavier_than_its_water_is_read_and_warned_of(tmp_path):
     path = tmp_path / "vehicle.yaml"
     path.write_text("preset: bluerov2_heavy\nmass: 20\n")

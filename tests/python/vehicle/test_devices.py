@@ -161,7 +161,7 @@ def test_bad_input():
     state = rov.rest()
     with pytest.raises(ValueError, match=r"`commands.thrusters`: expected 8 numbers"):
         rov.step(state, thrusters=[0.0])
-    with pytest.raises(ValueError, match="`time`"):
+    with pytest.raises(ValueError, match="`step`"):
         rov.step(state, step=0.0)
     with pytest.raises(ValueError, match="`steps`"):
         rov.step(state, steps=-1)
