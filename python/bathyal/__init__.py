@@ -154,6 +154,8 @@ from bathyal.io.formats.gsf import MultibeamPings, read_gsf
 from bathyal.mission.files import Mission, read_mission
 from bathyal.mission.log import RunLog
 from bathyal.mission.run import Run, RunEvent, RunResult, read_run, run
+from bathyal.mission.run_base import RunBase, RunRow
+from bathyal.mission.run_compare import LogDifference, RunComparison
 from bathyal.navigation.logs import NavigationLog, NavigationLogWarning, read_navigation_log
 from bathyal.onboard.moments import Moment, Reading
 from bathyal.onboard.vehicles import (
@@ -227,6 +229,7 @@ __all__ = [
     "LineOfSight",
     "LineOfSightState",
     "Link",
+    "LogDifference",
     "Material",
     "MeshReport",
     "Mission",
@@ -262,9 +265,12 @@ __all__ = [
     "ReplayedVehicle",
     "RigidBody",
     "Run",
+    "RunBase",
+    "RunComparison",
     "RunEvent",
     "RunLog",
     "RunResult",
+    "RunRow",
     "SamplingPhase",
     "SamplingPlan",
     "Scenario",

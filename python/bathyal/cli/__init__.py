@@ -20,6 +20,7 @@ from bathyal.cli.plan import plan
 from bathyal.cli.profile import profile
 from bathyal.cli.reach import reach
 from bathyal.cli.run import run
+from bathyal.cli.runs import add, compare, list_runs, query, show
 from bathyal.cli.sample import sample
 from bathyal.cli.scenario_example import example as example_scenario
 from bathyal.cli.soundings import soundings
@@ -68,6 +69,12 @@ app.add_typer(
     name="scenario",
     help="Scenarios of an arm on its vehicle, for `bathyal check`, `reach` and `sample`.",
 )
+
+runs = typer.Typer(rich_markup_mode="rich", no_args_is_help=True)
+for verb in (add, show, compare, query):
+    runs.command(epilog=_EXIT_CODES)(spread(verb))
+runs.command("list", epilog=_EXIT_CODES)(spread(list_runs))
+app.add_typer(runs, name="runs", help="The run base: what runs were made of and how they ended.")
 
 
 @app.callback(invoke_without_command=True)

@@ -50,8 +50,8 @@ class _Imu:
 class ArduSubLink(Link):
     """ArduPilot's software in the loop, started with ``--model JSON:127.0.0.1``.
 
-    Each of its packets is one tick. It receives the true state, with the rates and specific force of
-    the mission's IMU where there is one.
+    Each of its packets is one tick. It receives the true state, with the rates and specific force
+    of the mission's IMU where there is one.
 
     Parameters
     ----------

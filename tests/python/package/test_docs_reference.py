@@ -105,6 +105,7 @@ def test_every_command_is_in_the_reference(sections: dict[str, str]) -> None:
         "run",
     ]
     expected = [*verbs, "touches example", "touches plan", "scenario example"]
+    expected += [f"runs {verb}" for verb in ("add", "list", "show", "compare", "query")]
     assert set(sections) == {f"bathyal {verb}" for verb in expected}
 
 
