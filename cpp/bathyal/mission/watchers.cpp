@@ -31,7 +31,8 @@ double most_change(SensorKind kind, std::size_t channel, double time) {
     case SensorKind::compass:
       return 1.5 * time;  // [rad/s]
     case SensorKind::imu:
-      return channel < 3 ? 5.0 * time : 3.0;  // [rad/s²], [m/s²]
+      return channel < 3 ? 30.0 * time
+                         : 15.0;  // [rad/s²], [m/s²]: small vehicles have strong thrusters
     case SensorKind::depth:
     case SensorKind::altimeter:
       return 3.0 * time;  // [m/s]
@@ -137,7 +138,7 @@ WatcherState Watchers::fresh() const {
   return state;
 }
 
-/// Whether a device that predicts is suspected, so that what rests on it is not judged.
+/// Whether a device that predicts is suspected, so that what rests on it is not assessed.
 bool Watchers::suspects(const WatcherState& state, std::size_t except) const {
   for (std::size_t i = 0; i < sensors_.size(); ++i) {
     const SensorKind kind = sensors_[i].kind;
@@ -158,6 +159,14 @@ const char* Watchers::own_fault(const SensorOptions& sensor, const SensorWatch& 
   if (watch.lost > sensor.dropout + options_.lost) return "intermittent";
   if (watch.late > options_.late && sensor.kind != SensorKind::usbl) return "delayed";
   return nullptr;
+}
+
+/// Whether a propeller or fin does something else than it should: the vehicle may tumble then, and
+/// sensors are not assessed by how it moves.
+bool Watchers::is_driven_wrong(const WatcherState& state) const {
+  const auto wrong = [](const DeviceWatch& watch) { return watch.since >= 0.0; };
+  return std::any_of(state.thrusters.begin(), state.thrusters.end(), wrong) ||
+         std::any_of(state.fins.begin(), state.fins.end(), wrong);
 }
 
 /// By how much compass and gyro differ in how fast the vehicle turns [rad/s].
@@ -204,6 +213,7 @@ void Watchers::compare_rates(WatcherState& state, std::size_t row, const SensorR
       const Vec3 turned = attitude * (mount * force);
       take_rate(state.level_x, reading.time, turned.x());
       take_rate(state.level_y, reading.time, turned.y());
+      if (is_driven_wrong(state)) break;
       const double rolling = std::max(std::abs(state.roll.mean), std::abs(state.pitch.mean));
       if (rolling > options_.rolling || std::abs(state.force.mean) > options_.force) {
         blame(state, SensorKind::imu, reports);
@@ -213,7 +223,7 @@ void Watchers::compare_rates(WatcherState& state, std::size_t row, const SensorR
     default:
       return;
   }
-  if (suspects(state, sensors_.size())) return;
+  if (suspects(state, sensors_.size()) || is_driven_wrong(state)) return;
   const double apart = turns_apart(state);
   if (apart < options_.turn) {
     state.turn_since = -1.0;
@@ -246,10 +256,11 @@ void Watchers::reading(WatcherState& state, int device, const SensorReading& bef
   const bool equal =
       before.index >= 0 && before.valid && reading.valid && before.values == reading.values;
   watch.repeats = equal && noisy ? watch.repeats + 1 : 0;
-  const bool jump = jumps(sensor, before, reading);
+  const bool jump = jumps(sensor, before, reading) && !is_driven_wrong(state);
   bool drifts = false;
-  const bool judged = !suspects(state, row) && turns_apart(state) < kLevel * options_.turn;
-  if (update != nullptr && update->used && judged) {
+  const bool assessed = !is_driven_wrong(state) && !suspects(state, row) &&
+                      turns_apart(state) < kLevel * options_.turn;
+  if (update != nullptr && update->used && assessed) {
     watch.refused += kRecent * ((update->accepted && !jump ? 0.0 : 1.0) - watch.refused);
     for (int i = 0; i < std::min(update->count, 3); ++i) {
       const auto k = static_cast<std::size_t>(i);

@@ -20,7 +20,7 @@ struct WatcherOptions {
   double late = 0.3;           ///< beyond its latency [s]
   int repeats = 15;            ///< equal readings in a row: it is stuck
   double refused = 0.5;        ///< share of readings that the filter refuses, or that jump
-  double suspected = 0.15;     ///< the same, from which on what rests on it is not judged
+  double suspected = 0.15;     ///< the same, from which on what rests on it is not assessed
   double rise = 0.02;          ///< between vertical speeds of depth sensor and velocity log [m/s]
   double turn = 0.01;          ///< between rates of turn of compass and gyro [rad/s]
   double turn_persist = 5.0;   ///< of that [s]
@@ -108,6 +108,7 @@ class Watchers {
   bool suspects(const WatcherState& state, std::size_t except) const;
   void compare_rates(WatcherState& state, std::size_t row, const SensorReading& reading,
                      const Eigen::Quaterniond& attitude, std::vector<DeviceReport>& reports) const;
+  bool is_driven_wrong(const WatcherState& state) const;
   double turns_apart(const WatcherState& state) const;
   void blame(WatcherState& state, SensorKind kind, std::vector<DeviceReport>& reports) const;
   const char* own_fault(const SensorOptions& sensor, const SensorWatch& watch) const;

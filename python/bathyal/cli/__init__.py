@@ -71,8 +71,8 @@ app.add_typer(
 )
 
 runs = typer.Typer(rich_markup_mode="rich", no_args_is_help=True)
-for verb in (add, show, compare, query):
-    runs.command(epilog=_EXIT_CODES)(spread(verb))
+for run_verb in (add, show, compare, query):
+    runs.command(epilog=_EXIT_CODES)(spread(run_verb))
 runs.command("list", epilog=_EXIT_CODES)(spread(list_runs))
 app.add_typer(runs, name="runs", help="The run base: what runs were made of and how they ended.")
 

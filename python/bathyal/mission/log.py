@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bathyal import _core
-from bathyal.io.files import PathLike
+from bathyal.io.files import PathLike, need, replacing
 
 Array = NDArray[np.float64]
 
@@ -113,6 +113,41 @@ class RunLog:
             poses[:, row, 3] = rows[f"pose.position.{axis}"]
         poses[:, 3, 3] = 1.0
         return poses
+
+    def to_parquet(self, folder: PathLike) -> list[Path]:
+        """Write each topic as a Parquet file: ``/sensors/dvl`` as ``sensors_dvl.parquet``.
+
+        Parameters
+        ----------
+        folder : path
+            Made if missing.
+
+        Returns
+        -------
+        list of Path
+            One a topic; columns as the fields of `messages`, rows of numbers as lists.
+
+        Raises
+        ------
+        Error
+            Without the package pyarrow.
+        OSError
+            Where the folder cannot be written.
+        """
+        arrow = need("pyarrow", "pyarrow", "Parquet", extra="parquet")
+        parquet = need("pyarrow.parquet", "pyarrow", "Parquet", extra="parquet")
+        Path(folder).mkdir(parents=True, exist_ok=True)
+        written = []
+        for topic in self.topics:
+            columns = {
+                name: list(values) if values.ndim > 1 else values
+                for name, values in self.messages(topic).items()
+            }
+            path = Path(folder) / f"{topic.strip('/').replace('/', '_')}.parquet"
+            with replacing(path) as temporary:
+                parquet.write_table(arrow.table(columns), temporary)
+            written.append(path)
+        return written
 
 
 def _flat(row: dict[str, Any], before: str) -> list[tuple[str, Any]]:

@@ -82,3 +82,19 @@ def test_poses_are_those_of_the_log(run):
     np.testing.assert_allclose(product, np.broadcast_to(np.eye(3), product.shape), atol=1e-12)
     np.testing.assert_array_equal(poses[:, 2, 3], log.messages("/truth")["pose.position.z"])
     assert bathyal.Trajectory(log.messages("/truth")["time"], poses)
+
+
+def test_topics_are_written_as_tables(run, tmp_path):
+    parquet = pytest.importorskip("pyarrow.parquet")
+    log = bathyal.read_run(run).log
+    paths = log.to_parquet(tmp_path / "tables")
+    assert "sensors_dvl" in {path.stem for path in paths}
+    for topic, path in zip(log.topics, paths, strict=True):
+        table, wanted = parquet.read_table(path), log.messages(topic)
+        assert table.column_names == list(wanted)
+        for name, values in wanted.items():
+            found = table[name].to_pylist()
+            if values.dtype.kind == "f":
+                np.testing.assert_array_equal(np.array(found, dtype=float), values)
+            else:
+                assert found == values.tolist()
