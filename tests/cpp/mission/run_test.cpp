@@ -186,6 +186,11 @@ TEST(MissionRun, SavedRunsOfAnotherSeedOrCutOnesAreRefused) {
     EXPECT_ANY_THROW(run.load(bytes.substr(0, size))) << size;
   }
   EXPECT_ANY_THROW(run.load(bytes + "x"));
+  for (std::size_t i = 0; i < bytes.size(); i += 131) {
+    std::string bent = bytes;
+    bent[i] = static_cast<char>(static_cast<unsigned char>(bent[i]) ^ 0x10U);
+    EXPECT_THROW(run.load(bent), Error) << i;
+  }
 }
 
 TEST(MissionRun, TellsWhatTheNextTickTakesIn) {

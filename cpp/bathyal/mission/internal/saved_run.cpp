@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bathyal/mission/internal/saved_run.hpp"
 
+#include <algorithm>
+
+#include "bathyal/log/mcap.hpp"
 #include "bathyal/mission/archive.hpp"
 #include "bathyal/navigation/navigation_state_bytes.hpp"
 
@@ -133,16 +136,25 @@ std::string saved_run(const MissionState& state, const std::string& fingerprint,
   ByteWriter writer;
   writer(magic, of, seed);
   archive_state(writer, copy, navigation);
-  return writer.take();
+  std::string bytes = writer.take();
+  std::uint32_t sum = crc32(bytes);
+  ByteWriter end;
+  end(sum);
+  return bytes.append(end.take());
 }
 
 MissionState loaded_run(const std::string& bytes, const MissionState& like,
                         const std::string& fingerprint, std::uint64_t seed) {
-  ByteReader reader(bytes);
+  std::uint32_t sum = 0;
+  if (bytes.size() < sizeof sum) throw Error("a saved run ends too early");
+  const std::string_view content(bytes.data(), bytes.size() - sizeof sum);
+  ByteReader(std::string_view(bytes).substr(content.size()))(sum);
+  ByteReader reader(content);
   std::uint64_t magic = 0, of_seed = 0;
   std::string of, navigation;
   reader(magic);
   if (magic != kMagic) throw Error("expected a saved run, got other bytes");
+  if (sum != crc32(content)) throw Error("a saved run that was cut or changed");
   reader(of, of_seed);
   if (of != fingerprint) throw Error("a saved run of another mission");
   if (of_seed != seed) {
@@ -150,12 +162,20 @@ MissionState loaded_run(const std::string& bytes, const MissionState& like,
   }
   MissionState state;
   archive_state(reader, state, navigation);
-  const bool same = reader.left() == 0 && state.lines.size() == like.lines.size() &&
-                    state.leaves.size() == like.leaves.size() &&
-                    state.faults.size() == like.faults.size() &&
-                    state.signals.size() == like.signals.size() &&
-                    state.vehicle.thrusters.size() == like.vehicle.thrusters.size() &&
-                    state.held_commands.size() == like.held_commands.size();
+  const bool same =
+      reader.left() == 0 && state.lines.size() == like.lines.size() &&
+      state.leaves.size() == like.leaves.size() && state.faults.size() == like.faults.size() &&
+      state.signals.size() == like.signals.size() &&
+      state.vehicle.thrusters.size() == like.vehicle.thrusters.size() &&
+      state.held_commands.size() == like.held_commands.size() &&
+      state.guard_since.size() == like.guard_since.size() &&
+      state.watchers.sensors.size() == like.watchers.sensors.size() && state.guard >= -1 &&
+      state.guard < static_cast<std::int64_t>(like.guard_since.size()) &&
+      std::all_of(state.pending.begin(), state.pending.end(),
+                  [&like](const PendingReading& reading) {
+                    return reading.device >= 0 &&
+                           reading.device < static_cast<std::int64_t>(like.lines.size());
+                  });
   if (!same) throw Error("a saved run that does not fit its mission");
   state.navigation = navigation_state_of(navigation);
   return state;
