@@ -82,7 +82,7 @@ def _reason(error: Any) -> str:
     if kind == "missing":
         return "it is missing"
     if kind == "extra_forbidden":
-        return "this key is not known"
+        return f"this key is not known: {str(error['loc'][-1])!r:.80}"
     if kind == "value_error":
         return message.removeprefix("Value error, ")
     if kind == "union_tag_not_found":

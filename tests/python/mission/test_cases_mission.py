@@ -206,7 +206,6 @@ HOSTILE = {
     ),
 }
 OPEN = {
-    "an unknown command": "an unknown command in a list is refused without its name",
     "a guard with wrong units": "a condition compares a depth with seconds",
 }
 
