@@ -73,23 +73,25 @@ class HeavyVehicleWarning(UserWarning):
 
 
 def warn_of_weight(vehicle: Vehicle, *, mass: float = 0.0, volume: float = 0.0) -> None:
-    """Warns of a weight above buoyancy, beyond a hundredth.
+    """Warns of a weight above buoyancy: by a hundredth, with ballast that it can drop by a fifth.
 
     Parameters
     ----------
     vehicle : Vehicle
     mass, volume : float
-        Of what it carries [kg, m³].
+        Of the ballast [kg, m³].
     """
-    weight = (vehicle.mass + mass) * vehicle.gravity
-    buoyancy = (vehicle.volume + volume) * vehicle.water_density * vehicle.gravity
-    if weight > 1.01 * buoyancy:
-        warnings.warn(
-            f"{vehicle.name}: a weight of {weight:.1f} N above its buoyancy of {buoyancy:.1f} N: "
-            "it sinks",
-            HeavyVehicleWarning,
-            stacklevel=3,
-        )
+    for more, space, allowed in ((0.0, 0.0, 1.01), (mass, volume, 1.2)):
+        weight = (vehicle.mass + more) * vehicle.gravity
+        buoyancy = (vehicle.volume + space) * vehicle.water_density * vehicle.gravity
+        if weight > allowed * buoyancy:
+            warnings.warn(
+                f"{vehicle.name}: a weight of {weight:.1f} N above its buoyancy of "
+                f"{buoyancy:.1f} N: it sinks",
+                HeavyVehicleWarning,
+                stacklevel=3,
+            )
+            return
 
 
 class VehicleBuilder(DocumentFiles):
