@@ -9,6 +9,7 @@ from typing import Annotated
 import typer
 
 from bathyal.cli import options as opt
+from bathyal.cli.runs import existing_base
 from bathyal.cli.talk import Talk
 
 
@@ -25,6 +26,12 @@ def mission(
             "--example", help="First write an example there, and one with a program on board."
         ),
     ] = False,
+    base: Annotated[
+        Path | None,
+        typer.Option(
+            help="A run base: ways of its runs lie under the picture.", show_default=False
+        ),
+    ] = None,
     schema: Annotated[
         Path | None,
         typer.Option(help="Also write the JSON Schema of missions, for editors.", metavar="FILE"),
@@ -64,8 +71,9 @@ def mission(
             schema.write_text(json_format.dumps(mission_schema(), indent=1) + "\n")
             written.append(str(schema))
         if picture is not None:
+            earlier = () if base is None else existing_base(base).ways()
             with progress("Drawing"):
-                mission_figure(given).savefig(picture, dpi=100)
+                mission_figure(given, earlier).savefig(picture, dpi=100)
             written.append(str(picture))
     facts = describe_mission(given)
     rows = {**facts, **({"written": "\n".join(written)} if written else {})}

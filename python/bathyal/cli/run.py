@@ -33,6 +33,13 @@ def run(
             show_default=False,
         ),
     ] = None,
+    base: Annotated[
+        Path | None,
+        typer.Option(
+            help="A run base: the run is added, and earlier ways lie under its map.",
+            show_default=False,
+        ),
+    ] = None,
     picture: Annotated[
         bool, typer.Option("--picture/--no-picture", help="Draw four views, run.png.")
     ] = True,
@@ -59,6 +66,7 @@ def run(
     """
     from bathyal.mission.files import read_mission
     from bathyal.mission.run import run as run_mission
+    from bathyal.mission.run_base import RunBase
 
     talk = Talk(json=json, quiet=quiet)
     with talk.progress() as progress:
@@ -72,10 +80,13 @@ def run(
         files = [out / name for name in ("mission.yaml", "log.mcap", "run.json")]
         if ports or speed is not None:
             files.append(out / "links.json")
+        known = None if base is None else RunBase(base)
         if picture:
             with progress("Drawing"):
-                found.plot(out / "run.png")
+                found.plot(out / "run.png", earlier=known.ways() if known else ())
             files.append(out / "run.png")
+        if known:
+            known.add_folder(out)
     names = [str(path) for path in files]
     events = [
         f"{event.time:8.1f} s  {event.kind}: {event.text}"

@@ -46,7 +46,7 @@ def list_runs(*, base: Base, json: opt.Json = False, quiet: opt.Quiet = False) -
 
       bathyal runs list runs.db
     """
-    _say(Talk(json=json, quiet=quiet), _existing(base).list())
+    _say(Talk(json=json, quiet=quiet), existing_base(base).list())
 
 
 def query(
@@ -65,7 +65,7 @@ def query(
 
       bathyal runs query runs.db "metric position_rms < 1 and status = 'done'"
     """
-    _say(Talk(json=json, quiet=quiet), _existing(base).query(text))
+    _say(Talk(json=json, quiet=quiet), existing_base(base).query(text))
 
 
 def show(*, base: Base, number: Number, json: opt.Json = False, quiet: opt.Quiet = False) -> None:
@@ -75,7 +75,7 @@ def show(*, base: Base, number: Number, json: opt.Json = False, quiet: opt.Quiet
 
       bathyal runs show runs.db 1
     """
-    run = _existing(base).show(number)
+    run = existing_base(base).show(number)
     data = {
         "name": run.name,
         "seed": run.seed,
@@ -107,7 +107,7 @@ def compare(
       bathyal runs compare runs.db 1 2
     """
     talk = Talk(json=json, quiet=quiet)
-    found = _existing(base).compare(first, second)
+    found = existing_base(base).compare(first, second)
     at = found.first_difference
     where = "none" if at is None else f"{at.time:g} s, {at.topic} {at.field}".rstrip()
     rows = {"the same": "yes" if found.same else "no"}
@@ -122,7 +122,7 @@ def compare(
     talk.result({"same": found.same, **asdict(found)}, rows)
 
 
-def _existing(base: Path) -> Any:
+def existing_base(base: Path) -> Any:
     """A base that is read must be there: a mistyped name makes no file."""
     from bathyal.mission.run_base import RunBase
 

@@ -3,9 +3,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+
+from bathyal.mission.picture import draw_earlier
 
 if TYPE_CHECKING:
     import matplotlib.figure
@@ -38,8 +41,14 @@ def planned_points(mission: Mission) -> Any:
     return np.array(rows, dtype=np.float64)
 
 
-def mission_figure(mission: Mission) -> matplotlib.figure.Figure:
+def mission_figure(mission: Mission, earlier: Sequence[Any] = ()) -> matplotlib.figure.Figure:
     """The planned way over the world, from above.
+
+    Parameters
+    ----------
+    mission : Mission
+    earlier : sequence of (K, 2) array
+        Ways of earlier runs [m].
 
     Returns
     -------
@@ -56,6 +65,7 @@ def mission_figure(mission: Mission) -> matplotlib.figure.Figure:
         figure = Figure(figsize=(8, 6))
         axes = figure.add_subplot()
         axes.set_aspect("equal", adjustable="datalim")
+    draw_earlier(axes, earlier)
     points = planned_points(mission)
     axes.plot(points[:, 0], points[:, 1], "-", color="tab:red", lw=1.2)
     axes.plot(points[0, 0], points[0, 1], "^", color="tab:red", ms=8)

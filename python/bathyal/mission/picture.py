@@ -3,9 +3,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 if TYPE_CHECKING:
     import matplotlib.axes
@@ -13,11 +15,19 @@ if TYPE_CHECKING:
 
     from bathyal.mission.run import RunResult
 
+Array = NDArray[np.float64]
+
 _MARKED = {"fault": "tab:red", "report": "tab:orange", "guard": "tab:purple", "mark": "tab:green"}
 
 
-def run_figure(run: RunResult) -> matplotlib.figure.Figure:
+def run_figure(run: RunResult, earlier: Sequence[Array] = ()) -> matplotlib.figure.Figure:
     """The way from above, heights, thrusters, supply and errors over time.
+
+    Parameters
+    ----------
+    run : RunResult
+    earlier : sequence of (K, 2) array
+        Ways of earlier runs, under this one's [m].
 
     Returns
     -------
@@ -29,6 +39,7 @@ def run_figure(run: RunResult) -> matplotlib.figure.Figure:
     state, thrusters = run.log.messages("/state"), run.log.messages("/thrusters")
     figure = Figure(figsize=(12, 8), layout="constrained")
     (above, heights), (turning, supply) = figure.subplots(2, 2)
+    draw_earlier(above, earlier)
     _draw_above(above, run, truth, estimate)
     _draw_heights(heights, run, truth, state)
     turning.plot(thrusters["time"], thrusters["command"], lw=0.7)
@@ -36,6 +47,13 @@ def run_figure(run: RunResult) -> matplotlib.figure.Figure:
     _draw_supply(supply, truth, estimate, state)
     figure.suptitle(f"{run.name}, seed {run.seed}: {run.status}")
     return figure
+
+
+def draw_earlier(axes: matplotlib.axes.Axes, earlier: Sequence[Array]) -> None:
+    """Ways of earlier runs, thin and grey."""
+    for row, way in enumerate(earlier):
+        label = "earlier" if row == 0 else None
+        axes.plot(way[:, 0], way[:, 1], lw=0.6, color="0.65", zorder=1, label=label)
 
 
 def _draw_above(axes: matplotlib.axes.Axes, run: RunResult, truth: Any, estimate: Any) -> None:

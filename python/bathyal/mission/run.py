@@ -8,7 +8,7 @@ import json
 import math
 import platform
 import tempfile
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass, field
 from importlib.metadata import version
 from pathlib import Path
@@ -80,13 +80,17 @@ class RunResult:
         """The events that are faults."""
         return [event for event in self.events if event.kind == "fault"]
 
-    def plot(self, path: PathLike | None = None) -> Any:
+    def plot(
+        self, path: PathLike | None = None, *, earlier: Sequence[NDArray[np.float64]] = ()
+    ) -> Any:
         """Four views: the way from above, heights, thrusters, supply and errors over time.
 
         Parameters
         ----------
         path : path, optional
             ``.png``, written as well.
+        earlier : sequence of (K, 2) array
+            Ways of earlier runs, drawn under this one's: see `RunBase.ways` [m].
 
         Returns
         -------
@@ -94,7 +98,7 @@ class RunResult:
         """
         from bathyal.mission.picture import run_figure
 
-        figure = run_figure(self)
+        figure = run_figure(self, earlier)
         if path is not None:
             figure.savefig(path, dpi=100)
         return figure

@@ -13,6 +13,9 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 from bathyal._core import Error
 from bathyal.errors import argument_error
 from bathyal.io.files import PathLike, shown
@@ -71,6 +74,7 @@ class RunRow:
 
 
 Rows = list[RunRow]  # within the class, `list` is its method
+Ways = list[NDArray[np.float64]]
 
 
 class RunBase:
@@ -238,6 +242,26 @@ class RunBase:
             versions=json.loads(versions),
             scenario_sha256=row.scenario_sha256,
         )
+
+    def ways(self, *, most: int = 20) -> Ways:
+        """The ways of the latest runs from above, to lie under the next map.
+
+        Parameters
+        ----------
+        most : int
+            So many runs.
+
+        Returns
+        -------
+        list of (K, 2) array
+            x, y of the true way, the latest run first; runs whose logs are gone are left out [m].
+        """
+        found: Ways = []
+        for row in reversed(self.list()):
+            log = Path(row.folder) / LOG
+            if len(found) < most and log.is_file():
+                found.append(RunLog(log).poses("/truth")[:, :2, 3])
+        return found
 
     def scenario(self, id: int) -> str:
         """The text of a run's mission.

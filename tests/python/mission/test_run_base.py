@@ -11,6 +11,7 @@ import sqlite3
 import subprocess
 import sys
 
+import numpy as np
 import pytest
 
 import bathyal
@@ -242,3 +243,35 @@ def test_commands(folders, tmp_path, capsys):
     assert code == 1
     assert "no such run base" in err
     assert not (tmp_path / "mistyped.db").exists()
+
+
+def test_ways_of_earlier_runs_lie_under_the_next_map(tmp_path, capsys):
+    path = tmp_path / "mission.yaml"
+    path.write_text(
+        "world: {water: {surface: 0}, terrain: {seabed: {size: [40, 40], spacing: 1, depth: 10}}}\n"
+        "vehicle: {preset: bluerov2_heavy}\nstart: {position: [0, 0, -2]}\n"
+        "mission: [leg: {to: [4, 0], depth: 2 m}]\n"
+    )
+    base = tmp_path / "runs.db"
+    for seed in (1, 2):
+        code, _, error = command(
+            capsys, "run", path, "--seed", seed, "--out", tmp_path / str(seed), "--base", base
+        )
+        assert code == 0, error
+    found = bathyal.RunBase(base)
+    assert [row.seed for row in found.list()] == [1, 2]
+    ways = found.ways()
+    last = bathyal.read_run(tmp_path / "2")
+    np.testing.assert_array_equal(ways[0], last.log.poses("/truth")[:, :2, 3])
+    assert len(ways) == 2
+    assert len(found.ways(most=1)) == 1
+    (tmp_path / "2" / "log.mcap").unlink()
+    assert len(found.ways()) == 1
+    one = bathyal.read_run(tmp_path / "1").plot(earlier=ways)
+    lines = [line for line in one.axes[0].lines if line.get_label() == "earlier"]
+    np.testing.assert_array_equal(lines[0].get_xydata(), ways[0])
+    code, _, error = command(
+        capsys, "mission", path, "--base", base, "--picture", tmp_path / "map.png"
+    )
+    assert code == 0, error
+    assert (tmp_path / "map.png").stat().st_size > 5000
