@@ -243,6 +243,28 @@ std::vector<std::pair<std::string, py::bytes>> mcap_messages(const py::bytes& co
   return all;
 }
 
+using LoggedMessage = py::typing::Tuple<py::str, py::int_, py::bytes>;
+
+void write_mcap(const std::string& path, const py::typing::List<LoggedMessage>& messages) {
+  McapWriter writer(path);
+  std::map<std::string, std::uint16_t, std::less<>> channels;
+  for (const py::handle item : messages) {
+    const auto message = item.cast<py::tuple>();
+    if (message.size() != 3) {
+      throw_argument("messages", "tuples of topic, time and data", std::to_string(message.size()));
+    }
+    const auto topic = message[0].cast<std::string_view>();
+    const auto data = message[2].cast<py::bytes>();
+    auto known = channels.find(topic);
+    if (known == channels.end()) {
+      const std::uint16_t channel = writer.add_channel({0, std::string(topic), "json"});
+      known = channels.emplace(topic, channel).first;
+    }
+    writer.write(known->second, message[1].cast<std::uint64_t>(), std::string_view(data));
+  }
+  writer.close();
+}
+
 LiveInputs inputs_of(bool stop, const OptionalArray& wrench, const OptionalArray& thrusters,
                      const OptionalArray& fins, const MissionPlan& plan) {
   LiveInputs inputs;
@@ -405,6 +427,8 @@ void bind_mission(py::module_& module) {
           "The state, from which another goes on with the same bytes, log included.")
       .def("close", &LoggedRun::close, "Ends the log.");
   module.def("mcap_messages", &mcap_messages, py::arg("content"), mission_docs::kMcapMessages);
+  module.def("write_mcap", &write_mcap, py::arg("path"), py::arg("messages"),
+             mission_docs::kWriteMcap);
   module.def("read_mcap", &messages_of, py::arg("bytes"), mission_docs::kReadMcap);
 }
 

@@ -45,6 +45,19 @@ Raises
 Error
     For bytes that are no MCAP, or compressed ones.)";
 
+inline constexpr const char* kWriteMcap = R"(Messages as an MCAP file, without compression.
+
+Parameters
+----------
+path : str
+messages : list of tuples
+    Topic, time [ns] and data, JSON.
+
+Raises
+------
+Error
+    Where the file cannot be written.)";
+
 inline constexpr const char* kArrived = R"(What the next tick takes in, in its order.
 
 Returns
