@@ -182,7 +182,6 @@ Dense dense(const BodyTree& tree, const TreeState& state, const TreeLoads& loads
   for (std::size_t k = 0; k < at.size(); ++k) {
     // Each link alone is a body in water as a vehicle is, written out about its water frame.
     const TreeLink& link = options.links[k];
-    const Pose water_from_link = link.link_from_water.inverse();
     const Mat6 to_water = moved(link.link_from_water);
     const Vec6 velocity = at[k] * u;
     const Eigen::Matrix3d link_from_world =
