@@ -10,32 +10,14 @@
 
 #include "bathyal/base/check.hpp"
 #include "bathyal/base/error.hpp"
+#include "bathyal/vehicle/internal/flat_motion.hpp"
+#include "bathyal/vehicle/internal/stable_step.hpp"
 
 namespace bathyal {
 namespace {
 
 constexpr std::array<const char*, 6> kAxisNames{"surge", "sway", "heave", "roll", "pitch", "yaw"};
 constexpr double kMostSteps = 1e8;
-
-/// Position, quaternion (x, y, z, w) and velocity as one vector.
-using Flat = Eigen::Matrix<double, 13, 1>;
-
-Flat flat_of(const VehicleState& state) {
-  const Eigen::Quaterniond turn(state.world_from_vehicle.linear());
-  Flat flat;
-  flat << state.world_from_vehicle.translation(), turn.coeffs(), state.velocity;
-  return flat;
-}
-
-VehicleState state_of(const Flat& flat) {
-  Eigen::Quaterniond turn(flat.segment<4>(3));
-  turn.normalize();
-  VehicleState state;
-  state.world_from_vehicle.linear() = turn.toRotationMatrix();
-  state.world_from_vehicle.translation() = flat.head<3>();
-  state.velocity = flat.tail<6>();
-  return state;
-}
 
 class Equations {
  public:
@@ -54,16 +36,12 @@ class Equations {
     return sum;
   }
 
-  Flat rate(double time, const Flat& flat) const {
-    const VehicleState state = state_of(flat);
+  vehicle::FlatMotion rate(double time, const vehicle::FlatMotion& flat) const {
+    const VehicleState state = vehicle::motion_of(flat);
     const Flow water = flow(state.world_from_vehicle.translation(), time);
-    const Eigen::Quaterniond turn(flat.segment<4>(3));
-    const Vec3 spin = state.velocity.tail<3>();
-    const Eigen::Quaterniond turned = turn * Eigen::Quaterniond(0.0, spin.x(), spin.y(), spin.z());
-    Flat change;
-    change << state.world_from_vehicle.linear() * state.velocity.head<3>(), 0.5 * turned.coeffs(),
-        vehicle_.acceleration(state, wrench(time, state, water), water, options_.free);
-    return change;
+    return vehicle::rate_of(
+        flat, state,
+        vehicle_.acceleration(state, wrench(time, state, water), water, options_.free));
   }
 
  private:
@@ -73,32 +51,15 @@ class Equations {
   const SimulateOptions& options_;
 };
 
-Flat advanced(const Equations& equations, double time, const Flat& flat, double step) {
-  const Flat k1 = equations.rate(time, flat);
-  const Flat k2 = equations.rate(time + 0.5 * step, flat + 0.5 * step * k1);
-  const Flat k3 = equations.rate(time + 0.5 * step, flat + 0.5 * step * k2);
-  const Flat k4 = equations.rate(time + step, flat + step * k3);
-  Flat next = flat + step / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4);
+vehicle::FlatMotion advanced(const Equations& equations, double time,
+                             const vehicle::FlatMotion& flat, double step) {
+  const vehicle::FlatMotion k1 = equations.rate(time, flat);
+  const vehicle::FlatMotion k2 = equations.rate(time + 0.5 * step, flat + 0.5 * step * k1);
+  const vehicle::FlatMotion k3 = equations.rate(time + 0.5 * step, flat + 0.5 * step * k2);
+  const vehicle::FlatMotion k4 = equations.rate(time + step, flat + step * k3);
+  vehicle::FlatMotion next = flat + step / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4);
   next.segment<4>(3).normalize();
   return next;
-}
-
-/// |1 + z + z²/2 + z³/6 + z⁴/24|: by how much the method multiplies a mode in a step.
-double growth(std::complex<double> z) {
-  return std::abs(1.0 + z * (1.0 + z * (0.5 + z * (1.0 / 6.0 + z / 24.0))));
-}
-
-/// The largest step at which a mode that dies down, or swings, does so in the method as well.
-double largest_step(std::complex<double> rate) {
-  if (std::abs(rate) < 1e-12 || rate.real() > 1e-9 * std::abs(rate)) {
-    return std::numeric_limits<double>::infinity();
-  }
-  double low = 0.0, high = 6.0 / std::abs(rate);
-  for (int i = 0; i < 60; ++i) {
-    const double middle = 0.5 * (low + high);
-    (growth(middle * rate) <= 1.0 + 1e-12 ? low : high) = middle;
-  }
-  return low;
 }
 
 /// d(attitude, velocity)/dt at a small turn and a small change of velocity.
@@ -106,12 +67,8 @@ Eigen::Matrix<double, 9, 1> change_at(const Vehicle& vehicle, const VehicleState
                                       const Eigen::Matrix<double, 9, 1>& off, const Vec6& wrench,
                                       const Flow& flow, const FreeAxes& free) {
   VehicleState state = about;
-  const Vec3 turn = off.head<3>();
-  const double angle = turn.norm();
-  if (angle > 0.0) {
-    state.world_from_vehicle.linear() = about.world_from_vehicle.linear() *
-                                        Eigen::AngleAxisd(angle, turn / angle).toRotationMatrix();
-  }
+  state.world_from_vehicle.linear() =
+      vehicle::turned(about.world_from_vehicle.linear(), off.head<3>());
   state.velocity += off.tail<6>();
   Eigen::Matrix<double, 9, 1> change;
   change << Vec3(off.tail<3>()), vehicle.acceleration(state, wrench, flow, free);
@@ -170,7 +127,7 @@ FastestMode fastest_mode(const Vehicle& vehicle, const VehicleState& state, cons
   fastest.step = std::numeric_limits<double>::infinity();
   for (int k = 0; k < 9; ++k) {
     const std::complex<double> rate = modes.eigenvalues()[k];
-    const double step = largest_step(rate);
+    const double step = vehicle::largest_step(rate);
     if (!(step < fastest.step)) continue;
     fastest.step = step;
     fastest.rate = std::abs(rate);
@@ -189,7 +146,7 @@ VehicleMotionRecord simulate(const Vehicle& vehicle, const VehicleState& start,
   check_step(vehicle, start, equations, options);
   const auto count = static_cast<std::int64_t>(std::ceil(options.duration / options.step - 1e-9));
   VehicleMotionRecord record;
-  Flat flat = flat_of(start);
+  vehicle::FlatMotion flat = vehicle::flat_of(start);
   record.time.push_back(options.start);
   record.state.push_back(start);
   for (std::int64_t k = 0; k < count; ++k) {
@@ -201,7 +158,7 @@ VehicleMotionRecord simulate(const Vehicle& vehicle, const VehicleState& start,
       throw Error("the motion runs away at " + to_text(to) + " s: its numbers are not finite");
     }
     record.time.push_back(to);
-    record.state.push_back(state_of(flat));
+    record.state.push_back(vehicle::motion_of(flat));
   }
   return record;
 }

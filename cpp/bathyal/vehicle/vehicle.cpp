@@ -169,8 +169,7 @@ Vec6 Vehicle::drag(const Vec6& relative) const {
   return force;
 }
 
-Vec6 Vehicle::acceleration(const VehicleState& state, const Vec6& wrench, const Flow& flow,
-                           const FreeAxes& free) const {
+Vec6 Vehicle::force(const VehicleState& state, const Vec6& wrench, const Flow& flow) const {
   const Eigen::Matrix3d vehicle_from_world = state.world_from_vehicle.linear().transpose();
   const Vec3 turning_rate = state.velocity.tail<3>();
   Vec6 water = Vec6::Zero(), water_change = Vec6::Zero();
@@ -182,8 +181,14 @@ Vec6 Vehicle::acceleration(const VehicleState& state, const Vec6& wrench, const 
                coriolis(rigid_, state.velocity) - coriolis(options_->added_mass, relative) +
                options_->added_mass * water_change;
   force.head<3>() += options_->water_density * options_->body.volume * pushed;
-  if (free == kAllFree) return inverse_ * force;
-  return solved(mass_, force, free);
+  return force;
+}
+
+Vec6 Vehicle::acceleration(const VehicleState& state, const Vec6& wrench, const Flow& flow,
+                           const FreeAxes& free) const {
+  const Vec6 total = force(state, wrench, flow);
+  if (free == kAllFree) return inverse_ * total;
+  return solved(mass_, total, free);
 }
 
 Mat6 ellipsoid_added_mass(const Vec3& half_axes, double water_density) {

@@ -81,6 +81,9 @@ class Vehicle {
   Vec6 acceleration(const VehicleState& state, const Vec6& wrench, const Flow& flow = {},
                     const FreeAxes& free = kAllFree) const;
 
+  /// mass_matrix() · dν/dt with all axes free.
+  Vec6 force(const VehicleState& state, const Vec6& wrench, const Flow& flow = {}) const;
+
   /// Force and moment of weight and buoyancy, about the origin, in the vehicle's frame.
   Vec6 hydrostatic(const Pose& world_from_vehicle) const;
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "bathyal/base/check.hpp"
+#include "bathyal/vehicle/internal/flat_motion.hpp"
 
 namespace bathyal {
 namespace vehicle_system {  // a lambda keeps them: not without a name
@@ -27,33 +28,11 @@ struct ThrusterCourse {
   std::array<double, kMostThrusters> end_speed{};
 };
 
-/// Position, quaternion (x, y, z, w) and velocity as one vector.
-using Flat = Eigen::Matrix<double, 13, 1>;
-
 }  // namespace vehicle_system
 
 namespace {
 
 using namespace vehicle_system;
-
-VehicleState motion_of(const Flat& flat) {
-  VehicleState state;
-  state.world_from_vehicle.linear() =
-      Eigen::Quaterniond(flat.segment<4>(3)).normalized().toRotationMatrix();
-  state.world_from_vehicle.translation() = flat.head<3>();
-  state.velocity = flat.tail<6>();
-  return state;
-}
-
-Flat rate_of(const Flat& flat, const VehicleState& state, const Vec6& acceleration) {
-  const Eigen::Quaterniond turn(flat.segment<4>(3));
-  const Vec3 spin = state.velocity.tail<3>();
-  const Eigen::Quaterniond turned = turn * Eigen::Quaterniond(0.0, spin.x(), spin.y(), spin.z());
-  Flat rate;
-  rate << state.world_from_vehicle.linear() * state.velocity.head<3>(), 0.5 * turned.coeffs(),
-      acceleration;
-  return rate;
-}
 
 Vec6 relative_velocity(const VehicleState& motion, const Flow& flow) {
   Vec6 relative = motion.velocity;
@@ -210,8 +189,8 @@ void VehicleSystem::advance(VehicleSystemState& state, const VehicleCommands& co
     if (commands.drop[i] != 0) state.drop_weights[i].released = 1;
   }
   const ThrusterCourse course = thruster_course(state, commands, load.voltage, time);
-  const auto rate = [&](const Flat& flat, int part) {
-    const VehicleState motion = motion_of(flat);
+  const auto rate = [&](const vehicle::FlatMotion& flat, int part) {
+    const VehicleState motion = vehicle::motion_of(flat);
     const StepConditions here = around(0.5 * part * time, motion);
     const Vec6 relative = relative_velocity(motion, here.flow);
     const auto stage = static_cast<std::size_t>(part);
@@ -224,18 +203,16 @@ void VehicleSystem::advance(VehicleSystemState& state, const VehicleCommands& co
       const FinState fin = fins_[i].advanced(state.fins[i], commands.fins[i], 0.5 * part * time);
       wrench += fins_[i].wrench(fin.angle, relative);
     }
-    return rate_of(flat, motion, vehicle_.acceleration(motion, wrench, here.flow));
+    return vehicle::rate_of(flat, motion, vehicle_.acceleration(motion, wrench, here.flow));
   };
-  Flat flat;
-  flat << state.motion.world_from_vehicle.translation(),
-      Eigen::Quaterniond(state.motion.world_from_vehicle.linear()).coeffs(), state.motion.velocity;
-  const Flat k1 = rate(flat, 0);
-  const Flat k2 = rate(flat + 0.5 * time * k1, 1);
-  const Flat k3 = rate(flat + 0.5 * time * k2, 1);
-  const Flat k4 = rate(flat + time * k3, 2);
-  const Flat next = flat + time / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4);
+  const vehicle::FlatMotion flat = vehicle::flat_of(state.motion);
+  const vehicle::FlatMotion k1 = rate(flat, 0);
+  const vehicle::FlatMotion k2 = rate(flat + 0.5 * time * k1, 1);
+  const vehicle::FlatMotion k3 = rate(flat + 0.5 * time * k2, 1);
+  const vehicle::FlatMotion k4 = rate(flat + time * k3, 2);
+  const vehicle::FlatMotion next = flat + time / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4);
   if (!next.allFinite()) throw Error("the motion runs away: its numbers are not finite");
-  state.motion = motion_of(next);
+  state.motion = vehicle::motion_of(next);
   for (std::size_t i = 0; i < thrusters_.size(); ++i)
     state.thrusters[i].speed = course.end_speed[i];
   for (std::size_t i = 0; i < fins_.size(); ++i) {

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "bathyal/vehicle/tree/body_tree.hpp"
+
+namespace bathyal {
+
+/// Sets the loads of a moment; what it leaves stays as it was. `joints` are efforts, and are not
+/// looked at where a joint motion is given.
+using TreeLoadsFunction =
+    std::function<void(double time, const TreeState& state, TreeLoads& loads)>;
+
+/// Coordinates, rates and accelerations that are carried out, one a link.
+struct JointMotion {
+  std::vector<double> q = {};
+  std::vector<double> rate = {};
+  std::vector<double> acceleration = {};
+};
+/// Sets the motion of a moment.
+using JointMotionFunction = std::function<void(double time, JointMotion& motion)>;
+
+struct SimulateTreeOptions {
+  double duration = 0.0;  ///< [s], 0 or more
+  double step = 0.01;     ///< [s], above 0
+  double start = 0.0;     ///< time of the first state [s]
+
+  /// \throw std::invalid_argument
+  void check() const;
+};
+
+/// States one step apart, the first and the last among them.
+struct TreeMotionRecord {
+  std::vector<double> time;
+  std::vector<TreeState> state;
+};
+
+/// Integrates as `simulate` does a vehicle alone, in deep water. \param loads null: none. \param
+/// motion null: the joints move under their efforts; else they follow it, and those of `start` are
+/// not looked at.
+/// \throw std::invalid_argument for a step beyond the stability limit of the fastest mode at the
+///        first state, a pose that is not rigid, numbers of another count than links
+/// \throw Error where the motion runs away: it is no longer finite
+TreeMotionRecord simulate_tree(const BodyTree& tree, const TreeState& start,
+                               const TreeLoadsFunction& loads, const JointMotionFunction& motion,
+                               const SimulateTreeOptions& options);
+
+/// The largest step at which no mode of a tree about a state grows where it should not [s]; the
+/// joints are held, or free.
+double largest_stable_step(const BodyTree& tree, const TreeState& state, const TreeLoads& loads,
+                           bool joints_held);
+
+}  // namespace bathyal
