@@ -45,7 +45,7 @@ class Draw {
   std::mt19937 source_;
 };
 
-/// Six links, the last two on a branch of their own; the third slides.
+/// Six links, the last two on a branch of their own, the first of these fixed; the third slides.
 BodyTreeOptions any_tree(unsigned seed, bool water) {
   Draw draw(seed);
   BodyTreeOptions options;
@@ -60,14 +60,14 @@ BodyTreeOptions any_tree(unsigned seed, bool water) {
     link.parent_from_link = draw.pose();
     link.axis = draw.vec3();
     link.body = draw.body(2.0);
-    link.link_from_water = draw.pose(0.1);
     if (water) {
       link.added_mass = draw.positive(0.5);
-      link.linear_drag = draw.positive(0.3);
-      link.terms = {{0, 0, 0, true, -3.0}, {2, 2, 2, true, -4.0}, {1, 0, 5, false, 0.7}};
+      link.strips = {{draw.vec3(0.2), draw.vec3().normalized(), 6.0},
+                     {draw.vec3(0.2), draw.vec3().normalized(), 9.0}};
     }
     options.links.push_back(link);
   }
+  options.links[4].joint = TreeJoint::kFixed;
   options.tip = draw.vec3(0.3);
   return options;
 }
@@ -89,7 +89,7 @@ TreeLoads any_loads(unsigned seed, std::size_t joints) {
   loads.wrench = draw.vec6(10.0);
   loads.tip_wrench = draw.vec6(5.0);
   loads.flow = {draw.vec3(0.4), draw.vec3(0.3)};
-  for (std::size_t k = 0; k < joints; ++k) loads.joints.push_back(draw.number());
+  for (std::size_t k = 0; k < joints; ++k) loads.joints.push_back(k == 4 ? 0.0 : draw.number());
   return loads;
 }
 
@@ -114,7 +114,7 @@ std::vector<Pose> placed(const BodyTreeOptions& options, const Eigen::VectorXd& 
     const double value = q[static_cast<Index>(k)];
     if (link.joint == TreeJoint::kRevolute) {
       joint.linear() = Eigen::AngleAxisd(value, axis).toRotationMatrix();
-    } else {
+    } else if (link.joint == TreeJoint::kPrismatic) {
       joint.translation() = value * axis;
     }
     const Pose own = link.parent_from_link * joint;
@@ -141,7 +141,7 @@ std::vector<Eigen::MatrixXd> jacobians(const BodyTreeOptions& options, const Eig
       if (options.links[at].joint == TreeJoint::kRevolute) {
         own.block<3, 1>(0, 6 + j) = -along.cross(link_from_joint.translation());
         own.block<3, 1>(3, 6 + j) = along;
-      } else {
+      } else if (options.links[at].joint == TreeJoint::kPrismatic) {
         own.block<3, 1>(0, 6 + j) = along;
       }
     }
@@ -180,9 +180,7 @@ Dense dense(const BodyTree& tree, const TreeState& state, const TreeLoads& loads
     }
   }
   for (std::size_t k = 0; k < at.size(); ++k) {
-    // Each link alone is a body in water as a vehicle is, written out about its water frame.
     const TreeLink& link = options.links[k];
-    const Mat6 to_water = moved(link.link_from_water);
     const Vec6 velocity = at[k] * u;
     const Eigen::Matrix3d link_from_world =
         (state.base.world_from_vehicle.linear() * hull_from[k].linear()).transpose();
@@ -190,15 +188,22 @@ Dense dense(const BodyTree& tree, const TreeState& state, const TreeLoads& loads
     flow.head<3>() = link_from_world * loads.flow.velocity;
     const Vec3 pushed = link_from_world * loads.flow.acceleration;
     flow_change.head<3>() = pushed - Vec3(velocity.tail<3>()).cross(Vec3(flow.head<3>()));
-    const Vec6 through = to_water * (velocity - flow);
-    Vec6 in_water = -coriolis(link.added_mass, through) - link.linear_drag * through +
-                    link.added_mass * (to_water * flow_change);
-    for (const ForceTerm& term : link.terms) {
-      const double b = through[term.b];
-      in_water[term.row] += term.coefficient * through[term.a] * (term.absolute ? std::abs(b) : b);
-    }
+    const Vec6 through = velocity - flow;
     const Mat6 rigid = mass_matrix(link.body);
-    Vec6 force = to_water.transpose() * in_water - coriolis(rigid, velocity);
+    Vec6 force = link.added_mass * flow_change - coriolis(link.added_mass, through) -
+                 coriolis(rigid, velocity);
+    for (const DragStrip& strip : link.strips) {
+      Pose at_strip = Pose::Identity();
+      at_strip.linear().col(2) = strip.axis;
+      at_strip.linear().col(0) = strip.axis.unitOrthogonal();
+      at_strip.linear().col(1) = strip.axis.cross(at_strip.linear().col(0));
+      at_strip.translation() = strip.center;
+      const Mat6 to_strip = moved(at_strip);
+      const Vec6 past = to_strip * through;
+      Vec6 push = Vec6::Zero();
+      push.head<2>() = -strip.coefficient * past.head<2>().norm() * past.head<2>();
+      force += to_strip.transpose() * push;
+    }
     const Vec3 down = -link_from_world.col(2);
     const double gravity = options.vehicle.gravity, density = options.vehicle.water_density;
     const Vec3 weight = link.body.mass * gravity * down;
@@ -212,9 +217,13 @@ Dense dense(const BodyTree& tree, const TreeState& state, const TreeLoads& loads
       force.head<3>() += push;
       force.tail<3>() += back * loads.tip_wrench.tail<3>() + options.tip.cross(push);
     }
-    const Mat6 mass = rigid + to_water.transpose() * link.added_mass * to_water;
+    const Mat6 mass = rigid + link.added_mass;
     sum.mass += at[k].transpose() * mass * at[k];
     sum.force += at[k].transpose() * (force - mass * (slopes[k] * u));
+  }
+  for (std::size_t k = 0; k < at.size(); ++k) {
+    const Index row = 6 + static_cast<Index>(k);
+    if (options.links[k].joint == TreeJoint::kFixed) sum.mass(row, row) = 1.0;  // to be solved
   }
   return sum;
 }
@@ -265,8 +274,7 @@ BodyTreeOptions undamped(unsigned seed) {
   BodyTreeOptions options = any_tree(seed, true);
   options.vehicle.linear_drag.setZero();
   for (TreeLink& link : options.links) {
-    link.linear_drag.setZero();
-    link.terms.clear();
+    link.strips.clear();
   }
   return options;
 }
@@ -360,6 +368,16 @@ void expect_refused(const BodyTreeOptions& options, const std::string& field) {
   } catch (const std::invalid_argument& error) {
     EXPECT_NE(std::string(error.what()).find(field), std::string::npos) << error.what();
   }
+}
+
+TEST(Tree, RefusesAJointThatMovesNothing) {
+  BodyTreeOptions options{bluerov2_heavy(), {TreeLink{}}, Vec3::Zero()};
+  const BodyTree tree(options);
+  TreeAcceleration found;
+  EXPECT_THROW(tree.accelerations(tree.rest(), {}, found), std::invalid_argument);
+  TreeLoads loads;
+  loads.drive = JointDrive::kAcceleration;
+  EXPECT_NO_THROW(tree.accelerations(tree.rest(), loads, found));
 }
 
 TEST(Tree, RefusesBadInputByName) {

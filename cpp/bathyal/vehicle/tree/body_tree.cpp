@@ -16,22 +16,20 @@ using tree::Placement;
 struct BodyTree::Body {
   int parent;
   TreeJoint joint;
-  int along;          // the joint's entry of a six-vector: 2 or 5
+  int along;          // the joint's entry of a six-vector: 2 or 5; of a fixed one not looked at
   Pose parent_from;   // while the coordinate is 0, between frames whose z is the axis
   Pose link_from;     // this frame in the link's own
   Mat6 rigid, added;  // about this frame
   Inertia inertia;    // their sum
   double mass, volume;
   Vec3 center_of_mass, center_of_buoyancy;
-  Placement water;   // the frame of drag
-  Mat6 linear_drag;  // about it
-  std::vector<ForceTerm> terms;
-  bool drags;
+  std::vector<DragStrip> strips;
 
   explicit Body(const TreeLink& link, const Pose& parent_link_from);
 
+  bool moves() const { return joint != TreeJoint::kFixed; }
   Placement placement(double q) const;
-  Vec6 drag(const Vec6& relative) const;
+  void add_drag(const Vec6& relative, Vec6& force) const;
 };
 
 /// In the link's frame, whose z is the joint's axis.
@@ -68,22 +66,23 @@ Vec6 at_tip(const Vec6& load, const Eigen::Matrix3d& hull_from_link, const Vec3&
 BodyTree::Body::Body(const TreeLink& link, const Pose& parent_link_from)
     : parent(link.parent),
       joint(link.joint),
-      along(link.joint == TreeJoint::kRevolute ? 5 : 2),
+      along(link.joint == TreeJoint::kPrismatic ? 2 : 5),
       link_from(turned_to(link.axis)),
       mass(link.body.mass),
       volume(link.body.volume),
-      linear_drag(link.linear_drag),
-      terms(link.terms),
-      drags(!link.terms.empty() || !link.linear_drag.isZero(0.0)) {
+      strips(link.strips) {
   const Pose from_link = link_from.inverse();
   parent_from = parent_link_from.inverse() * link.parent_from_link * link_from;
   const RigidBody body = in_frame(link.body, from_link);
   rigid = mass_matrix(body);
-  water = placement_of(from_link * link.link_from_water);
-  added = tree::outward(water, Inertia(link.added_mass)).whole();
+  added = tree::outward(placement_of(from_link), Inertia(link.added_mass)).whole();
   inertia = Inertia(rigid + added);
   center_of_mass = body.center_of_mass;
   center_of_buoyancy = body.center_of_buoyancy;
+  for (DragStrip& strip : strips) {
+    strip.center = from_link * strip.center;
+    strip.axis = from_link.linear() * strip.axis;
+  }
 }
 
 Placement BodyTree::Body::placement(double q) const {
@@ -92,20 +91,22 @@ Placement BodyTree::Body::placement(double q) const {
     at.place += q * parent_from.linear().col(2);
     return at;
   }
+  if (joint == TreeJoint::kFixed) return at;
   const double c = std::cos(q), s = std::sin(q);
   at.turn.col(0) = c * parent_from.linear().col(0) + s * parent_from.linear().col(1);
   at.turn.col(1) = c * parent_from.linear().col(1) - s * parent_from.linear().col(0);
   return at;
 }
 
-Vec6 BodyTree::Body::drag(const Vec6& relative) const {
-  const Vec6 through = water.motion_inward(relative);
-  Vec6 force = -linear_drag * through;
-  for (const ForceTerm& term : terms) {
-    const double b = through[term.b];
-    force[term.row] += term.coefficient * through[term.a] * (term.absolute ? std::abs(b) : b);
+void BodyTree::Body::add_drag(const Vec6& relative, Vec6& force) const {
+  const Vec3 linear = relative.head<3>(), spin = relative.tail<3>();
+  for (const DragStrip& strip : strips) {
+    const Vec3 past = linear + spin.cross(strip.center);
+    const Vec3 across = past - past.dot(strip.axis) * strip.axis;
+    const Vec3 push = -strip.coefficient * across.norm() * across;
+    force.head<3>() += push;
+    force.tail<3>() += strip.center.cross(push);
   }
-  return water.force_outward(force);
 }
 
 BodyTree::BodyTree(BodyTreeOptions options)
@@ -156,10 +157,13 @@ void BodyTree::outward(const TreeState& state, const TreeLoads& loads, Passing* 
     here.water = back * (parent ? parent->water : hull_water);
     here.pushed = back * (parent ? parent->pushed : hull_pushed);
     here.velocity = here.placement.motion_inward(parent ? parent->velocity : state.base.velocity);
-    here.velocity[body.along] += state.rate[k];
-    Vec6 joint_rate = Vec6::Zero();
-    joint_rate[body.along] = state.rate[k];
-    here.change = tree::cross_motion(here.velocity, joint_rate);
+    here.change.setZero();
+    if (body.moves()) {
+      here.velocity[body.along] += state.rate[k];
+      Vec6 joint_rate = Vec6::Zero();
+      joint_rate[body.along] = state.rate[k];
+      here.change = tree::cross_motion(here.velocity, joint_rate);
+    }
 
     const Vec3 spin = here.velocity.tail<3>();
     Vec6 relative = here.velocity, water_change = Vec6::Zero();
@@ -167,7 +171,7 @@ void BodyTree::outward(const TreeState& state, const TreeLoads& loads, Passing* 
     water_change.head<3>() = here.pushed - spin.cross(here.water);
     here.force = body.added * water_change - coriolis(body.rigid, here.velocity) -
                  coriolis(body.added, relative);
-    if (body.drags) here.force += body.drag(relative);
+    body.add_drag(relative, here.force);
     const Vec3 weight = body.mass * hull.gravity * here.down;
     const Vec3 lift = hull.water_density * body.volume * (here.pushed - hull.gravity * here.down);
     here.force.head<3>() += weight + lift;
@@ -194,7 +198,10 @@ void BodyTree::accelerations(const TreeState& state, const TreeLoads& loads,
     throw_argument("joints", std::to_string(size()) + " numbers or none",
                    std::to_string(loads.joints.size()));
   }
-  const bool given = loads.drive == JointDrive::kAcceleration;
+  const bool carried_out = loads.drive == JointDrive::kAcceleration;
+  const auto joint_of = [&](std::size_t k) {
+    return loads.joints.empty() || !links_[k].moves() ? 0.0 : loads.joints[k];
+  };
   std::array<Passing, kMostLinks> all;
   outward(state, loads, all.data());
   push_tip(loads, all.data());
@@ -206,7 +213,8 @@ void BodyTree::accelerations(const TreeState& state, const TreeLoads& loads,
   for (std::size_t k = size(); k-- > 0;) {
     const Body& body = links_[k];
     Passing& here = all[k];
-    const double joint = loads.joints.empty() ? 0.0 : loads.joints[k];
+    const bool given = carried_out || !body.moves();
+    const double joint = joint_of(k);
     Inertia carried = here.inertia;
     Vec6 change = here.change;
     if (given) {
@@ -214,6 +222,10 @@ void BodyTree::accelerations(const TreeState& state, const TreeLoads& loads,
     } else {
       here.column = here.inertia.column(body.along);
       here.own = here.column[body.along];
+      if (!(here.own > 0.0)) {
+        throw_argument("links", "mass or added mass behind each joint that moves",
+                       "none behind " + options_->links[k].name);
+      }
       here.left = joint + here.force[body.along];
       carried.take_away(here.column, here.own);
     }
@@ -239,12 +251,16 @@ void BodyTree::accelerations(const TreeState& state, const TreeLoads& loads,
     const Vec6& parent =
         body.parent < 0 ? found.base : all[static_cast<std::size_t>(body.parent)].acceleration;
     here.acceleration = here.placement.motion_inward(parent) + here.change;
-    const double joint = loads.joints.empty() ? 0.0 : loads.joints[k];
+    const bool given = carried_out || !body.moves();
+    const double joint = joint_of(k);
     found.joints[k] = given ? joint : (here.left - here.column.dot(here.acceleration)) / here.own;
+    found.efforts[k] = joint;
+    if (!body.moves()) continue;
     here.acceleration[body.along] += found.joints[k];
-    found.efforts[k] =
-        given ? here.inertia.column(body.along).dot(here.acceleration) - here.force[body.along]
-              : joint;
+    if (given) {
+      found.efforts[k] =
+          here.inertia.column(body.along).dot(here.acceleration) - here.force[body.along];
+    }
   }
 }
 

@@ -11,7 +11,16 @@
 
 namespace bathyal {
 
-enum class TreeJoint { kRevolute, kPrismatic };
+/// A fixed link's coordinate and rate are not looked at.
+enum class TreeJoint { kRevolute, kPrismatic, kFixed };
+
+/// A piece of a slender body that the water resists across its axis, after Morison:
+/// force −coefficient |v| v, v the part across the axis of the water's velocity past its centre.
+struct DragStrip {
+  Vec3 center = Vec3::Zero();  ///< [m]
+  Vec3 axis = Vec3::UnitZ();   ///< unit
+  double coefficient = 0.0;    ///< ½ ρ C_D diameter length [kg/m], 0 or more
+};
 
 /// A body in water behind a joint. What is not said otherwise is in the link's own frame, which
 /// moves with it and whose origin lies on the axis.
@@ -22,10 +31,8 @@ struct TreeLink {
   Pose parent_from_link = Pose::Identity();  ///< while the coordinate is 0
   Vec3 axis = Vec3::UnitZ();                 ///< turned about or slid along; any length but zero
   RigidBody body = {};
-  Pose link_from_water = Pose::Identity();  ///< the frame of added mass and drag
-  Mat6 added_mass = Mat6::Zero();           ///< symmetric, of no negative energy
-  Mat6 linear_drag = Mat6::Zero();          ///< force is −D ν
-  std::vector<ForceTerm> terms = {};
+  Mat6 added_mass = Mat6::Zero();  ///< about the origin; symmetric, of no negative energy
+  std::vector<DragStrip> strips = {};
 
   /// \throw std::invalid_argument that names the field, after `owner`
   void check(std::string_view owner) const;

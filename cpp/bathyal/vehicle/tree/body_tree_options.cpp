@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <Eigen/Eigenvalues>
+#include <cmath>
 
 #include "bathyal/base/check.hpp"
 #include "bathyal/base/error.hpp"
@@ -8,26 +9,24 @@
 namespace bathyal {
 namespace {
 
-constexpr double kSymmetricLink = 1e-9;  // of the largest entry
+constexpr double kRounding = 1e-9;  // of the largest entry, of a unit vector
 
 void check_link_water(const std::string& of, const TreeLink& link) {
-  check_rigid(of + "link_from_water", link.link_from_water);
-  for (const Mat6* matrix : {&link.added_mass, &link.linear_drag}) {
-    const char* field = matrix == &link.added_mass ? "added_mass" : "linear_drag";
-    if (!matrix->allFinite()) throw_argument(of + field, "finite numbers", "others");
-  }
+  if (!link.added_mass.allFinite()) throw_argument(of + "added_mass", "finite numbers", "others");
   const double scale = link.added_mass.cwiseAbs().maxCoeff();
-  if ((link.added_mass - link.added_mass.transpose()).cwiseAbs().maxCoeff() >
-      kSymmetricLink * scale) {
+  if ((link.added_mass - link.added_mass.transpose()).cwiseAbs().maxCoeff() > kRounding * scale) {
     throw_argument(of + "added_mass", "a symmetric (6, 6) matrix", "one that is not");
   }
   const double least = Eigen::SelfAdjointEigenSolver<Mat6>(link.added_mass).eigenvalues()[0];
-  if (least < -kSymmetricLink * scale) {
+  if (least < -kRounding * scale) {
     throw_argument(of + "added_mass", "a matrix without negative eigenvalues", to_text(least));
   }
-  for (const ForceTerm& term : link.terms) {
-    for (const int axis : {term.row, term.a, term.b}) check_range(of + "terms", axis, 0, 5);
-    check_finite(of + "terms", term.coefficient);
+  for (const DragStrip& strip : link.strips) {
+    if (!strip.center.allFinite()) throw_argument(of + "strips", "finite centres", "others");
+    if (!(std::abs(strip.axis.norm() - 1.0) < kRounding)) {
+      throw_argument(of + "strips", "unit axes", "one of length " + to_text(strip.axis.norm()));
+    }
+    check_not_negative(of + "strips", strip.coefficient);
   }
 }
 

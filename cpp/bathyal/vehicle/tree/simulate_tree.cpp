@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <limits>
 #include <string>
+#include <utility>
 
 #include "bathyal/base/check.hpp"
 #include "bathyal/base/error.hpp"
@@ -17,90 +18,9 @@ namespace bathyal {
 namespace {
 
 constexpr double kMostTreeSteps = 1e8;
-constexpr int kMostNumbers = 13 + 2 * static_cast<int>(BodyTree::kMostLinks);
-
-/// Of the hull, then coordinates, then rates.
-using TreeNumbers = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostNumbers, 1>;
-
 void check_joint_count(std::string_view name, std::size_t count, std::size_t expected) {
   if (count == expected) return;
   throw_argument(name, std::to_string(expected) + " numbers", std::to_string(count));
-}
-
-/// One state and load, filled anew at each stage.
-class TreeEquations {
- public:
-  TreeEquations(const BodyTree& tree, const TreeLoadsFunction& loads,
-                const JointMotionFunction& motion)
-      : tree_(tree), loads_(loads), motion_(motion), state_(tree.rest()) {}
-
-  const TreeState& state(double time, const TreeNumbers& flat) {
-    const auto n = static_cast<Index>(tree_.size());
-    state_.base = vehicle::motion_of(flat.head<13>());
-    if (motion_) {
-      motion_(time, joint_motion_);
-      check_joint_count("q", joint_motion_.q.size(), tree_.size());
-      check_joint_count("rate", joint_motion_.rate.size(), tree_.size());
-      check_joint_count("acceleration", joint_motion_.acceleration.size(), tree_.size());
-      std::copy(joint_motion_.q.begin(), joint_motion_.q.end(), state_.q.begin());
-      std::copy(joint_motion_.rate.begin(), joint_motion_.rate.end(), state_.rate.begin());
-    } else {
-      Eigen::Map<Eigen::VectorXd>(state_.q.data(), n) = flat.segment(13, n);
-      Eigen::Map<Eigen::VectorXd>(state_.rate.data(), n) = flat.tail(n);
-    }
-    return state_;
-  }
-
-  /// Of the state that was asked for last.
-  const TreeLoads& loads(double time) {
-    if (loads_) loads_(time, state_, loads_now_);
-    if (motion_) {
-      loads_now_.drive = JointDrive::kAcceleration;
-      loads_now_.joints.assign(joint_motion_.acceleration.begin(),
-                               joint_motion_.acceleration.end());
-    }
-    return loads_now_;
-  }
-
-  TreeNumbers rate(double time, const TreeNumbers& flat) {
-    state(time, flat);
-    tree_.accelerations(state_, loads(time), found_);
-    const auto n = static_cast<Index>(tree_.size());
-    TreeNumbers change = TreeNumbers::Zero(flat.size());
-    change.head<13>() = vehicle::rate_of(flat.head<13>(), state_.base, found_.base);
-    if (!motion_) {
-      change.segment(13, n) = flat.tail(n);
-      change.tail(n) = Eigen::Map<const Eigen::VectorXd>(found_.joints.data(), n);
-    }
-    return change;
-  }
-
- private:
-  const BodyTree& tree_;
-  const TreeLoadsFunction& loads_;
-  const JointMotionFunction& motion_;
-  TreeState state_;
-  TreeLoads loads_now_;
-  JointMotion joint_motion_;
-  TreeAcceleration found_;
-};
-
-TreeNumbers flat_of(const TreeState& state) {
-  const auto n = static_cast<Index>(state.q.size());
-  TreeNumbers flat(13 + 2 * n);
-  flat << vehicle::flat_of(state.base), Eigen::Map<const Eigen::VectorXd>(state.q.data(), n),
-      Eigen::Map<const Eigen::VectorXd>(state.rate.data(), n);
-  return flat;
-}
-
-TreeNumbers advanced(TreeEquations& equations, double time, const TreeNumbers& flat, double step) {
-  const TreeNumbers k1 = equations.rate(time, flat);
-  const TreeNumbers k2 = equations.rate(time + 0.5 * step, flat + 0.5 * step * k1);
-  const TreeNumbers k3 = equations.rate(time + 0.5 * step, flat + 0.5 * step * k2);
-  const TreeNumbers k4 = equations.rate(time + step, flat + step * k3);
-  TreeNumbers next = flat + step / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4);
-  next.segment<4>(3).normalize();
-  return next;
 }
 
 /// d(attitude, velocity, q, rate)/dt at a small change of these.
@@ -121,6 +41,69 @@ Eigen::VectorXd change_at(const BodyTree& tree, TreeState state, const TreeLoads
 }
 
 }  // namespace
+
+TreeIntegrator::TreeIntegrator(BodyTree tree, TreeLoadsFunction loads, JointMotionFunction motion)
+    : tree_(std::move(tree)),
+      loads_(std::move(loads)),
+      motion_(std::move(motion)),
+      state_(tree_.rest()) {}
+
+const TreeLoads& TreeIntegrator::at(double time, TreeState& state) {
+  if (motion_) {
+    motion_(time, motion_now_);
+    check_joint_count("q", motion_now_.q.size(), tree_.size());
+    check_joint_count("rate", motion_now_.rate.size(), tree_.size());
+    check_joint_count("acceleration", motion_now_.acceleration.size(), tree_.size());
+    state.q = motion_now_.q;
+    state.rate = motion_now_.rate;
+  }
+  if (loads_) loads_(time, state, loads_now_);
+  if (motion_) {
+    loads_now_.drive = JointDrive::kAcceleration;
+    loads_now_.joints = motion_now_.acceleration;
+  }
+  return loads_now_;
+}
+
+void TreeIntegrator::set_state(const Numbers& flat) {
+  const auto n = static_cast<Index>(tree_.size());
+  state_.base = vehicle::motion_of(flat.head<13>());
+  if (motion_) return;
+  Eigen::Map<Eigen::VectorXd>(state_.q.data(), n) = flat.segment(13, n);
+  Eigen::Map<Eigen::VectorXd>(state_.rate.data(), n) = flat.tail(n);
+}
+
+TreeIntegrator::Numbers TreeIntegrator::rate(double time, const Numbers& flat) {
+  set_state(flat);
+  tree_.accelerations(state_, at(time, state_), found_);
+  const auto n = static_cast<Index>(tree_.size());
+  Numbers change = Numbers::Zero(flat.size());
+  change.head<13>() = vehicle::rate_of(flat.head<13>(), state_.base, found_.base);
+  if (!motion_) {
+    change.segment(13, n) = flat.tail(n);
+    change.tail(n) = Eigen::Map<const Eigen::VectorXd>(found_.joints.data(), n);
+  }
+  return change;
+}
+
+void TreeIntegrator::step(double time, double step, TreeState& state) {
+  const auto n = static_cast<Index>(tree_.size());
+  Numbers flat(13 + 2 * n);
+  flat << vehicle::flat_of(state.base), Eigen::Map<const Eigen::VectorXd>(state.q.data(), n),
+      Eigen::Map<const Eigen::VectorXd>(state.rate.data(), n);
+  const Numbers k1 = rate(time, flat);
+  const Numbers k2 = rate(time + 0.5 * step, flat + 0.5 * step * k1);
+  const Numbers k3 = rate(time + 0.5 * step, flat + 0.5 * step * k2);
+  const Numbers k4 = rate(time + step, flat + step * k3);
+  flat += step / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4);
+  if (!flat.allFinite()) {
+    throw Error("the motion runs away at " + to_text(time + step) +
+                " s: its numbers are not finite");
+  }
+  set_state(flat);
+  at(time + step, state_);
+  state = state_;
+}
 
 void SimulateTreeOptions::check() const {
   check_not_negative("duration", duration);
@@ -159,30 +142,25 @@ TreeMotionRecord simulate_tree(const BodyTree& tree, const TreeState& start,
   if (!start.base.velocity.allFinite()) throw_argument("state", "a finite velocity", "another");
   check_joint_count("q", start.q.size(), tree.size());
   check_joint_count("rate", start.rate.size(), tree.size());
-  TreeEquations equations(tree, loads, motion);
-  TreeNumbers flat = flat_of(start);
-  TreeMotionRecord record;
-  record.time.push_back(options.start);
-  record.state.push_back(equations.state(options.start, flat));
-  const double stable =
-      largest_stable_step(tree, record.state[0], equations.loads(options.start), bool(motion));
+  TreeIntegrator integrator(tree, loads, motion);
+  TreeState now = start;
+  const TreeLoads& first = integrator.at(options.start, now);
+  const double stable = largest_stable_step(tree, now, first, bool(motion));
   if (options.step > stable) {
     throw_argument(
         "step",
         "at most " + to_text(std::floor(stable * 1e6) / 1e6) + " s, the limit of the fastest mode",
         to_text(options.step));
   }
+  TreeMotionRecord record{{options.start}, {now}};
   const auto count = static_cast<std::int64_t>(std::ceil(options.duration / options.step - 1e-9));
   for (std::int64_t k = 0; k < count; ++k) {
     const double from = options.start + static_cast<double>(k) * options.step;
     const double to = k + 1 == count ? options.start + options.duration
                                      : options.start + static_cast<double>(k + 1) * options.step;
-    flat = advanced(equations, from, flat, to - from);
-    if (!flat.allFinite()) {
-      throw Error("the motion runs away at " + to_text(to) + " s: its numbers are not finite");
-    }
+    integrator.step(from, to - from, now);
     record.time.push_back(to);
-    record.state.push_back(equations.state(to, flat));
+    record.state.push_back(now);
   }
   return record;
 }

@@ -37,9 +37,38 @@ struct TreeMotionRecord {
   std::vector<TreeState> state;
 };
 
-/// Integrates as `simulate` does a vehicle alone, in deep water. \param loads null: none. \param
-/// motion null: the joints move under their efforts; else they follow it, and those of `start` are
-/// not looked at.
+/// Advances a tree step by step, in deep water, as `simulate` does a vehicle alone: by
+/// Runge–Kutta's method of fourth order.
+class TreeIntegrator {
+ public:
+  /// \param loads null: none. \param motion null: the joints move under their efforts; else they
+  /// follow it.
+  TreeIntegrator(BodyTree tree, TreeLoadsFunction loads, JointMotionFunction motion);
+
+  /// The loads at a state, and the joints set to their motion, if there is one.
+  /// \throw std::invalid_argument for a motion of another count than links
+  const TreeLoads& at(double time, TreeState& state);
+
+  /// \throw Error where the motion runs away: it is no longer finite
+  void step(double time, double step, TreeState& state);
+
+ private:
+  using Numbers = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 13 + 2 * BodyTree::kMostLinks, 1>;
+
+  void set_state(const Numbers& flat);
+  Numbers rate(double time, const Numbers& flat);
+
+  BodyTree tree_;
+  TreeLoadsFunction loads_;
+  JointMotionFunction motion_;
+  TreeState state_;  // and what follows: filled anew at each stage
+  TreeLoads loads_now_;
+  JointMotion motion_now_;
+  TreeAcceleration found_;
+};
+
+/// A whole motion by TreeIntegrator; with a joint motion, coordinates and rates of `start` are not
+/// looked at.
 /// \throw std::invalid_argument for a step beyond the stability limit of the fastest mode at the
 ///        first state, a pose that is not rigid, numbers of another count than links
 /// \throw Error where the motion runs away: it is no longer finite
