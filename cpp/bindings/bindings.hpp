@@ -39,6 +39,7 @@ void bind_sonar(pybind11::module_& module);
 void bind_sidescan(pybind11::module_& module);
 void bind_navigation(pybind11::module_& module);  // the second file of sonar
 void bind_control(pybind11::module_& module);
+void bind_uvms(pybind11::module_& module);
 void bind_identify(pybind11::module_& module);
 void bind_plan_touches(pybind11::module_& module);  // of the room identify, as the next one
 void bind_verify(pybind11::module_& module);

@@ -40,6 +40,7 @@ PYBIND11_MODULE(_core, module) {
   bind_sidescan(module);
   bind_navigation(module);
   bind_control(module);
+  bind_uvms(module);
   bind_identify(module);
   bind_plan_touches(module);
   bind_verify(module);

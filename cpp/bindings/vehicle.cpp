@@ -18,20 +18,9 @@
 #include "bindings.hpp"
 #include "rigid_body.hpp"
 #include "vehicle_docs.hpp"
+#include "vehicle_parts.hpp"
 
 namespace bathyal::python {
-namespace {
-
-using TermTuple = std::tuple<int, int, int, bool, double>;
-using FreeLike = py::typing::Optional<py::typing::Iterable<py::bool_>>;
-using OptionalWorld = py::typing::Optional<World>;
-using KeywordValue =
-    py::typing::Union<py::float_, py::str, ArrayLike, py::typing::List<TermTuple>, py::none>;
-using StateLike = py::typing::Union<ArrayLike, py::typing::Tuple<ArrayLike, ArrayLike>>;
-using ThrustLike =
-    py::typing::Union<ArrayLike, py::typing::Callable<ArrayLike(py::float_, py::array, py::array)>>;
-using FlowLike =
-    py::typing::Union<ArrayLike, py::typing::Callable<ArrayLike(py::array, py::float_)>, py::none>;
 
 Vec6 vec6_argument(std::string_view name, const py::object& object) {
   const Values values = values_argument(name, object);
@@ -43,13 +32,63 @@ Vec6 vec6_argument(std::string_view name, const py::object& object) {
   return result;
 }
 
+py::array vec6_to_numpy(const Vec6& values) {
+  return to_numpy(std::vector<double>(values.begin(), values.end()));
+}
+
+py::array poses_to_numpy(const VehicleMotionRecord& motion) {
+  std::vector<Pose> poses;
+  for (const VehicleState& state : motion.state) poses.push_back(state.world_from_vehicle);
+  return to_numpy(poses);
+}
+
+py::array velocities_to_numpy(const VehicleMotionRecord& motion) {
+  std::vector<double> values;
+  for (const VehicleState& state : motion.state) {
+    values.insert(values.end(), state.velocity.begin(), state.velocity.end());
+  }
+  return to_numpy(std::move(values), {6});
+}
+
+VehicleState state_argument(const py::object& object) {
+  VehicleState state;
+  if (py::isinstance<py::tuple>(object) || py::isinstance<py::list>(object)) {
+    const auto parts = py::reinterpret_borrow<py::sequence>(object);
+    if (parts.size() == 2) {
+      state.world_from_vehicle = pose_argument("state", parts[0]);
+      state.velocity = vec6_argument("state", parts[1]);
+      return state;
+    }
+  }
+  state.world_from_vehicle = pose_argument("state", object);
+  return state;
+}
+
+WrenchFunction wrench_argument(const py::object& object) {
+  if (PyCallable_Check(object.ptr()) == 0) {
+    const Vec6 wrench = vec6_argument("thrust", object);
+    return [wrench](double, const VehicleState&) { return wrench; };
+  }
+  return [object](double time, const VehicleState& state) {
+    const py::gil_scoped_acquire locked;
+    return vec6_argument(
+        "thrust", object(time, to_numpy(state.world_from_vehicle), vec6_to_numpy(state.velocity)));
+  };
+}
+
+namespace {
+
+using TermTuple = std::tuple<int, int, int, bool, double>;
+using FreeLike = py::typing::Optional<py::typing::Iterable<py::bool_>>;
+using OptionalWorld = py::typing::Optional<World>;
+using KeywordValue =
+    py::typing::Union<py::float_, py::str, ArrayLike, py::typing::List<TermTuple>, py::none>;
+using FlowLike =
+    py::typing::Union<ArrayLike, py::typing::Callable<ArrayLike(py::array, py::float_)>, py::none>;
+
 Mat6 mat6_argument(std::string_view name, const py::object& object) {
   if (object.is_none()) return Mat6::Zero();
   return square_argument(name, object, 6);
-}
-
-py::array vec6_to_numpy(const Vec6& values) {
-  return to_numpy(std::vector<double>(values.begin(), values.end()));
 }
 
 py::array mat6_to_numpy(const Mat6& matrix) {
@@ -181,33 +220,6 @@ py::tuple from_mesh(const TriangleMesh& mesh, std::optional<double> mass,
   return py::make_tuple(Vehicle(found.options), to_numpy(found.vehicle_from_mesh));
 }
 
-VehicleState state_argument(const py::object& object) {
-  VehicleState state;
-  if (py::isinstance<py::tuple>(object) || py::isinstance<py::list>(object)) {
-    const auto parts = py::reinterpret_borrow<py::sequence>(object);
-    if (parts.size() == 2) {
-      state.world_from_vehicle = pose_argument("state", parts[0]);
-      state.velocity = vec6_argument("state", parts[1]);
-      return state;
-    }
-  }
-  state.world_from_vehicle = pose_argument("state", object);
-  return state;
-}
-
-/// A constant, or what a function gives, which is called with the interpreter's lock held.
-WrenchFunction wrench_argument(const py::object& object) {
-  if (PyCallable_Check(object.ptr()) == 0) {
-    const Vec6 wrench = vec6_argument("thrust", object);
-    return [wrench](double, const VehicleState&) { return wrench; };
-  }
-  return [object](double time, const VehicleState& state) {
-    const py::gil_scoped_acquire locked;
-    return vec6_argument(
-        "thrust", object(time, to_numpy(state.world_from_vehicle), vec6_to_numpy(state.velocity)));
-  };
-}
-
 FlowFunction flow_argument(const py::object& object) {
   if (object.is_none()) return {};
   if (PyCallable_Check(object.ptr()) == 0) {
@@ -272,23 +284,9 @@ void bind_motion(py::module_& module) {
           "time",
           [](const VehicleMotionRecord& m) { return to_numpy(std::vector<double>(m.time)); },
           "(K,) [s].")
+      .def_property_readonly("pose", &poses_to_numpy, "(K, 4, 4) world_from_vehicle.")
       .def_property_readonly(
-          "pose",
-          [](const VehicleMotionRecord& m) {
-            std::vector<Pose> poses;
-            for (const VehicleState& state : m.state) poses.push_back(state.world_from_vehicle);
-            return to_numpy(poses);
-          },
-          "(K, 4, 4) world_from_vehicle.")
-      .def_property_readonly(
-          "velocity",
-          [](const VehicleMotionRecord& m) {
-            std::vector<double> values;
-            for (const VehicleState& state : m.state) {
-              values.insert(values.end(), state.velocity.begin(), state.velocity.end());
-            }
-            return to_numpy(std::move(values), {6});
-          },
+          "velocity", &velocities_to_numpy,
           "(K, 6) over ground, linear then angular, in the vehicle's frame [m/s, rad/s].")
       .def("__len__", [](const VehicleMotionRecord& m) { return m.time.size(); })
       .def("__repr__", [](const VehicleMotionRecord& m) {
