@@ -12,7 +12,7 @@ import numpy.typing
 import os
 import plotly.graph_objects
 import typing
-__all__: list[str] = ['Allocation', 'AllocationResult', 'Arm', 'ArmFit', 'BEYOND_NOISE', 'Battery', 'BatteryLoad', 'BehaviorTree', 'Capsule', 'Cause', 'CleanReport', 'CleanResult', 'Clearances', 'Condition', 'CorrectedArm', 'CruiseControl', 'CruiseState', 'Current', 'DhTable', 'Diagnosis', 'DropWeight', 'Effect', 'EffectRange', 'EffectRows', 'Eigenray', 'Error', 'Estimate', 'Fin', 'FitParameter', 'FollowedPath', 'FoundEffect', 'HeldOut', 'HeldOutPart', 'Hits', 'Hull', 'HullReport', 'InverseResult', 'KeepOut', 'LineOfSight', 'LineOfSightState', 'Link', 'Material', 'MeshReport', 'MissionPlan', 'MissionRun', 'MotionCheck', 'MotionPlan', 'NamedEffect', 'NavigationErrors', 'NavigationFilter', 'NavigationReport', 'NavigationTrack', 'NavigationUpdate', 'Nearest', 'NearestSegments', 'NmeaReader', 'Outlier', 'Ping', 'PingTruth', 'Pipeline', 'Plane', 'PlaneFit', 'PointCloud', 'Polyline', 'PoseHold', 'PoseHoldState', 'Profile', 'ReachMap', 'RigidBody', 'SamplingPhase', 'SamplingPlan', 'Scene', 'SeabedModel', 'Sediment', 'Sensor', 'SensorReadings', 'SerialLine', 'Shape', 'SheetPatch', 'SheetReport', 'SidescanPings', 'Sonar', 'SoundPath', 'Standpoint', 'StaticTrim', 'Structure', 'Support', 'TargetChecks', 'Targets', 'Tether', 'TextTable', 'Thruster', 'ThrusterFit', 'ThrusterTable', 'Tide', 'TipMove', 'ToolPath', 'TouchForecast', 'TouchPlan', 'Touches', 'TracedSound', 'Tracked', 'Trade', 'Trajectory', 'TriangleMesh', 'Vehicle', 'VehicleMotion', 'VehicleSystem', 'VehicleSystemState', 'Verification', 'Voxels', 'Water', 'Waves', 'Workspace', 'World', 'WorldObject', 'WorldSnapshot', 'XtfFile', 'absorption', 'allan_deviation', 'ambient_noise', 'ardupilot_json', 'arm_from_chain', 'arm_from_parts', 'arm_parts', 'best_standpoint', 'chain_from_arm', 'check_bytes', 'clean_cloud', 'cover_polygon', 'dead_reckon', 'depth_from_pressure', 'diagnose', 'eigenrays', 'ellipsoid_added_mass', 'find_effect_with', 'find_sheets', 'find_targets', 'fish_paths', 'fit_plane', 'fit_thruster', 'follow_bottom', 'forecast_touches', 'generate_survey', 'identify_arm', 'intersect_moller_trumbore', 'library_effects', 'make_boulder', 'make_cable', 'make_fish', 'make_mine', 'make_pipeline', 'make_seabed', 'make_wreck', 'make_xtf', 'mcap_messages', 'mesh_report', 'nmea_dpt', 'nmea_hdt', 'nmea_position', 'nmea_sentence', 'nmea_vbw', 'parse_xtf', 'pd6_text', 'plan_sampling', 'plan_toolpath', 'plan_touches', 'practical_salinity', 'pressure_from_depth', 'read_mcap', 'read_mesh_with', 'read_pcd', 'read_servo_packet', 'read_text_table', 'seawater_density', 'servo_packet', 'set_simd_level', 'sidescan_bottom', 'sidescan_ground', 'sidescan_mosaic', 'simd_level', 'smooth', 'sound_speed', 'sound_speed_teos10_with', 'survey_height', 'trace_sound', 'triangle_material', 'triangulate', 'triangulate_delaunay', 'typical_sensors', 'verify_positions', 'warn_of_range_with', 'warn_of_support_with', 'with_link_radii', 'write_mcap', 'write_xyz']
+__all__: list[str] = ['Allocation', 'AllocationResult', 'Arm', 'ArmFit', 'ArmMotion', 'ArmOnVehicle', 'BEYOND_NOISE', 'Battery', 'BatteryLoad', 'BehaviorTree', 'Capsule', 'Cause', 'CleanReport', 'CleanResult', 'Clearances', 'Condition', 'CorrectedArm', 'CruiseControl', 'CruiseState', 'Current', 'DhTable', 'Diagnosis', 'DropWeight', 'Effect', 'EffectRange', 'EffectRows', 'Eigenray', 'Error', 'Estimate', 'Fin', 'FitParameter', 'FollowedPath', 'FoundEffect', 'HeldOut', 'HeldOutPart', 'Hits', 'Hull', 'HullReport', 'InverseResult', 'KeepOut', 'LineOfSight', 'LineOfSightState', 'Link', 'Material', 'MeshReport', 'MissionPlan', 'MissionRun', 'MotionCheck', 'MotionPlan', 'NamedEffect', 'NavigationErrors', 'NavigationFilter', 'NavigationReport', 'NavigationTrack', 'NavigationUpdate', 'Nearest', 'NearestSegments', 'NmeaReader', 'Outlier', 'Ping', 'PingTruth', 'Pipeline', 'Plane', 'PlaneFit', 'PointCloud', 'Polyline', 'PoseHold', 'PoseHoldState', 'Profile', 'ReachMap', 'RigidBody', 'SamplingPhase', 'SamplingPlan', 'Scene', 'SeabedModel', 'Sediment', 'Sensor', 'SensorReadings', 'SerialLine', 'Shape', 'SheetPatch', 'SheetReport', 'SidescanPings', 'Sonar', 'SoundPath', 'Standpoint', 'StaticTrim', 'Structure', 'Support', 'TargetChecks', 'Targets', 'Tether', 'TextTable', 'Thruster', 'ThrusterFit', 'ThrusterTable', 'Tide', 'TipMove', 'ToolPath', 'TouchForecast', 'TouchPlan', 'Touches', 'TracedSound', 'Tracked', 'Trade', 'Trajectory', 'TriangleMesh', 'TrimHold', 'Vehicle', 'VehicleMotion', 'VehicleSystem', 'VehicleSystemState', 'Verification', 'Voxels', 'Water', 'Waves', 'Workspace', 'World', 'WorldObject', 'WorldSnapshot', 'XtfFile', 'absorption', 'allan_deviation', 'ambient_noise', 'ardupilot_json', 'arm_from_chain', 'arm_from_parts', 'arm_parts', 'best_standpoint', 'chain_from_arm', 'check_bytes', 'clean_cloud', 'cover_polygon', 'dead_reckon', 'depth_from_pressure', 'diagnose', 'eigenrays', 'ellipsoid_added_mass', 'find_effect_with', 'find_sheets', 'find_targets', 'fish_paths', 'fit_plane', 'fit_thruster', 'follow_bottom', 'forecast_touches', 'generate_survey', 'identify_arm', 'intersect_moller_trumbore', 'library_effects', 'make_boulder', 'make_cable', 'make_fish', 'make_mine', 'make_pipeline', 'make_seabed', 'make_wreck', 'make_xtf', 'mcap_messages', 'mesh_report', 'nmea_dpt', 'nmea_hdt', 'nmea_position', 'nmea_sentence', 'nmea_vbw', 'parse_xtf', 'pd6_text', 'plan_sampling', 'plan_toolpath', 'plan_touches', 'practical_salinity', 'pressure_from_depth', 'read_mcap', 'read_mesh_with', 'read_pcd', 'read_servo_packet', 'read_text_table', 'seawater_density', 'servo_packet', 'set_simd_level', 'sidescan_bottom', 'sidescan_ground', 'sidescan_mosaic', 'simd_level', 'smooth', 'sound_speed', 'sound_speed_teos10_with', 'survey_height', 'trace_sound', 'triangle_material', 'triangulate', 'triangulate_delaunay', 'typical_sensors', 'verify_positions', 'warn_of_range_with', 'warn_of_support_with', 'with_link_radii', 'write_mcap', 'write_xyz']
 class Error(RuntimeError):
     """
     A broken file, a solver that failed or a part that is not installed.
@@ -7776,6 +7776,242 @@ class LineOfSight:
     def step(self, state: LineOfSightState, position: numpy.typing.ArrayLike, time: typing.SupportsFloat | typing.SupportsIndex) -> tuple[float, float]:
         """
         (heading to steer [rad], offset to port of the leg [m]) at a (3,) position of the world, a time [s] since the last step.
+        """
+class ArmMotion:
+    """
+    How vehicle and arm moved, step by step.
+    """
+    def __len__(self) -> int:
+        ...
+    def __repr__(self) -> str:
+        ...
+    @property
+    def pose(self) -> numpy.ndarray:
+        """
+        (K, 4, 4) world_from_vehicle.
+        """
+    @property
+    def q(self) -> numpy.ndarray:
+        """
+        (K, n) coordinates of the arm [rad, m].
+        """
+    @property
+    def time(self) -> numpy.ndarray:
+        """
+        (K,) [s].
+        """
+    @property
+    def torque(self) -> numpy.ndarray:
+        """
+        (K, n) that the drives give to carry the motion out [N m, N].
+        """
+    @property
+    def velocity(self) -> numpy.ndarray:
+        """
+        (K, 6) over ground, linear then angular, in the vehicle's frame [m/s, rad/s].
+        """
+class TrimHold:
+    """
+    How a vehicle held its pose while its arm worked, step by step.
+    """
+    def __len__(self) -> int:
+        ...
+    def __repr__(self) -> str:
+        ...
+    @property
+    def pose(self) -> numpy.ndarray:
+        """
+        (K, 4, 4) world_from_vehicle.
+        """
+    @property
+    def q(self) -> numpy.ndarray:
+        """
+        (K, n) coordinates of the arm [rad, m].
+        """
+    @property
+    def saturated(self) -> bool:
+        """
+        Whether a thruster was at its limit.
+        """
+    @property
+    def thrust(self) -> numpy.ndarray:
+        """
+        (K, 6) of the thrusters on the vehicle about its origin [N, N m].
+        """
+    @property
+    def time(self) -> numpy.ndarray:
+        """
+        (K,) [s].
+        """
+    @property
+    def torque(self) -> numpy.ndarray:
+        """
+        (K, n) that the drives give to carry the motion out [N m, N].
+        """
+    @property
+    def velocity(self) -> numpy.ndarray:
+        """
+        (K, 6) over ground, linear then angular, in the vehicle's frame [m/s, rad/s].
+        """
+class ArmOnVehicle:
+    """
+    A vehicle and the arm that it carries, as one tree of bodies in water.
+    
+    The arm moves the vehicle by its weight, its inertia and the water that it moves. Arm, mount, the
+    capsules that the links are in the water, and what is attached to the tool are those of the
+    workspace; hull, scene and keep-outs play no part. A link has the mass, inertia and volume that
+    `Arm.links` give; 0 is none.
+    
+    Parameters
+    ----------
+    vehicle : Vehicle
+        Without the arm. Gravity and water density are its own.
+    workspace : Workspace
+    added_mass : float
+        Of a link across its axis, over the mass of the water that its cylinder displaces.
+    drag : float
+        C_D of a link across its axis, over its projected area. Along the axis there is none.
+    strips : int
+        Of each capsule, for its drag.
+    
+    Raises
+    ------
+    ValueError
+        For values out of range.
+    
+    Notes
+    -----
+    Equations of motion by articulated bodies (Featherstone, Rigid Body Dynamics Algorithms, 2008, table
+    9.4), hull and links each with Fossen's terms; links in the water by strip theory (McLain and Rock,
+    1998).
+    
+    Examples
+    --------
+    >>> import bathyal, numpy as np
+    >>> bodies = [bathyal.Link(f"link_{k}", mass=0.8, volume=4e-4) for k in range(7)]
+    >>> arm = bathyal.Arm.from_dh(a=[0, -0.3, -0.3, 0, 0, 0], alpha=[np.pi/2, 0, 0, np.pi/2, -np.pi/2, 0],
+    ...     d=[0.1, 0, 0, 0.1, 0.1, 0.1], theta=[0] * 6, links=bodies)
+    >>> mount = np.eye(4)
+    >>> mount[:3, 3] = 0.25, 0, -0.1
+    >>> workspace = bathyal.Workspace(arm, mount, radii=0.03)
+    >>> both = bathyal.ArmOnVehicle(bathyal.vehicles.bluerov2_heavy(), workspace)
+    >>> reach = np.array([[0, 0, 0, 0, 0, 0], [0, -1.0, 0.5, 0, 0, 0]])
+    >>> motion = both.simulate(np.eye(4), reach, np.zeros(6), 4.0, time=[0.0, 2.0])
+    >>> motion.pose.shape, motion.torque.shape
+    ((401, 4, 4), (401, 6))
+    """
+    def __init__(self, vehicle: Vehicle, workspace: Workspace, *, added_mass: typing.SupportsFloat | typing.SupportsIndex = 1.0, drag: typing.SupportsFloat | typing.SupportsIndex = 1.1, strips: typing.SupportsInt | typing.SupportsIndex = 4) -> None:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def acceleration(self, state: numpy.typing.ArrayLike | tuple[numpy.typing.ArrayLike, numpy.typing.ArrayLike], q: numpy.typing.ArrayLike, rate: numpy.typing.ArrayLike, *, torque: numpy.typing.ArrayLike | None = None, acceleration: numpy.typing.ArrayLike | None = None, thrust: numpy.typing.ArrayLike | None = None, tip_wrench: numpy.typing.ArrayLike | None = None, current: numpy.typing.ArrayLike | None = None) -> tuple[numpy.ndarray, numpy.ndarray, numpy.ndarray]:
+        """
+        Accelerations of vehicle and arm, and the torques that go with them.
+        
+        Parameters
+        ----------
+        state : (4, 4) array, or (pose, velocity)
+        q, rate : (n,) array
+            Coordinates of the arm and their rates [rad or m, and per s].
+        torque : (n,) array, optional
+            Of the drives, positive along the coordinates [N m, N]: the accelerations of the joints are
+            found. For arms without joints that mimic others.
+        acceleration : (n,) array, optional
+            Of the coordinates: the torques are found. Zeros where neither is given.
+        thrust, tip_wrench : (6,) array, optional
+            As of `simulate`.
+        current : (3,) array, optional
+        
+        Returns
+        -------
+        tuple
+            (6,) dν/dt of the vehicle in its frame, (n,) accelerations, (n,) torques.
+        
+        Raises
+        ------
+        ValueError
+            For shapes that do not fit, or both of torque and acceleration.
+        """
+    def hold(self, state: numpy.typing.ArrayLike | tuple[numpy.typing.ArrayLike, numpy.typing.ArrayLike], q: numpy.typing.ArrayLike, allocation: Allocation, controller: PoseHold, duration: typing.SupportsFloat | typing.SupportsIndex, *, time: numpy.typing.ArrayLike | None = None, tip_wrench: numpy.typing.ArrayLike | None = None, expected_wrench: numpy.typing.ArrayLike | None = None, step: typing.SupportsFloat | typing.SupportsIndex = 0.01, period: typing.SupportsFloat | typing.SupportsIndex = 0.05, voltage: typing.SupportsFloat | typing.SupportsIndex = 16.0, current: numpy.typing.ArrayLike | None = None) -> TrimHold:
+        """
+        How the vehicle holds its pose by its thrusters while the arm works.
+        
+        The controller has the model that it was made with; the truth is this object. Each period it asks
+        for a wrench, less what is expected of arm and bottom (fed forward); the allocation gives it to the
+        thrusters, which lag as theirs do. Pose and velocity are measured without error.
+        
+        Parameters
+        ----------
+        state, q, duration, step, current, time, tip_wrench
+            As of `simulate`.
+        allocation : Allocation
+            With the thrusters.
+        controller : PoseHold
+            Of the vehicle without its arm, as it is believed to be.
+        expected_wrench : (6,) or (K, 6) array, optional
+            What arm and bottom are expected to exert on the vehicle, about its origin [N, N m]: the
+            `wrench` of `plan_sampling` or of `Workspace.wrench`. None: feedback alone.
+        period : float
+            Of the controller, a whole number of steps [s].
+        voltage : float
+            Of the thrusters [V].
+        
+        Returns
+        -------
+        TrimHold
+        
+        Raises
+        ------
+        ValueError
+            For an expected wrench that the thrusters cannot balance; the axis and time are named. And as
+            `simulate`.
+        """
+    def simulate(self, state: numpy.typing.ArrayLike | tuple[numpy.typing.ArrayLike, numpy.typing.ArrayLike], q: numpy.typing.ArrayLike, thrust: numpy.typing.ArrayLike | collections.abc.Callable[[float, numpy.ndarray, numpy.ndarray], numpy.typing.ArrayLike], duration: typing.SupportsFloat | typing.SupportsIndex, step: typing.SupportsFloat | typing.SupportsIndex = 0.01, current: numpy.typing.ArrayLike | None = None, *, time: numpy.typing.ArrayLike | None = None, tip_wrench: numpy.typing.ArrayLike | None = None) -> ArmMotion:
+        """
+        How vehicle and arm move while the arm carries a motion out, in deep water.
+        
+        Parameters
+        ----------
+        state : (4, 4) array, or (pose, velocity)
+            world_from_vehicle at rest, or with the velocity (6,) over ground in the vehicle's frame.
+        q : (n,) or (K, n) array
+            A posture that is held, or rows of a motion: a cubic spline goes through them, at rest before
+            the first and after the last.
+        thrust : (6,) array, or function
+            Force and moment on the vehicle about its origin, along its axes [N, N m], or
+            f(time, pose, velocity).
+        duration : float
+            [s], 0 or more.
+        step : float
+            Of the integration (Runge–Kutta, fourth order) [s].
+        current : (3,) array, optional
+            Velocity of the water in the world [m/s].
+        time : (K,) array
+            Of the rows of `q` and `tip_wrench`, rising [s]; needed where there are several.
+        tip_wrench : (6,) or (K, 6) array, optional
+            Force and moment on the tool at its centre point, along the vehicle's axes: what the bottom
+            pushes back with; straight between rows.
+        
+        Returns
+        -------
+        ArmMotion
+        
+        Raises
+        ------
+        ValueError
+            For shapes that do not fit, times that do not rise, a step beyond the limit of the fastest mode.
+        Error
+            Where the motion runs away.
+        """
+    @property
+    def vehicle(self) -> Vehicle:
+        """
+        As given.
+        """
+    @property
+    def workspace(self) -> Workspace:
+        """
+        As given.
         """
 class Touches:
     """

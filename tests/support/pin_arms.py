@@ -27,14 +27,20 @@ def _shift(x: float, z: float) -> Array:
 
 
 class PinArm:
-    """Base, tool and links included."""
+    """Base, tool and links included; on a hull that floats freely where one is given."""
 
-    def __init__(self, arm: bathyal.Arm) -> None:
+    def __init__(self, arm: bathyal.Arm, hull: bathyal.RigidBody | None = None) -> None:
         table = arm.to_dh()
         self.model = pin.Model()
         placement = arm.base @ table.root
         parent = 0
         links = list(arm.links)
+        if hull is not None:
+            free = pin.JointModelFreeFlyer()
+            parent = self.model.addJoint(0, free, pin.SE3.Identity(), "hull")
+            for body, pose in ((hull, np.eye(4)), (links[0], placement @ links[0].frame)):
+                inertia = pin.Inertia(body.mass, body.center_of_mass, body.inertia)
+                self.model.appendBodyToJoint(parent, inertia, pin.SE3(pose))
         for k, kind in enumerate(table.joint_types):
             placement = placement @ _turn(2, table.theta[k]) @ _shift(0, table.d[k])
             twist = _shift(table.a[k], 0) @ _turn(0, table.alpha[k]) @ _turn(1, table.beta[k])

@@ -22,6 +22,9 @@ import bathyal
 
 Array = NDArray[np.float64]
 FOLDER = Path(__file__).resolve().parents[3] / "shared" / "data" / "uvms"
+FITTED = [f"traj{n}" for n in ("003-0", "005-0", "006-1", "012-1", "019-3", "030-0")]
+# `simulated` as benchmarks/python/uvms_dynamics.py fits it to the six runs FITTED.
+NUMBERS = np.array([-0.226, 0.072, -0.364, 10.952])
 MOUNT = np.array([[1, 0, 0, 0.25], [0, 1, 0, -0.10965], [0, 0, 1, 0.005], [0, 0, 0, 1.0]])  # URDF
 WATER = 997.0  # of the authors' simulation [kg/m³]
 # Of each link: mass [kg], its centre [m], volume [m³], its centre [m]; the jaw goes with the wrist.
@@ -108,6 +111,54 @@ def run(name: str) -> Run:
     roll = np.arctan2(2 * (w * x + y * z), 1 - 2 * (x * x + y * y))
     pitch = np.arcsin(np.clip(2 * (w * y - z * x), -1, 1))
     return Run(name, time, np.stack(columns, axis=1) - ZEROS, roll, pitch)
+
+
+SETTLING = 20.0  # at rest in the first posture, before a simulated run begins [s]
+SPACING = 0.05  # of the rows that simulated joints go through [s]
+
+
+@cache
+def joint_rows(name: str) -> tuple[Array, Array]:
+    """(K,) [s] and (K, 4) [rad]: positions smoothed by cubics over 0.55 s (Savitzky and Golay)."""
+    from scipy.signal import savgol_filter
+
+    rows = _table(f"{name}_joint_states.csv")
+    time = np.arange(rows["time_secs"][0], rows["time_secs"][-1], SPACING)
+    columns = [np.interp(time, rows["time_secs"], rows[f"axis_{a}_pos"]) for a in "edcb"]
+    q = np.stack(columns, axis=1) - ZEROS
+    return time, np.asarray(savgol_filter(q, 11, 3, axis=0))
+
+
+def simulated(name: str, numbers: Array) -> tuple[Array, Array]:
+    """Roll and pitch at the times of `run(name)` as the dynamics have them [rad].
+
+    `numbers` are two an axis: Σ m r of the hull about its centre of buoyancy, (3,) [kg m], of which
+    z is of both axes, and the drag about x and y, quadratic alone, over that of the BlueROV2 as
+    published. All else is published, the arm's masses and volumes as above.
+    """
+    base = bathyal.vehicles.bluerov2_heavy()
+    linear = base.linear_drag.copy()
+    linear[3, 3] = linear[4, 4] = 0.0
+    terms = [
+        (row, a, b, absolute, value * (numbers[3] if a in (3, 4) else 1.0))
+        for row, a, b, absolute, value in base.terms
+    ]
+    vehicle = base.replace(
+        center_of_mass=numbers[:3] / base.mass, linear_drag=linear, terms=terms,
+        water_density=WATER, volume=base.mass / WATER,
+    )  # fmt: skip
+    both = bathyal.ArmOnVehicle(vehicle, bathyal.Workspace(arm(), MOUNT, radii=0.02))
+    time, q = joint_rows(name)
+    since = time - time[0] + SETTLING
+    motion = both.simulate(np.eye(4), q, np.zeros(6), since[-1], 0.02, time=since)
+    turns = motion.pose[:, :3, :3]
+    at = run(name).time - time[0] + SETTLING
+    roll = np.interp(at, motion.time, np.arctan2(turns[:, 2, 1], turns[:, 2, 2]))
+    return roll, np.interp(at, motion.time, np.arcsin(-turns[:, 2, 0]))
+
+
+def about_mean(values: Array) -> Array:
+    return np.asarray(values - values.mean())
 
 
 def down(roll: Array, pitch: Array) -> Array:
