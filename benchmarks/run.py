@@ -29,11 +29,11 @@ PYTHON = [
     "reach_map",
 ]
 PYTHON += ["sonar_pings", "long_survey"]
-PYTHON += ["uvms_trim", "navigation", "vehicle_step", "mission_speed", "watchers"]
+PYTHON += ["uvms_trim", "uvms_dynamics", "navigation", "vehicle_step", "mission_speed", "watchers"]
 PYTHON += ["read_text", "whole_plan", "identify"]
 PYTHON += ["intervals", "diagnose_speed", "diagnose_real", "score_card"]
 CPP = ["bench_delaunay", "bench_greedy", "bench_arm_forward", "bench_arm_inverse"]
-CPP += ["bench_gram"]
+CPP += ["bench_body_tree", "bench_gram"]
 PACKAGES = ["numpy", "scipy", "coal", "open3d-cpu", "embreex", "vtk", "pandas", "pyarrow", "pin"]
 PACKAGES += ["mujoco"]
 DEBIAN = [
