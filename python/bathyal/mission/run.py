@@ -3,12 +3,15 @@
 
 from __future__ import annotations
 
+import fcntl
 import hashlib
 import json
 import math
+import os
 import platform
 import tempfile
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import asdict, dataclass, field
 from importlib.metadata import version
 from pathlib import Path
@@ -296,7 +299,8 @@ def run(
         Where the folder cannot be written.
     Error
         For a mission that cannot be read, a motion that runs away, a saved state of another run, a
-        port that is taken, or a program that does not answer.
+        port that is taken, a program that does not answer, a full disk, or a folder in which
+        another program runs a mission.
     ValueError
         For a speed that is not above 0, or `inputs` with `replay`.
 
@@ -315,39 +319,56 @@ def run(
     given = mission if isinstance(mission, Mission) else read_mission(mission)
     folder = Path(tempfile.mkdtemp(prefix="bathyal-run-") if out is None else out)
     folder.mkdir(parents=True, exist_ok=True)
-    state = _saved(folder) if resume else None
     if inputs is not None and replay is not None:
         raise ValueError("inputs: expected none with replay, got a function")
-    recorded = recorded_inputs(Path(replay) / LOG) if replay is not None else {}
-    if state is not None:
-        recorded |= recorded_inputs(folder / LOG)
-    live = LiveRun(given, folder, seed=seed, speed=speed, inputs=inputs, replay=replay is not None)
-    (folder / RECORD).unlink(missing_ok=True)
-    _write(folder / SCENARIO, given.text.encode())
-    going = Run(given, seed=seed, log=folder / LOG, state=state)
-    saved = going.time
+    with _alone_in(folder):
+        state = _saved(folder) if resume else None
+        recorded = recorded_inputs(Path(replay) / LOG) if replay is not None else {}
+        if state is not None:
+            recorded |= recorded_inputs(folder / LOG)
+        live = LiveRun(
+            given, folder, seed=seed, speed=speed, inputs=inputs, replay=replay is not None
+        )
+        (folder / RECORD).unlink(missing_ok=True)
+        _write(folder / SCENARIO, given.text.encode())
+        going = Run(given, seed=seed, log=folder / LOG, state=state)
+        saved = going.time
 
-    def look() -> None:
-        nonlocal saved
-        if out is not None and going.time >= saved + save_every:
-            _write(folder / STATE, going.save())
-            saved = going.time
-        if progress is not None:
-            progress(going.time)
+        def look() -> None:
+            nonlocal saved
+            if out is not None and going.time >= saved + save_every:
+                _write(folder / STATE, going.save())
+                saved = going.time
+            if progress is not None:
+                progress(going.time)
 
+        try:
+            live.finish(going, recorded, look)
+        except BaseException:
+            if live.asking and out is not None:
+                _write(folder / STATE, going.save())
+            raise
+        going.close()
+        result = _result(going, folder)
+        _write(folder / RECORD, _record(result))
+        if live.is_live:
+            _write(folder / LINKS, json.dumps(live.report(), indent=1).encode() + b"\n")
+        (folder / STATE).unlink(missing_ok=True)
+        return result
+
+
+@contextmanager
+def _alone_in(folder: Path) -> Iterator[None]:
+    """While no other program runs a mission in the folder."""
+    descriptor = os.open(folder, os.O_RDONLY | os.O_DIRECTORY)
     try:
-        live.finish(going, recorded, look)
-    except BaseException:
-        if live.asking and out is not None:
-            _write(folder / STATE, going.save())
-        raise
-    going.close()
-    result = _result(going, folder)
-    _write(folder / RECORD, _record(result))
-    if live.is_live:
-        _write(folder / LINKS, json.dumps(live.report(), indent=1).encode() + b"\n")
-    (folder / STATE).unlink(missing_ok=True)
-    return result
+        try:
+            fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            raise Error(f"{shown(folder)}: another program runs a mission in it") from None
+        yield
+    finally:
+        os.close(descriptor)
 
 
 def read_run(folder: PathLike) -> RunResult:

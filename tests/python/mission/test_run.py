@@ -237,6 +237,25 @@ def test_a_log_that_cannot_be_written_is_named(short, tmp_path):
         bathyal.Run(short, seed=1, log=tmp_path / "no" / "such" / "log.mcap")
 
 
+def test_two_programs_do_not_run_in_one_folder(short, tmp_path):
+    out = tmp_path / "run"
+
+    def another(_time):
+        with pytest.raises(bathyal.Error, match="another program runs a mission"):
+            bathyal.run(short, seed=1, out=out, resume=True)
+
+    assert bathyal.run(short, seed=1, out=out, save_every=5.0, progress=another).status == "done"
+    assert bathyal.run(short, seed=1, out=out).status == "done"  # free again
+
+
+@pytest.mark.skipif(not os.path.exists("/dev/full"), reason="this system has no /dev/full")
+def test_a_full_disk_is_an_error(short, tmp_path):
+    (tmp_path / "run").mkdir()
+    (tmp_path / "run" / "log.mcap").symlink_to("/dev/full")
+    with pytest.raises(bathyal.Error, match=r"log\.mcap: No space left on device"):
+        bathyal.run(short, seed=1, out=tmp_path / "run")
+
+
 def test_units():
     from bathyal.mission.quantities import parsed
 
