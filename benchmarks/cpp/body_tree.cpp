@@ -21,7 +21,7 @@ constexpr double kSame = 1e-10;  // of the largest acceleration
 constexpr double kNoWater = 1e-12;
 
 struct Case {
-  TreeState state;
+  BodyTreeState state;
   TreeLoads loads;
   Eigen::VectorXd q, velocity, efforts;
 };

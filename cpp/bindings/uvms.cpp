@@ -113,7 +113,7 @@ std::tuple<py::array, py::array, py::array> arm_accelerations(
   if (!torque.is_none() && !acceleration.is_none()) {
     throw_argument("torque", "None where accelerations are given", "both");
   }
-  JointMotion joints;
+  TreeJointMotion joints;
   system.set_joints(coordinates_of("q", q, size), coordinates_of("rate", rate, size),
                     coordinates_of("acceleration", acceleration, size), joints);
   TreeLoads loads;

@@ -112,7 +112,8 @@ ArmOnVehicle::ArmOnVehicle(const Vehicle& vehicle, const Workspace& workspace,
     : workspace_(workspace), water_(water), tree_(tree_of(vehicle, workspace, water)) {}
 
 void ArmOnVehicle::set_joints(const std::vector<double>& q, const std::vector<double>& rate,
-                              const std::vector<double>& acceleration, JointMotion& motion) const {
+                              const std::vector<double>& acceleration,
+                              TreeJointMotion& motion) const {
   const Arm& arm = workspace_.arm();
   const auto check = [&](const char* name, const std::vector<double>& values) {
     if (values.size() == static_cast<std::size_t>(arm.size())) return;
@@ -201,22 +202,22 @@ ArmMotionRecord simulate_arm_motion(const ArmOnVehicle& system, const VehicleSta
                                     const JointSpline& motion, const ArmMotionOptions& options) {
   options.tip_wrench.check("tip_wrench");
   std::vector<double> q, rate, acceleration;
-  const JointMotionFunction follow = [&](double time, JointMotion& joints) {
+  const TreeJointMotionFunction follow = [&](double time, TreeJointMotion& joints) {
     motion.at(time, q, rate, acceleration);
     system.set_joints(q, rate, acceleration, joints);
   };
-  const TreeLoadsFunction loads = [&](double time, const TreeState& state, TreeLoads& now) {
+  const TreeLoadsFunction loads = [&](double time, const BodyTreeState& state, TreeLoads& now) {
     now.flow.velocity = options.current;
     now.tip_wrench = options.tip_wrench.at(time);
     if (options.wrench) now.wrench = options.wrench(time, state.base);
   };
-  TreeState from = system.tree().rest();
+  BodyTreeState from = system.tree().rest();
   from.base = start;
   const TreeMotionRecord run = simulate_tree(system.tree(), from, loads, follow, options.steps);
   ArmMotionRecord record;
   record.vehicle.time = run.time;
   TreeLoads now;
-  JointMotion joints;
+  TreeJointMotion joints;
   TreeAcceleration found;
   for (std::size_t k = 0; k < run.time.size(); ++k) {
     follow(run.time[k], joints);

@@ -40,7 +40,7 @@ class ArmOnVehicle {
   /// The tree's joints of an arm's coordinates, which follow each joint's multiplier and offset.
   /// \throw std::invalid_argument for q, rates or accelerations of another number
   void set_joints(const std::vector<double>& q, const std::vector<double>& rate,
-                  const std::vector<double>& acceleration, JointMotion& motion) const;
+                  const std::vector<double>& acceleration, TreeJointMotion& motion) const;
 
   /// Loads of the tree's joints by those of the arm's coordinates, and back.
   /// \throw std::invalid_argument for an arm with joints that mimic others: their drives share the

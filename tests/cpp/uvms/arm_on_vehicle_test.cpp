@@ -54,8 +54,8 @@ Workspace odd_workspace(double radius = 0.03) {
 
 const std::vector<double> kPosture{0.4, -0.8, 0.1, 1.1};
 
-TreeState at_posture(const ArmOnVehicle& system, const std::vector<double>& q) {
-  JointMotion joints;
+BodyTreeState at_posture(const ArmOnVehicle& system, const std::vector<double>& q) {
+  TreeJointMotion joints;
   const std::vector<double> zero(q.size(), 0.0);
   system.set_joints(q, zero, zero, joints);
   return {{}, joints.q, joints.rate};
@@ -64,7 +64,7 @@ TreeState at_posture(const ArmOnVehicle& system, const std::vector<double>& q) {
 TEST(ArmOnVehicle, LinksAreWhereTheArmsAre) {
   const Workspace workspace = odd_workspace();
   const ArmOnVehicle system(Vehicle(bluerov2_heavy()), workspace);
-  const TreeState state = at_posture(system, kPosture);
+  const BodyTreeState state = at_posture(system, kPosture);
   const Pose tool = system.tree().link_poses(state).back();
   const Pose expected = row_frames(workspace.arm(), kPosture).world_from_tool;
   EXPECT_LT((tool.matrix() - expected.matrix()).norm(), 1e-12);
@@ -153,10 +153,10 @@ TEST(ArmOnVehicle, ArmThatMovesMovesTheVehicleTheOtherWay) {
   options.steps.duration = 0.9;
   options.steps.step = 1e-3;
   const ArmMotionRecord run = simulate_arm_motion(system, {}, motion, options);
-  TreeState last = at_posture(system, {run.q.end() - 4, run.q.end()});
+  BodyTreeState last = at_posture(system, {run.q.end() - 4, run.q.end()});
   std::vector<double> q, rate, acceleration;
   motion.at(0.9, q, rate, acceleration);
-  JointMotion joints;
+  TreeJointMotion joints;
   system.set_joints(q, rate, acceleration, joints);
   last = {run.vehicle.state.back(), joints.q, joints.rate};
   EXPECT_GT(run.vehicle.state.back().velocity.norm(), 0.02);

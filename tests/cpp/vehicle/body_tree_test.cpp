@@ -72,9 +72,9 @@ BodyTreeOptions any_tree(unsigned seed, bool water) {
   return options;
 }
 
-TreeState any_state(unsigned seed, std::size_t joints) {
+BodyTreeState any_state(unsigned seed, std::size_t joints) {
   Draw draw(seed + 100);
-  TreeState state;
+  BodyTreeState state;
   state.base = {draw.pose(), draw.vec6(0.7)};
   for (std::size_t k = 0; k < joints; ++k) {
     state.q.push_back(3.0 * draw.number());
@@ -156,7 +156,7 @@ struct Dense {
 };
 
 /// Kane's equations: Σ Jᵀ (force − M J̇ u) = Σ Jᵀ M J du/dt, J̇ by differences of sixth order.
-Dense dense(const BodyTree& tree, const TreeState& state, const TreeLoads& loads) {
+Dense dense(const BodyTree& tree, const BodyTreeState& state, const TreeLoads& loads) {
   const BodyTreeOptions& options = tree.options();
   const auto n = static_cast<Index>(tree.size());
   const Eigen::VectorXd q = Eigen::Map<const Eigen::VectorXd>(state.q.data(), n);
@@ -233,7 +233,7 @@ class TreeOf : public testing::TestWithParam<unsigned> {};
 TEST_P(TreeOf, EffortsGiveTheDenseReferencesAccelerations) {
   for (const bool water : {false, true}) {
     const BodyTree tree(any_tree(GetParam(), water));
-    const TreeState state = any_state(GetParam(), tree.size());
+    const BodyTreeState state = any_state(GetParam(), tree.size());
     const TreeLoads loads = any_loads(GetParam(), tree.size());
     Dense reference = dense(tree, state, loads);
     reference.force.tail(6) += Eigen::Map<const Eigen::VectorXd>(loads.joints.data(), 6);
@@ -250,7 +250,7 @@ TEST_P(TreeOf, EffortsGiveTheDenseReferencesAccelerations) {
 
 TEST_P(TreeOf, MotionsGiveTheDenseReferencesEfforts) {
   const BodyTree tree(any_tree(GetParam(), true));
-  const TreeState state = any_state(GetParam(), tree.size());
+  const BodyTreeState state = any_state(GetParam(), tree.size());
   TreeLoads loads = any_loads(GetParam(), tree.size());
   loads.drive = JointDrive::kAcceleration;
   const Dense reference = dense(tree, state, loads);
@@ -301,7 +301,7 @@ TEST(FreeTree, KeepsMomentumAndEnergyWithoutGravity) {
 TEST(FreeTree, KeepsEnergyUnderGravity) {
   const BodyTree tree(undamped(2));
   const TreeMotionRecord run = two_seconds(tree);
-  const auto energy = [&](const TreeState& state) {
+  const auto energy = [&](const BodyTreeState& state) {
     return tree.kinetic_energy(state) + tree.potential_energy(state);
   };
   const double scale = tree.kinetic_energy(run.state.front());
@@ -311,7 +311,7 @@ TEST(FreeTree, KeepsEnergyUnderGravity) {
 
 TEST(Tree, WithoutLinksIsTheVehicle) {
   const BodyTree tree({bluerov2_heavy(), {}, Vec3::Zero()});
-  const TreeState state = any_state(3, 0);
+  const BodyTreeState state = any_state(3, 0);
   const TreeLoads loads = any_loads(3, 0);
   TreeAcceleration found;
   tree.accelerations(state, loads, found);
@@ -322,7 +322,7 @@ TEST(Tree, WithoutLinksIsTheVehicle) {
 
 TEST(Tree, IsCarriedByACurrentAsInAFrameThatMoves) {
   const BodyTree tree(any_tree(5, true));
-  TreeState state = any_state(5, tree.size());
+  BodyTreeState state = any_state(5, tree.size());
   TreeLoads loads;
   TreeAcceleration still, carried;
   tree.accelerations(state, loads, still);
@@ -339,7 +339,7 @@ TEST(Tree, IsCarriedByACurrentAsInAFrameThatMoves) {
 
 TEST(Tree, CarriesOutAMotion) {
   const BodyTree tree(any_tree(6, true));
-  const auto swing = [](double time, JointMotion& motion) {
+  const auto swing = [](double time, TreeJointMotion& motion) {
     motion.q.assign(6, 0.3 * std::sin(2.0 * time));
     motion.rate.assign(6, 0.6 * std::cos(2.0 * time));
     motion.acceleration.assign(6, -1.2 * std::sin(2.0 * time));
@@ -394,7 +394,7 @@ TEST(Tree, RefusesBadInputByName) {
   options.links.assign(40, options.links[0]);
   expect_refused(options, "links");
   const BodyTree tree(any_tree(1, true));
-  TreeState state = tree.rest();
+  BodyTreeState state = tree.rest();
   state.q.pop_back();
   TreeAcceleration found;
   EXPECT_THROW(tree.accelerations(state, {}, found), std::invalid_argument);

@@ -127,11 +127,11 @@ BodyTree& BodyTree::operator=(BodyTree&&) noexcept = default;
 
 std::size_t BodyTree::size() const { return links_.size(); }
 
-TreeState BodyTree::rest() const {
+BodyTreeState BodyTree::rest() const {
   return {{}, std::vector<double>(size(), 0.0), std::vector<double>(size(), 0.0)};
 }
 
-void BodyTree::check_sizes(const TreeState& state) const {
+void BodyTree::check_sizes(const BodyTreeState& state) const {
   const auto check = [&](std::string_view name, std::size_t count) {
     if (count == size()) return;
     throw_argument(name, std::to_string(size()) + " numbers", std::to_string(count));
@@ -141,7 +141,7 @@ void BodyTree::check_sizes(const TreeState& state) const {
 }
 
 /// Velocities and forces, the hull first.
-void BodyTree::outward(const TreeState& state, const TreeLoads& loads, Passing* all) const {
+void BodyTree::outward(const BodyTreeState& state, const TreeLoads& loads, Passing* all) const {
   const Eigen::Matrix3d hull_from_world = state.base.world_from_vehicle.linear().transpose();
   const VehicleOptions& hull = options_->vehicle;
   const Vec3 hull_down = -hull_from_world.col(2);
@@ -191,7 +191,7 @@ void BodyTree::push_tip(const TreeLoads& loads, Passing* all) const {
   all[size() - 1].force += at_tip(loads.tip_wrench, hull_from_link, tip);
 }
 
-void BodyTree::accelerations(const TreeState& state, const TreeLoads& loads,
+void BodyTree::accelerations(const BodyTreeState& state, const TreeLoads& loads,
                              TreeAcceleration& found) const {
   check_sizes(state);
   if (!loads.joints.empty() && loads.joints.size() != size()) {
@@ -264,7 +264,7 @@ void BodyTree::accelerations(const TreeState& state, const TreeLoads& loads,
   }
 }
 
-double BodyTree::kinetic_energy(const TreeState& state) const {
+double BodyTree::kinetic_energy(const BodyTreeState& state) const {
   check_sizes(state);
   std::array<Passing, kMostLinks> all;
   outward(state, {}, all.data());
@@ -275,7 +275,7 @@ double BodyTree::kinetic_energy(const TreeState& state) const {
   return energy;
 }
 
-std::vector<Pose> BodyTree::link_poses(const TreeState& state) const {
+std::vector<Pose> BodyTree::link_poses(const BodyTreeState& state) const {
   check_sizes(state);
   std::vector<Pose> own, poses;
   for (std::size_t k = 0; k < size(); ++k) {
@@ -290,7 +290,7 @@ std::vector<Pose> BodyTree::link_poses(const TreeState& state) const {
   return poses;
 }
 
-double BodyTree::potential_energy(const TreeState& state) const {
+double BodyTree::potential_energy(const BodyTreeState& state) const {
   const VehicleOptions& hull = options_->vehicle;
   const auto height = [&](const Pose& world_from_body, const RigidBody& body) {
     return body.mass * (world_from_body * body.center_of_mass).z() -
@@ -305,7 +305,7 @@ double BodyTree::potential_energy(const TreeState& state) const {
   return hull.gravity * sum;
 }
 
-Momentum BodyTree::momentum(const TreeState& state) const {
+Momentum BodyTree::momentum(const BodyTreeState& state) const {
   check_sizes(state);
   std::array<Passing, kMostLinks> all;
   outward(state, {}, all.data());

@@ -48,7 +48,7 @@ struct BodyTreeOptions {
   void check() const;
 };
 
-struct TreeState {
+struct BodyTreeState {
   VehicleState base = {};
   std::vector<double> q = {};     ///< one a link [rad, m]
   std::vector<double> rate = {};  ///< [rad/s, m/s]
@@ -98,27 +98,28 @@ class BodyTree {
   std::size_t size() const;
 
   /// All coordinates and velocities zero.
-  TreeState rest() const;
+  BodyTreeState rest() const;
 
   /// Allocates nothing where `found` has been used before.
   /// \throw std::invalid_argument for coordinates, rates or joints of another number than links
-  void accelerations(const TreeState& state, const TreeLoads& loads, TreeAcceleration& found) const;
+  void accelerations(const BodyTreeState& state, const TreeLoads& loads,
+                     TreeAcceleration& found) const;
 
   /// Of bodies and the water that they carry, at rest otherwise [J].
-  double kinetic_energy(const TreeState& state) const;
+  double kinetic_energy(const BodyTreeState& state) const;
   /// Of weight and buoyancy; 0 where the origins are at z = 0 of the world [J].
-  double potential_energy(const TreeState& state) const;
-  Momentum momentum(const TreeState& state) const;
+  double potential_energy(const BodyTreeState& state) const;
+  Momentum momentum(const BodyTreeState& state) const;
 
   /// vehicle_from_link of each link.
-  std::vector<Pose> link_poses(const TreeState& state) const;
+  std::vector<Pose> link_poses(const BodyTreeState& state) const;
 
  private:
   struct Body;     // a link in the frame whose z is the joint's axis
   struct Passing;  // what a link needs from one sweep to the next
 
-  void check_sizes(const TreeState& state) const;
-  void outward(const TreeState& state, const TreeLoads& loads, Passing* all) const;
+  void check_sizes(const BodyTreeState& state) const;
+  void outward(const BodyTreeState& state, const TreeLoads& loads, Passing* all) const;
   void push_tip(const TreeLoads& loads, Passing* all) const;
 
   std::shared_ptr<const BodyTreeOptions> options_;

@@ -24,7 +24,7 @@ void check_joint_count(std::string_view name, std::size_t count, std::size_t exp
 }
 
 /// d(attitude, velocity, q, rate)/dt at a small change of these.
-Eigen::VectorXd change_at(const BodyTree& tree, TreeState state, const TreeLoads& loads,
+Eigen::VectorXd change_at(const BodyTree& tree, BodyTreeState state, const TreeLoads& loads,
                           const Eigen::VectorXd& off) {
   const auto n = static_cast<Index>(tree.size());
   state.base.world_from_vehicle.linear() =
@@ -42,13 +42,14 @@ Eigen::VectorXd change_at(const BodyTree& tree, TreeState state, const TreeLoads
 
 }  // namespace
 
-TreeIntegrator::TreeIntegrator(BodyTree tree, TreeLoadsFunction loads, JointMotionFunction motion)
+TreeIntegrator::TreeIntegrator(BodyTree tree, TreeLoadsFunction loads,
+                               TreeJointMotionFunction motion)
     : tree_(std::move(tree)),
       loads_(std::move(loads)),
       motion_(std::move(motion)),
       state_(tree_.rest()) {}
 
-const TreeLoads& TreeIntegrator::at(double time, TreeState& state) {
+const TreeLoads& TreeIntegrator::at(double time, BodyTreeState& state) {
   if (motion_) {
     motion_(time, motion_now_);
     check_joint_count("q", motion_now_.q.size(), tree_.size());
@@ -86,7 +87,7 @@ TreeIntegrator::Numbers TreeIntegrator::rate(double time, const Numbers& flat) {
   return change;
 }
 
-void TreeIntegrator::step(double time, double step, TreeState& state) {
+void TreeIntegrator::step(double time, double step, BodyTreeState& state) {
   const auto n = static_cast<Index>(tree_.size());
   Numbers flat(13 + 2 * n);
   flat << vehicle::flat_of(state.base), Eigen::Map<const Eigen::VectorXd>(state.q.data(), n),
@@ -114,7 +115,7 @@ void SimulateTreeOptions::check() const {
   }
 }
 
-double largest_stable_step(const BodyTree& tree, const TreeState& state, const TreeLoads& loads,
+double largest_stable_step(const BodyTree& tree, const BodyTreeState& state, const TreeLoads& loads,
                            bool joints_held) {
   constexpr double kOff = 1e-6;
   const auto all = static_cast<Index>(9 + 2 * tree.size());
@@ -134,8 +135,9 @@ double largest_stable_step(const BodyTree& tree, const TreeState& state, const T
   return least;
 }
 
-TreeMotionRecord simulate_tree(const BodyTree& tree, const TreeState& start,
-                               const TreeLoadsFunction& loads, const JointMotionFunction& motion,
+TreeMotionRecord simulate_tree(const BodyTree& tree, const BodyTreeState& start,
+                               const TreeLoadsFunction& loads,
+                               const TreeJointMotionFunction& motion,
                                const SimulateTreeOptions& options) {
   options.check();
   check_rigid("state", start.base.world_from_vehicle);
@@ -143,7 +145,7 @@ TreeMotionRecord simulate_tree(const BodyTree& tree, const TreeState& start,
   check_joint_count("q", start.q.size(), tree.size());
   check_joint_count("rate", start.rate.size(), tree.size());
   TreeIntegrator integrator(tree, loads, motion);
-  TreeState now = start;
+  BodyTreeState now = start;
   const TreeLoads& first = integrator.at(options.start, now);
   const double stable = largest_stable_step(tree, now, first, bool(motion));
   if (options.step > stable) {
