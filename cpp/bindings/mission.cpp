@@ -81,6 +81,10 @@ MissionCommand command_of(const py::dict& dict, const std::vector<std::string>& 
     command.wrench_time.assign(times.data(), times.data() + times.rows());
     const auto rows = table_argument("wrench", dict["wrench"], 6);
     for (Index i = 0; i < rows.rows(); ++i) command.wrench.emplace_back(rows.row(i).transpose());
+    const auto empty = table_argument("empty_wrench", dict["empty_wrench"], 6);
+    for (Index i = 0; i < empty.rows(); ++i) {
+      command.empty_wrench.emplace_back(empty.row(i).transpose());
+    }
   }
   return command;
 }

@@ -12,7 +12,7 @@
 namespace bathyal {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, FaultKind>, 15> kNames{
+constexpr std::array<std::pair<std::string_view, FaultKind>, 16> kNames{
     {{"off", FaultKind::kOff},
      {"stuck", FaultKind::kStuck},
      {"garbage", FaultKind::kGarbage},
@@ -27,7 +27,8 @@ constexpr std::array<std::pair<std::string_view, FaultKind>, 15> kNames{
      {"weak", FaultKind::kWeak},
      {"reversed", FaultKind::kReversed},
      {"sag", FaultKind::kSag},
-     {"leak", FaultKind::kLeak}}};
+     {"leak", FaultKind::kLeak},
+     {"lost", FaultKind::kLost}}};
 
 constexpr std::uint64_t kFaultChannel = 1'000'000;  // apart from every sensor's own
 constexpr std::uint64_t kRateChannel = 2'000'000;

@@ -61,10 +61,15 @@ void check_fault(const MissionPlan& plan, const MissionFault& fault) {
   };
   const bool drive = named(plan.vehicle.thrusters) || named(plan.vehicle.fins);
   const bool battery = plan.vehicle.battery && fault.device == plan.vehicle.battery->name;
+  const bool arm = fault.device == "arm" && std::any_of(plan.commands.begin(), plan.commands.end(),
+                                                        [](const MissionCommand& c) {
+                                                          return c.kind == CommandKind::kSample;
+                                                        });
   const bool fits = (named(plan.sensors) && of_sensor(fault.kind)) ||
                     (drive && of_drive(fault.kind)) || (battery && fault.kind == FaultKind::kSag) ||
-                    (fault.device == "hull" && fault.kind == FaultKind::kLeak);
-  const bool known = named(plan.sensors) || drive || battery || fault.device == "hull";
+                    (fault.device == "hull" && fault.kind == FaultKind::kLeak) ||
+                    (arm && (fault.kind == FaultKind::kStuck || fault.kind == FaultKind::kLost));
+  const bool known = named(plan.sensors) || drive || battery || fault.device == "hull" || arm;
   if (!known) throw_argument("fault device", "a device of the vehicle", fault.device);
   if (!fits)
     throw_argument("fault kind", "one that the device may have", "another of " + fault.device);
@@ -99,6 +104,10 @@ void MissionCommand::check() const {
       (wrench_time.size() < 2 || wrench.size() != wrench_time.size() ||
        !std::is_sorted(wrench_time.begin(), wrench_time.end()))) {
     throw_argument(at, "a wrench at two rising times or more", "others");
+  }
+  if (!empty_wrench.empty() && empty_wrench.size() != wrench.size()) {
+    throw_argument(at + " empty_wrench", std::to_string(wrench.size()) + " rows",
+                   std::to_string(empty_wrench.size()));
   }
 }
 
@@ -167,6 +176,7 @@ std::vector<std::string> mission_signals(const VehicleSystemOptions& vehicle,
   for (const FinOptions& fin : vehicle.fins) names.push_back("fault." + fin.name);
   names.emplace_back("fault.battery");
   names.emplace_back("fault.hull");
+  names.emplace_back("fault.arm");
   return names;
 }
 

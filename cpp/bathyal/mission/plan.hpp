@@ -41,6 +41,7 @@ struct MissionCommand {
   std::optional<Condition> condition = {};                        ///< of a check
   std::vector<double> wrench_time = {};  ///< of a sample, rising from 0 [s]
   std::vector<Vec6> wrench = {};  ///< at those times, on the vehicle about its origin [N, N m]
+  std::vector<Vec6> empty_wrench = {};  ///< the same with an empty hand; none: as `wrench`
 
   /// \throw std::invalid_argument that names the field
   void check() const;
@@ -74,11 +75,13 @@ enum class FaultKind : std::uint8_t {
   // Of the battery and the hull.
   kSag,   ///< inner resistance plus `size` [Ω]
   kLeak,  ///< takes in `size` [kg/s] of water
+  // Of the arm that takes samples; it may be stuck, too: a joint.
+  kLost,  ///< what it holds falls
 };
 
 /// What breaks, and when: at a time, once a condition holds, or at a rate.
 struct MissionFault {
-  std::string device;  ///< name of a sensor, thruster or fin; "battery", "hull"
+  std::string device;  ///< name of a sensor, thruster or fin; "battery", "hull", "arm"
   FaultKind kind = FaultKind::kOff;
   double size = 0.0;
   double at = std::numeric_limits<double>::infinity();  ///< [s]
@@ -115,7 +118,7 @@ struct MissionPlan {
 };
 
 /// Names of a mission's signals, in their order: what conditions may use. `fault.NAME` is of each
-/// sensor, thruster, fin, the battery and the hull: 1 once a watcher reports it.
+/// sensor, thruster, fin, the battery, the hull and the arm: 1 once a watcher reports it.
 std::vector<std::string> mission_signals(const VehicleSystemOptions& vehicle,
                                          const std::vector<SensorOptions>& sensors);
 

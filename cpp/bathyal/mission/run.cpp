@@ -65,6 +65,7 @@ std::map<std::string, double> MissionRun::metrics() const {
       {"battery", s.vehicle.battery.charge},
       {"position_rms", std::sqrt(s.sums.squared_error / ticks)},
       {"position_worst", s.sums.largest_error},
+      {"samples", s.arm.samples},
   };
   return all;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -104,6 +105,14 @@ struct MissionSums {
 };
 
 /// All that a run remembers.
+/// The arm that takes samples.
+struct SamplingArmState {
+  double behind = 0.0;             ///< of its plan, where a joint is stuck [s]
+  bool reported = false;           ///< that it does not follow
+  std::array<double, 6> wrench{};  ///< on the vehicle, as it is believed
+  std::int32_t samples = 0;        ///< taken and not lost
+};
+
 struct MissionState {
   std::int64_t number = 0;  ///< of the next tick
   RunStatus status = RunStatus::kRunning;
@@ -131,6 +140,7 @@ struct MissionState {
   BatteryLoad load;
   double altitude = 0.0;  ///< true [m]; NaN: no bottom
   double leak = 0.0;      ///< water taken in [kg]
+  SamplingArmState arm;
   MissionSums sums;
 };
 

@@ -259,7 +259,7 @@ void Watchers::reading(WatcherState& state, int device, const SensorReading& bef
   const bool jump = jumps(sensor, before, reading) && !is_driven_wrong(state);
   bool drifts = false;
   const bool assessed = !is_driven_wrong(state) && !suspects(state, row) &&
-                      turns_apart(state) < kLevel * options_.turn;
+                        turns_apart(state) < kLevel * options_.turn;
   if (update != nullptr && update->used && assessed) {
     watch.refused += kRecent * ((update->accepted && !jump ? 0.0 : 1.0) - watch.refused);
     for (int i = 0; i < std::min(update->count, 3); ++i) {

@@ -191,8 +191,15 @@ class MissionBuilder(VehicleBuilder):
             plan = plan_sampling(scenario.workspace, scenario.targets[row], **scenario.sampling)
             if not plan:
                 raise ValueError(f"the sample cannot be taken: {plan.status}")
-        wrench = plan.wrench - plan.wrench[0]
-        return {"wrench_time": plan.time, "wrench": wrench, "tolerance": given.tolerance}
+            # The same motion: what the sample weighs changes no plan.
+            weightless = scenario.sampling | {"sample": None}
+            empty = plan_sampling(scenario.workspace, scenario.targets[row], **weightless)
+        return {
+            "wrench_time": plan.time,
+            "wrench": plan.wrench - plan.wrench[0],
+            "empty_wrench": empty.wrench - plan.wrench[0],
+            "tolerance": given.tolerance,
+        }
 
 
 def survey_points(section: own.SurveySection) -> list[tuple[float, float]]:

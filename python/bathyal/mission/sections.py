@@ -259,6 +259,7 @@ class FaultSection(Section):
         "reversed",
         "sag",
         "leak",
+        "lost",
     ]
     size: Number = 0.0
     at: Seconds | None = None

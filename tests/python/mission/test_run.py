@@ -256,6 +256,72 @@ def test_a_full_disk_is_an_error(short, tmp_path):
         bathyal.run(short, seed=1, out=tmp_path / "run")
 
 
+def with_sampler(tmp_path, fault):
+    """A light arm that takes a sample of 40 N for 20 s, on a mission that goes on without it."""
+    text = SHORT.replace(
+        "- photo", "- fallback: [{sequence: [{sample: {scenario: s.yaml}}, photo]}, photo]"
+    ).replace("faults: [", "faults: [" + fault + ", " if fault else "faults: [")
+    path = tmp_path / "mission.yaml"
+    path.write_text(text)
+    return path
+
+
+@pytest.fixture
+def light_sample(monkeypatch):
+    """In place of a scenario's plan."""
+    from bathyal.mission.build import MissionBuilder
+
+    time_ = np.array([0.0, 5.0, 10.0, 15.0, 20.0])
+    wrench = np.zeros((5, 6))
+    wrench[1:, 2], wrench[1:4, 4] = [-2.0, -2.0, -6.0, -6.0], 1.5
+    empty = wrench.copy()
+    empty[3:, 2] = -2.0
+    made = {"wrench_time": time_, "wrench": wrench, "empty_wrench": empty, "tolerance": 1.0}
+    monkeypatch.setattr(MissionBuilder, "sample", lambda *_: made)
+
+
+def ended(path):
+    run = bathyal.run(path, seed=1)
+    return run, [f"{event.kind} {event.text}" for event in run.events]
+
+
+def test_a_sample_is_taken_or_lost(light_sample, tmp_path):
+    run, _ = ended(with_sampler(tmp_path, ""))
+    assert run.status == "done"
+    assert run.metrics["samples"] == 1
+    lost, texts = ended(with_sampler(tmp_path, "{device: arm, kind: lost, at: 25 s}"))
+    assert "command sample succeeds" in texts  # nothing on board shows it
+    assert lost.metrics["samples"] == 0
+    height = [one.log.messages("/truth")["pose.position.z"] for one in (run, lost)]
+    count = min(map(len, height))
+    assert np.abs(height[0][:count] - height[1][:count]).max() > 0.005  # it weighs less
+
+
+def test_a_joint_that_is_stuck_is_reported_and_the_arm_stays_there(light_sample, tmp_path):
+    path = with_sampler(tmp_path, "{device: arm, kind: stuck, at: 28 s}")
+    run, texts = ended(path)
+    assert "report arm stuck" in texts
+    assert "command sample fails" in texts
+    assert run.status == "done"
+    assert run.metrics["samples"] == 0
+    when = next(event.time for event in run.events if event.text == "arm stuck")
+    assert 28.9 < when < 29.3
+    going = bathyal.Run(path, seed=1)
+    going.step(count=int(when * 10) + 20)
+    assert going.signals["fault.arm"] == 1.0
+    state = going.save()
+    other = bathyal.Run(path, seed=1, state=state)
+    going.step(count=50)
+    other.step(count=50)
+    np.testing.assert_array_equal(going.pose, other.pose)
+
+
+def test_arm_faults_need_an_arm(short):
+    short.write_text(SHORT.replace("faults: [", "faults: [{device: arm, kind: stuck, at: 1 s}, "))
+    with pytest.raises(bathyal.Error, match="expected a device of the vehicle, got arm"):
+        bathyal.read_mission(short)
+
+
 def test_units():
     from bathyal.mission.quantities import parsed
 
@@ -284,6 +350,8 @@ def test_a_sample_takes_the_wrench_of_its_scenario(tmp_path):
     assert np.abs(sample["wrench"][0]).max() == 0.0
     assert np.abs(sample["wrench"][:, 4]).max() > 1.0
     assert (np.diff(sample["wrench_time"]) >= 0).all()
+    assert np.abs(sample["wrench"] - sample["empty_wrench"])[-1].max() > 0.1  # the sample
+    np.testing.assert_array_equal(sample["wrench"][:50], sample["empty_wrench"][:50])
     # That example's arm is too heavy for this vehicle: the mission says so by failing.
     run = bathyal.run(path, seed=1)
     assert run.status == "failed"

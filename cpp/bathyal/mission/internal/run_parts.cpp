@@ -12,6 +12,7 @@
 namespace bathyal {
 namespace {
 
+constexpr double kArmBehind = 1.0;  ///< that an arm is behind its plan, to be reported [s]
 constexpr double kSilence = 0.5;    // of a velocity log or compass, before it is done without [s]
 constexpr double kModelWalk = 0.5;  // of the position, reckoned by the vehicle's model [m/√s]
 constexpr double kTelemetryNoise = 0.005;  // share of a propeller's speed as its motor reports it
@@ -53,14 +54,13 @@ bool is_thruster(const MissionPlan& plan, const std::string& name) {
                      [&name](const ThrusterOptions& t) { return t.name == name; });
 }
 
-Vec6 interpolated(const MissionCommand& command, double time) {
-  const auto& times = command.wrench_time;
+Vec6 interpolated(const std::vector<double>& times, const std::vector<Vec6>& rows, double time) {
   if (times.empty() || time < times.front() || time > times.back()) return Vec6::Zero();
   const auto after = std::upper_bound(times.begin(), times.end(), time);
-  if (after == times.end()) return command.wrench.back();
+  if (after == times.end()) return rows.back();
   const auto k = static_cast<std::size_t>(after - times.begin());
   const double share = (time - times[k - 1]) / (times[k] - times[k - 1]);
-  return (1.0 - share) * command.wrench[k - 1] + share * command.wrench[k];
+  return (1.0 - share) * rows[k - 1] + share * rows[k];
 }
 
 }  // namespace
@@ -387,11 +387,13 @@ void MissionRun::Parts::update_signals() {
   for (const DeviceWatch& watch : state.watchers.fins) put(watch);
   put(state.watchers.battery);
   put(state.watchers.hull);
+  put(state.arm);
   set(Signal::kFault, count);
 }
 
 void MissionRun::Parts::decide() {
-  extra.setZero();
+  extra = Eigen::Map<const Vec6>(state.arm.wrench.data());
+  unknown.setZero();
   for (std::size_t i = 0; state.guard < 0 && i < plan->guards.size(); ++i) {
     const MissionGuard& guard = plan->guards[i];
     double& since = state.guard_since[i];
@@ -494,6 +496,41 @@ NodeStatus MissionRun::Parts::reach_height(const MissionCommand& command, LeafSt
                                                                      : NodeStatus::kRunning;
 }
 
+bool MissionRun::Parts::has_fault(std::string_view device, FaultKind kind) const {
+  for (std::size_t k = 0; k < plan->faults.size(); ++k) {
+    const MissionFault& fault = plan->faults[k];
+    if (state.faults[k].active && fault.kind == kind && fault.device == device) return true;
+  }
+  return false;
+}
+
+/// The arm's encoders show a joint that is stuck; nothing on board shows a hand that is empty.
+NodeStatus MissionRun::Parts::take_sample(const MissionCommand& command, LeafState& leaf) {
+  SamplingArmState& arm = state.arm;
+  if (arm.reported) return NodeStatus::kFailure;
+  const bool stuck = has_fault("arm", FaultKind::kStuck);
+  if (stuck) leaf.since += plan->tick();
+  arm.behind = stuck ? arm.behind + plan->tick() : 0.0;
+  const double since = time() - leaf.since;
+  extra = interpolated(command.wrench_time, command.wrench, since);
+  const bool lost = has_fault("arm", FaultKind::kLost);
+  if (lost && !command.empty_wrench.empty()) {
+    unknown = interpolated(command.wrench_time, command.empty_wrench, since) - extra;
+  }
+  if (arm.behind >= kArmBehind) {
+    arm.reported = true;
+    std::copy(extra.begin(), extra.end(), arm.wrench.begin());
+    emit("report", "arm stuck");
+    return NodeStatus::kFailure;
+  }
+  const Eigen::Vector2d off =
+      estimated().world_from_vehicle.translation().head<2>() - state.target.to;
+  if (off.norm() > command.tolerance) return NodeStatus::kFailure;
+  if (since < command.wrench_time.back()) return NodeStatus::kRunning;
+  arm.samples += lost ? 0 : 1;
+  return NodeStatus::kSuccess;
+}
+
 NodeStatus MissionRun::Parts::stay(const MissionCommand& command, LeafState& leaf) {
   return time() >= leaf.since + command.time - 1e-9 ? NodeStatus::kSuccess : NodeStatus::kRunning;
 }
@@ -514,17 +551,9 @@ NodeStatus MissionRun::Parts::update(int leaf) {
     case CommandKind::kFollow:
       found = follow(command, own);
       break;
-    case CommandKind::kSample: {
-      const double since = time() - own.since;
-      extra = interpolated(command, since);
-      const Eigen::Vector2d off =
-          estimated().world_from_vehicle.translation().head<2>() - state.target.to;
-      if (off.norm() > command.tolerance)
-        found = NodeStatus::kFailure;
-      else if (since < command.wrench_time.back())
-        found = NodeStatus::kRunning;
+    case CommandKind::kSample:
+      found = take_sample(command, own);
       break;
-    }
     case CommandKind::kMark:
       emit("mark", command.name);
       break;
@@ -578,7 +607,7 @@ void MissionRun::Parts::steer(const LiveInputs& inputs) {
 }
 
 void MissionRun::Parts::move(const LiveInputs& inputs) {
-  Vec6 outside = extra;
+  Vec6 outside = extra + unknown;
   for (std::size_t i = 0; i < inputs.wrench.size(); ++i) {
     outside[static_cast<Eigen::Index>(i)] += inputs.wrench[i];
   }

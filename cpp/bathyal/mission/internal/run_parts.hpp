@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "bathyal/mission/run.hpp"
@@ -38,7 +39,8 @@ struct MissionRun::Parts final : TreeLeaves {
   VehicleCommands driven;
   std::vector<DeviceReport> reports;
   std::vector<int> changed, failed;
-  Vec6 extra = Vec6::Zero();  ///< of a sample, known to the pilot
+  Vec6 extra = Vec6::Zero();    ///< of a sample, known to the pilot
+  Vec6 unknown = Vec6::Zero();  ///< what it truly is besides
 
   double time() const { return static_cast<double>(state.number) * plan->tick(); }
   VehicleState estimated() const;
@@ -75,6 +77,8 @@ struct MissionRun::Parts final : TreeLeaves {
   double height_of(const MissionCommand& command) const;
   NodeStatus follow(const MissionCommand& command, LeafState& leaf);
   NodeStatus reach_height(const MissionCommand& command, LeafState& leaf);
+  bool has_fault(std::string_view device, FaultKind kind) const;
+  NodeStatus take_sample(const MissionCommand& command, LeafState& leaf);
   NodeStatus stay(const MissionCommand& command, LeafState& leaf);
   void aim_at_points(const MissionCommand& command, const LeafState& leaf);
   bool held_for(LeafState& leaf, bool within, double seconds) const;

@@ -110,6 +110,10 @@ void archive(A& a, BatteryLoad& s) {
   a(s.voltage, s.current, s.collapsed);
 }
 template <class A>
+void archive(A& a, SamplingArmState& s) {
+  a(s.behind, s.reported, s.wrench, s.samples);
+}
+template <class A>
 void archive(A& a, MissionSums& s) {
   a(s.distance, s.deepest, s.least_altitude, s.energy, s.squared_error, s.largest_error);
 }
@@ -123,7 +127,7 @@ void archive_state(A& a, MissionState& s, std::string& navigation) {
   a(s.number, s.status, s.vehicle, s.lines, s.pending, navigation, s.velocity, s.velocity_time,
     s.attitude, s.attitude_time, s.spin, s.spin_time, s.pilot, s.target, s.tree, s.guard,
     s.guard_since, s.leaves, s.faults, s.watchers, s.signals, s.commands, s.held_commands, s.load,
-    s.altitude, s.leak, s.sums);
+    s.altitude, s.leak, s.arm, s.sums);
 }
 
 }  // namespace
