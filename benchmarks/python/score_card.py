@@ -34,7 +34,7 @@ def main() -> None:
             seconds = time.perf_counter() - begin
             print(f"{done} of {len(seeds)} cases, {seconds:.0f} s", file=sys.stderr, flush=True)
 
-    cases = run(seeds, processes=options.processes, told=told)
+    cases = run(seeds, processes=options.processes, progress=told)
     result = card(cases)
     options.out.mkdir(parents=True, exist_ok=True)
     (options.out / "card.json").write_text(json.dumps(result, indent=1))
