@@ -179,7 +179,7 @@ CorrectedArm("UR10e", 6 joints, cable of joint 4)
 >>> model.in_support([[0.5] * 6, [0.5, 2.0, 0.5, 0.5, 0.5, 0.5]])
 array([ True, False])
 >>> model.support_reasons([0.5, 2.0, 0.5, 0.5, 0.5, 0.5])
-'joint 2 at 2 rad, data -0.975268 to 0.99664: cable of joint 4 held'
+'joint 2 at 2 rad, data -0.985816 to 0.976438: cable of joint 4 held'
 )";
 
 inline constexpr const char* kCorrectedForwardDoc = R"(Poses of the tool in the world.

@@ -43,7 +43,7 @@ class SupportWarning(UserWarning):
         super().__init__(text)
         self.counts = counts
         self.beyond = beyond
-        self.in_support: NDArray[np.bool_] = mask.all(axis=1)
+        self.in_support: NDArray[np.bool_] = np.asarray(mask.all(axis=1))
         self.effects_in_support = mask
 
 
