@@ -37,7 +37,7 @@ ARGUMENTS: dict[str, tuple[dict[str, Any], str]] = {
     "no groups": ({"groups": []}, r"`groups`: expected whole .* got shape \(0,\)"),
     "table": ({"groups": np.zeros((N, 2), int)}, r"`groups`: expected .* got shape \(90, 2\)"),
     "word": ({"groups": "placement"}, "`groups`: expected whole numbers or text of shape"),
-    "parts": ({"groups": np.linspace(0, 1, N)}, "`groups`: expected whole numbers .* got 0.01.* in it"),
+    "parts": ({"groups": np.linspace(0, 1, N)}, "`groups`: expected .* got 0.01.* in it"),
     "gaps": ({"groups": [None] * N}, "`groups`: expected whole numbers or text .* None in it"),
     "odds": ({"rival_odds": NAN}, "`rival_odds`: expected a number from 0 to 1, got nan"),
     "leftover": ({"leftover": -1}, "`leftover`: expected"),
