@@ -18,6 +18,7 @@ Floats = NDArray[np.float64]
 
 _USES = ("within", "extrapolated", "held", "omitted")  # EffectUse of the engine, by its numbers
 _LENGTH = 500  # of a warning, in characters
+_SAMPLE = 64  # rows by which it is found out whether effects depend on a joint
 
 
 class SupportWarning(UserWarning):
@@ -100,6 +101,8 @@ def _beyond(
     lines = []
     for j, (values, gaps) in enumerate(zip(q[outside].T, model.gaps, strict=True)):
         asked = _range_text(values, *support.joints[:, j])
+        if asked and not _matters(model, q, covariates, j):
+            asked = []
         in_gap = (values > gaps[:, :1]) & (values < gaps[:, 1:])
         if in_gap.any():
             low, high = max(gaps[in_gap.any(axis=1)], key=np.ptp)
@@ -118,6 +121,18 @@ def _beyond(
         parts = [_range_text(column, *ranges[:, k]) for k, column in enumerate(values.T)]
         lines += _line(name, [*chain(*parts), *_unknown_text(values)])
     return lines
+
+
+def _matters(model: CorrectedArm, q: Floats, covariates: Mapping[str, Any], joint: int) -> bool:
+    """Whether any effect depends on a joint beyond its range: by some of the rows where it is."""
+    low, high = model.support.joints
+    rows = np.flatnonzero((q[:, joint] < low[joint]) | (q[:, joint] > high[joint]))[:_SAMPLE]
+    known = {name: v[rows] if len(v) == len(q) else v for name, v in covariates.items()}
+    inside = np.clip(q[rows], low, high)
+    alone = inside.copy()
+    alone[:, joint] = q[rows, joint]
+    one, other = (model.effects_in_support(at, covariates=known) for at in (inside, alone))
+    return not np.array_equal(one, other)
 
 
 def _line(name: str, parts: list[str]) -> list[str]:

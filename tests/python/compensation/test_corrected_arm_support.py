@@ -161,11 +161,14 @@ def test_each_row_has_its_reasons() -> None:
     assert arm.effects_in_support(q[1], covariates=row).tolist() == [False, True, True, True]
 
 
-def test_a_joint_of_which_no_effect_depends_is_no_reason() -> None:
+def test_a_joint_on_which_no_effect_depends_is_no_reason() -> None:
     arm = model([harmonic()])
-    far = Q[0] + [0, 0, 0, 0, 0, 3.0]
+    far = Q[0] + 3.0 * np.eye(6)[5]
     assert arm.in_support(far)
     assert arm.support_reasons(far) == ""
+    with pytest.warns(bathyal.SupportWarning) as caught:
+        arm.forward(far + 3.0 * np.eye(6)[2])
+    assert [line.split(":")[0] for line in str(caught[0].message).splitlines()[1:]] == ["joint 3"]
 
 
 def test_a_warning_has_one_line_a_joint_and_is_short() -> None:
