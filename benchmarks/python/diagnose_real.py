@@ -108,7 +108,7 @@ def carried(report: bathyal.Diagnosis, asked: str) -> list[str]:
     A motion of the whole base is fitted to each alike: the tracker was elsewhere.
     """
     data = tracked(asked)
-    within = report.model.in_support(data.q).all(axis=1)
+    within = report.model.in_support(data.q)
     cells = [f"{within.mean():.1%}"]
     for rows in (within, ~within):
         if rows.sum() < FEWEST_ROWS:
@@ -145,7 +145,7 @@ def at_site(site: str) -> str:
     itself was stationed by. How its base moved since is not known: it is taken as at the start."""
     report, _ = diagnosed("Hilti flat")
     data, stationing = hilti(site)
-    within = report.model.in_support(data.q, covariates=AT_START).all(axis=1)
+    within = report.model.in_support(data.q, covariates=AT_START)
     cells = [site, f"{len(data.q)}", f"{within.mean():.0%}"]
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", bathyal.SupportWarning)

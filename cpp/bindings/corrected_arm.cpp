@@ -4,6 +4,7 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <utility>
@@ -117,11 +118,18 @@ py::array range_to_numpy(const Support::Range& range) {
   return to_numpy(table);
 }
 
-py::array mask_to_numpy(const SupportMask& mask, bool single) {
+py::array mask_to_numpy(const SupportMask& mask) {
   py::array_t<bool> array({mask.rows(), mask.cols()});
   std::copy(mask.data(), mask.data() + mask.size(), array.mutable_data());
   array.attr("setflags")(py::arg("write") = false);
-  return single ? py::array(array[py::int_(0)]) : py::array(array);
+  return array;
+}
+
+py::array rows_to_numpy(const SupportMask& mask) {
+  py::array_t<bool> array(mask.rows());
+  for (Index i = 0; i < mask.rows(); ++i) array.mutable_at(i) = mask.row(i).all();
+  array.attr("setflags")(py::arg("write") = false);
+  return array;
 }
 
 py::list gaps_to_python(const std::vector<std::vector<Support::Gap>>& gaps) {
@@ -136,14 +144,23 @@ py::list gaps_to_python(const std::vector<std::vector<Support::Gap>>& gaps) {
   return out;
 }
 
-/// One warning for a call in which effects were held or omitted, reported at the line of the call.
+/// (N, effects) the numbers of EffectUse, as the warning of the package counts them.
+py::array uses_to_numpy(const EffectUses& uses) {
+  py::array_t<std::int8_t> array({uses.rows(), uses.cols()});
+  std::transform(uses.data(), uses.data() + uses.size(), array.mutable_data(),
+                 [](EffectUse use) { return static_cast<std::int8_t>(use); });
+  return array;
+}
+
+/// One warning for a call in which effects were extrapolated, held or omitted, reported at the line
+/// of the call.
 void warn_of_support(const CorrectedArm& model, const RowMatrix& q, const Covariates& covariates,
-                     const SupportMask& mask) {
-  if (mask.all()) return;
+                     const EffectUses& uses) {
+  if (within(uses).all()) return;
   py::dict out;
   for (const auto& [name, values] : covariates) out[py::str(name)] = to_numpy(values);
   hook(Hook::kWarnOfSupport)(py::cast(&model, py::return_value_policy::reference), to_numpy(q), out,
-                             mask_to_numpy(mask, false));
+                             uses_to_numpy(uses));
 }
 
 // Methods ---------------------------------------------------------------------------------------
@@ -158,7 +175,7 @@ py::array forward_corrected(const CorrectedArm& model, const ArrayLike& q,
     found = links ? model.forward_links(view_of(rows), given, num_threads)
                   : model.forward(view_of(rows), given, num_threads);
   }
-  warn_of_support(model, rows.table, given, found.in_support);
+  warn_of_support(model, rows.table, given, found.uses);
   std::vector<py::ssize_t> tail{4, 4};
   if (links) tail.insert(tail.begin(), static_cast<py::ssize_t>(model.arm().links().size()));
   return to_numpy(std::move(found.poses), rows.single, std::move(tail));
@@ -175,7 +192,7 @@ py::array jacobian_corrected(const CorrectedArm& model, const ArrayLike& q,
     const py::gil_scoped_release release;
     found = model.jacobian(view_of(rows), given, axes, num_threads);
   }
-  warn_of_support(model, rows.table, given, found.in_support);
+  warn_of_support(model, rows.table, given, found.uses);
   return to_numpy(std::move(found.jacobians), rows.single, {6, model.size()});
 }
 
@@ -192,20 +209,56 @@ InverseAnswer inverse_corrected(const CorrectedArm& model, const ArrayLike& pose
                          model.size());
     found = model.inverse(targets.poses, view, given, options);
   }
-  warn_of_support(model, found.result.q, given, found.in_support);
+  warn_of_support(model, found.result.q, given, found.uses);
   return {std::move(found.result), targets.single};
 }
 
-py::array in_support_python(const CorrectedArm& model, const ArrayLike& q,
-                            const OptionalCovariates& covariates) {
+/// The answer of `ask(rows, covariates)` without the GIL; `make` turns it into Python's, of which a
+/// single pose has the only element.
+template <class Ask, class Make>
+py::object of_rows(const CorrectedArm& model, const ArrayLike& q,
+                   const OptionalCovariates& covariates, const Ask& ask, const Make& make) {
   const Rows rows = rows_argument("q", q, model.size());
   const Covariates given = query_covariates(model, covariates);
-  SupportMask mask;
-  {
+  const auto answer = [&] {
     const py::gil_scoped_release release;
-    mask = model.in_support(view_of(rows), given);
-  }
-  return mask_to_numpy(mask, rows.single);
+    return ask(view_of(rows), given);
+  }();
+  const py::object out = make(answer);
+  return rows.single ? out[py::int_(0)] : out;
+}
+
+void add_support_methods(py::class_<CorrectedArm>& cls) {
+  cls.def(
+         "in_support",
+         [](const CorrectedArm& model, const ArrayLike& q,
+            const OptionalCovariates& covariates) -> OneOrArray<py::bool_> {
+           return of_rows(
+               model, q, covariates,
+               [&](JointView at, const Covariates& c) { return within(model.effect_uses(at, c)); },
+               &rows_to_numpy);
+         },
+         py::arg("q"), py::kw_only(), py::arg("covariates") = py::none(), kInSupportDoc)
+      .def(
+          "effects_in_support",
+          [](const CorrectedArm& model, const ArrayLike& q,
+             const OptionalCovariates& covariates) -> py::array {
+            return of_rows(
+                model, q, covariates,
+                [&](JointView at, const Covariates& c) { return within(model.effect_uses(at, c)); },
+                &mask_to_numpy);
+          },
+          py::arg("q"), py::kw_only(), py::arg("covariates") = py::none(), kEffectsInSupportDoc)
+      .def(
+          "support_reasons",
+          [](const CorrectedArm& model, const ArrayLike& q, const OptionalCovariates& covariates)
+              -> py::typing::Union<py::typing::List<py::str>, py::str> {
+            return of_rows(
+                model, q, covariates,
+                [&](JointView at, const Covariates& c) { return model.support_reasons(at, c); },
+                [](const std::vector<std::string>& reasons) { return py::cast(reasons); });
+          },
+          py::arg("q"), py::kw_only(), py::arg("covariates") = py::none(), kSupportReasonsDoc);
 }
 
 std::string model_repr(const CorrectedArm& model) {
@@ -333,8 +386,6 @@ void bind_corrected_arm(py::module_& module) {
            py::arg("covariates") = py::none(),
            py::arg("frame") = enum_name(TipFrame::kWorld, tip_frame_names()),
            py::arg("num_threads") = 0, kCorrectedJacobianDoc)
-      .def("in_support", &in_support_python, py::arg("q"), py::kw_only(),
-           py::arg("covariates") = py::none(), kInSupportDoc)
       .def(
           "copy", [](const CorrectedArm& m) { return m; },
           "An independent copy, with its own base and tool.")
@@ -342,6 +393,7 @@ void bind_corrected_arm(py::module_& module) {
       .def(
           "__deepcopy__", [](const CorrectedArm& m, const py::dict&) { return m; }, py::arg("memo"))
       .def("__repr__", &model_repr);
+  add_support_methods(cls);
   add_rigid_part(cls);
   add_inverse(cls);
 }

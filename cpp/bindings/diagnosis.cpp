@@ -145,8 +145,9 @@ void bind_diagnosis_parts(py::module_& module) {
 }
 
 void bind_held_out(py::module_& module) {
-  py::class_<HeldOut::Part>(module, "HeldOutPart", "One session, or one touched point.")
-      .def_readonly("name", &HeldOut::Part::name, "\"session 2\", \"point 0\", \"all\".")
+  py::class_<HeldOut::Part>(module, "HeldOutPart", "One group, session or touched point.")
+      .def_readonly("name", &HeldOut::Part::name,
+                    "\"group east\", \"session 2\", \"point 0\", \"all\".")
       .def_readonly("rows", &HeldOut::Part::rows, "How many rows it has.")
       .def_readonly("rms_before", &HeldOut::Part::rms_before, "3-D [m].")
       .def_readonly("rms_after", &HeldOut::Part::rms_after, "3-D [m].");
@@ -157,7 +158,8 @@ void bind_held_out(py::module_& module) {
       .def_readonly("rms_after", &HeldOut::rms_after, "With the effects, 3-D [m].")
       .def_readonly("noise", &HeldOut::noise, "Floor, 3-D [m].")
       .def_readonly("p_value", &HeldOut::p_value, "Of the gain, by sign flips of the folds.")
-      .def_readonly("parts", &HeldOut::parts, "HeldOutPart: errors by session or touched point.")
+      .def_readonly("parts", &HeldOut::parts,
+                    "HeldOutPart: errors by group, session or touched point.")
       .def_property_readonly(
           "before", [](const HeldOut& h) { return to_numpy(h.before); },
           "(N,) geometry alone [m]; NaN of outliers.")
@@ -247,6 +249,27 @@ const Arm& arm_argument(const py::object& arm) {
   throw_argument("arm", "an Arm; of a corrected one its rigid part, `.arm`", type_of(arm));
 }
 
+/// Labels of rows as text: 1 and 1.0 are one label.
+std::vector<std::string> groups_argument(const py::object& groups) {
+  if (groups.is_none()) return {};
+  const char* expected = "whole numbers or text of shape (N,)";
+  const py::array labels = array_argument("groups", groups, expected);
+  if (labels.ndim() != 1 || labels.size() == 0) {
+    throw_argument("groups", expected,
+                   "shape " + py::str(labels.attr("shape")).cast<std::string>());
+  }
+  std::vector<std::string> out;
+  for (const py::handle item : labels.attr("tolist")()) {
+    auto label = py::reinterpret_borrow<py::object>(item);
+    if (py::isinstance<py::float_>(label) && label.attr("is_integer")().cast<bool>())
+      label = py::int_(label);
+    if (!py::isinstance<py::str>(label) && !py::isinstance<py::int_>(label))
+      throw_argument("groups", expected, py::repr(label).cast<std::string>() + " in it");
+    out.push_back(py::str(label).cast<std::string>());
+  }
+  return out;
+}
+
 using MaybeProgress = py::typing::Optional<py::typing::Callable<void(py::float_, py::str)>>;
 
 void bind_diagnose(py::module_& module) {
@@ -256,8 +279,8 @@ void bind_diagnose(py::module_& module) {
       [](const py::typing::Union<Arm>& given, const py::typing::Union<Touches, Tracked>& data,
          const py::typing::Optional<py::typing::Iterable<Effect>>& effects,
          const std::string& parametrization, std::vector<std::string> fixed, int blocks,
-         double rival_odds, double leftover, int num_next_poses, const MaybeProgress& progress,
-         int num_threads) {
+         const OptionalArray& groups, double rival_odds, double leftover, int num_next_poses,
+         const MaybeProgress& progress, int num_threads) {
         const Arm& arm = arm_argument(given);
         const DiagnoseOptions options{
             .parametrization =
@@ -266,6 +289,7 @@ void bind_diagnose(py::module_& module) {
             .blocks = blocks,
             .rival_odds = rival_odds,
             .leftover = leftover,
+            .groups = groups_argument(groups),
             .num_next_poses = num_next_poses,
             .num_threads = num_threads};
         const auto asked = effects_argument(effects);
@@ -294,9 +318,10 @@ void bind_diagnose(py::module_& module) {
       py::arg("arm"), py::arg("data"), py::kw_only(), py::arg("effects") = py::none(),
       py::arg("parametrization") = enum_name(defaults.parametrization, parametrization_names()),
       py::arg("fixed") = defaults.fixed, py::arg("blocks") = defaults.blocks,
-      py::arg("rival_odds") = defaults.rival_odds, py::arg("leftover") = defaults.leftover,
-      py::arg("num_next_poses") = defaults.num_next_poses, py::arg("progress") = py::none(),
-      py::arg("num_threads") = defaults.num_threads, kDiagnoseDoc);
+      py::arg("groups") = py::none(), py::arg("rival_odds") = defaults.rival_odds,
+      py::arg("leftover") = defaults.leftover, py::arg("num_next_poses") = defaults.num_next_poses,
+      py::arg("progress") = py::none(), py::arg("num_threads") = defaults.num_threads,
+      kDiagnoseDoc);
 }
 
 }  // namespace

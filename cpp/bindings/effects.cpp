@@ -62,7 +62,7 @@ std::shared_ptr<Effect> make_effect(std::string name, py::function function,
                                     const std::string& site, std::vector<std::string> needs,
                                     std::string words, std::string formula, std::string source,
                                     const std::map<std::string, double>& scales, bool by_difference,
-                                    double period) {
+                                    double period, bool extrapolates) {
   UserEffect user;
   user.info.name = std::move(name);
   user.info.description = std::move(words);
@@ -70,6 +70,7 @@ std::shared_ptr<Effect> make_effect(std::string name, py::function function,
   user.info.source = std::move(source);
   user.info.needs = std::move(needs);
   user.info.by_difference = by_difference;
+  user.info.extrapolates = extrapolates;
   if (!(period > 0.0)) throw_argument("period", "a length above 0", to_text(period));
   user.period = period;
   user.site = enum_argument("site", site, site_names());
@@ -113,6 +114,7 @@ std::string effect_text(const EffectInfo& info) {
   std::string needs;
   for (const std::string& name : info.needs) needs += (needs.empty() ? "" : ", ") + name;
   line("needs: ", needs);
+  line("beyond the data: ", info.extrapolates ? "extrapolated where its arguments are known" : "");
   line("source: ", info.source);
   return text;
 }
@@ -192,7 +194,8 @@ void bind_effect(py::module_& module) {
            py::arg("needs") = std::vector<std::string>{}, py::arg("words") = "",
            py::arg("formula") = "", py::arg("source") = "",
            py::arg("scales") = std::map<std::string, double>{}, py::arg("by_difference") = false,
-           py::arg("period") = std::numeric_limits<double>::infinity())
+           py::arg("period") = std::numeric_limits<double>::infinity(),
+           py::arg("extrapolates") = false)
       .def_property_readonly(
           "name", [](const Effect& e) { return e.info().name; }, "As diagnosis names it.")
       .def_property_readonly(
@@ -211,6 +214,8 @@ void bind_effect(py::module_& module) {
       .def_property_readonly(
           "by_difference", [](const Effect& e) { return e.info().by_difference; },
           "Whether it depends on how rows differ from their neighbours.")
+      .def_property_readonly(
+          "extrapolates", [](const Effect& e) { return e.info().extrapolates; }, kExtrapolatesDoc)
       .def("__str__", [](const Effect& e) { return effect_text(e.info()); })
       .def("__repr__", [](const Effect& e) { return "Effect(\"" + e.info().name + "\")"; });
 }
@@ -261,6 +266,10 @@ void bind_found_effect(py::module_& module) {
       .def_property_readonly(
           "cause", [](const FoundEffect& f) { return f.variant.alias_group; },
           "Effects of one cause are descriptions of the same thing.")
+      .def_property_readonly(
+          "extrapolates", [](const FoundEffect& f) { return f.effect->extrapolates(f.variant); },
+          "Whether it is extrapolated beyond the training data: as its effect, unless it was found "
+          "with unknown masses (`joint_compliance` by moments).")
       .def("__repr__", &effect_repr);
 }
 

@@ -46,6 +46,9 @@ by_difference : bool
 period : float
     The shortest length scale of its dependence on joint values [rad] or [m]: in a wider gap of the
     data a corrected arm holds it at its value at the edge. Infinite unless given.
+extrapolates : bool
+    Whether it follows from physics with known arguments, so that a corrected arm evaluates it
+    beyond the training data as within; else it is held there.
 
 Raises
 ------
@@ -64,6 +67,12 @@ Examples
 >>> Effect("cable", cable, parameters={"pull": "rad"}, joints="each")
 Effect("cable")
 )";
+
+inline constexpr const char* kExtrapolatesDoc =
+    R"(Whether it is extrapolated beyond the training data. True of what follows from physics with
+known arguments: compliances under weight, a payload, a scale, a coupling, heat. What follows a
+curve that the data alone determine (waves, maps, drifts, play) is held there instead.
+`joint_compliance` of an arm without masses follows a curve too: `FoundEffect.extrapolates`.)";
 
 inline constexpr const char* kFoundEffectDoc =
     R"(An effect with its values, as part of a corrected arm.
@@ -120,14 +129,17 @@ Rigid geometry, effects with their values, and the support of the training data:
 ``report.model``. `q` is what the controller records; the effects perturb joints, frames and lengths
 from there.
 
-An effect applies in a row where its own arguments lie within the support: within the ranges of the
+An effect is within the support in a row where its own arguments are: within the ranges of the
 training data, and in no gap between joint values wider than its period (of harmonics and curves
 along one joint, which were fitted together, the shortest). Where an argument lies beyond (a joint,
-a temperature, a load) and would change the effect, the effect is held constant: a harmonic or curve
-along its joint at its average over the training data, because its extrapolation is undetermined; a
-smooth effect at its value in the nearest row within. An effect whose argument is unknown (a NaN
+a temperature, a load) and would change the effect, an effect that follows from physics with known
+arguments (`FoundEffect.extrapolates`) is extrapolated. Any other is held constant: a harmonic or
+curve along its joint at its average over the training data, because its extrapolation is
+undetermined; a smooth effect at its value in the nearest row within. A scale that was found with
+waves of the same joint is one curve with them, and held. An effect whose argument is unknown (a NaN
 covariate, a session without training data) is omitted, and where all are the result is that of the
-rigid arm. Each such call warns once with a `SupportWarning`, and `in_support` gives the rows.
+rigid arm. Each such call warns once with a `SupportWarning`; `in_support` and `support_reasons`
+give the rows.
 
 Every method that computes takes ``covariates``, a dict of name to a number, (N,) or (N, k) array.
 An effect that needs a missing one is omitted with the warning where no covariates are given at all,
@@ -165,8 +177,9 @@ CorrectedArm("UR10e", 6 joints, cable of joint 4)
 >>> float(np.linalg.norm((model.forward(q) - arm.forward(q))[:, :3, 3], axis=1).max().round(4))
 0.0001
 >>> model.in_support([[0.5] * 6, [0.5, 2.0, 0.5, 0.5, 0.5, 0.5]])
-array([[ True],
-       [False]])
+array([ True, False])
+>>> model.support_reasons([0.5, 2.0, 0.5, 0.5, 0.5, 0.5])
+'joint 2 at 2 rad, data -0.985816 to 0.976438: cable of joint 4 held'
 )";
 
 inline constexpr const char* kCorrectedForwardDoc = R"(Poses of the tool in the world.
@@ -195,7 +208,7 @@ ValueError
 Warns
 -----
 SupportWarning
-    Where effects were held or omitted.
+    Where effects were extrapolated, held or omitted.
 )";
 
 inline constexpr const char* kCorrectedJacobianDoc =
@@ -236,10 +249,27 @@ ValueError
 Warns
 -----
 SupportWarning
-    Where effects were held or omitted at the solution q.
+    Where effects were extrapolated, held or omitted at the solution q.
 )";
 
-inline constexpr const char* kInSupportDoc = R"(Which effects apply in which row.
+inline constexpr const char* kInSupportDoc =
+    R"(Which rows lie within the training data, as far as any effect depends on them.
+
+Parameters
+----------
+q : (N, n) or (n,) array
+covariates : dict, optional
+    As of `forward`.
+
+Returns
+-------
+(N,) array of bool, or bool
+    Where it is False some effect is extrapolated, held or omitted: `effects_in_support` says which,
+    `support_reasons` why.
+)";
+
+inline constexpr const char* kEffectsInSupportDoc =
+    R"(Which effects have all that they depend on within the training data, in which row.
 
 Parameters
 ----------
@@ -250,7 +280,24 @@ covariates : dict, optional
 Returns
 -------
 (N, E) or (E,) array of bool
-    In the order of `effects`; all False in a row is the rigid arm.
+    In the order of `effects`.
+)";
+
+inline constexpr const char* kSupportReasonsDoc =
+    R"(Why rows do not lie within the training data, and what is done there.
+
+Parameters
+----------
+q : (N, n) or (n,) array
+covariates : dict, optional
+    As of `forward`.
+
+Returns
+-------
+list of N str, or str
+    Of each row the joints and covariates that lie beyond, each with the effects that depend on it,
+    as "joint 2 at 1.7 rad, data -1 to 1: joint_harmonic of joint 2 held"; "" within. Joints count
+    from 1.
 )";
 
 }  // namespace bathyal::python

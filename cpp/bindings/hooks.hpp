@@ -9,7 +9,7 @@ namespace bathyal::python {
 /// the engine itself imports nothing of it.
 enum class Hook {
   kFindEffect,        ///< name → Effect: of the library, or registered
-  kWarnOfSupport,     ///< (model, q, covariates, mask): a call beyond what the data covered
+  kWarnOfSupport,     ///< (model, q, covariates, uses): a call beyond what the data covered
   kWarnOfRange,       ///< (text): a formula of the water outside its range
   kSoundSpeedTeos10,  ///< (T, S, pressure, latitude, longitude) → (N,) [m/s], of gsw
   kMeshVertices,  ///< Shape → (N, 3) corners of its mesh along its scale, None if it cannot be read

@@ -8310,6 +8310,9 @@ class Effect:
     period : float
         The shortest length scale of its dependence on joint values [rad] or [m]: in a wider gap of the
         data a corrected arm holds it at its value at the edge. Infinite unless given.
+    extrapolates : bool
+        Whether it follows from physics with known arguments, so that a corrected arm evaluates it
+        beyond the training data as within; else it is held there.
     
     Raises
     ------
@@ -8328,7 +8331,7 @@ class Effect:
     >>> Effect("cable", cable, parameters={"pull": "rad"}, joints="each")
     Effect("cable")
     """
-    def __init__(self, name: str, function: collections.abc.Callable, *, parameters: dict, joints: str | collections.abc.Iterable[int] | None = None, site: str = 'joint', needs: collections.abc.Sequence[str] = [], words: str = '', formula: str = '', source: str = '', scales: collections.abc.Mapping[str, typing.SupportsFloat | typing.SupportsIndex] = {}, by_difference: bool = False, period: typing.SupportsFloat | typing.SupportsIndex = ...) -> None:
+    def __init__(self, name: str, function: collections.abc.Callable, *, parameters: dict, joints: str | collections.abc.Iterable[int] | None = None, site: str = 'joint', needs: collections.abc.Sequence[str] = [], words: str = '', formula: str = '', source: str = '', scales: collections.abc.Mapping[str, typing.SupportsFloat | typing.SupportsIndex] = {}, by_difference: bool = False, period: typing.SupportsFloat | typing.SupportsIndex = ..., extrapolates: bool = False) -> None:
         ...
     def __repr__(self) -> str:
         ...
@@ -8338,6 +8341,14 @@ class Effect:
     def by_difference(self) -> bool:
         """
         Whether it depends on how rows differ from their neighbours.
+        """
+    @property
+    def extrapolates(self) -> bool:
+        """
+        Whether it is extrapolated beyond the training data. True of what follows from physics with
+        known arguments: compliances under weight, a payload, a scale, a coupling, heat. What follows a
+        curve that the data alone determine (waves, maps, drifts, play) is held there instead.
+        `joint_compliance` of an arm without masses follows a curve too: `FoundEffect.extrapolates`.
         """
     @property
     def formula(self) -> str:
@@ -8414,6 +8425,11 @@ class FoundEffect:
     def effect(self) -> Effect:
         """
         The Effect itself.
+        """
+    @property
+    def extrapolates(self) -> bool:
+        """
+        Whether it is extrapolated beyond the training data: as its effect, unless it was found with unknown masses (`joint_compliance` by moments).
         """
     @property
     def joint(self) -> int | None:
@@ -8499,14 +8515,17 @@ class CorrectedArm:
     ``report.model``. `q` is what the controller records; the effects perturb joints, frames and lengths
     from there.
     
-    An effect applies in a row where its own arguments lie within the support: within the ranges of the
+    An effect is within the support in a row where its own arguments are: within the ranges of the
     training data, and in no gap between joint values wider than its period (of harmonics and curves
     along one joint, which were fitted together, the shortest). Where an argument lies beyond (a joint,
-    a temperature, a load) and would change the effect, the effect is held constant: a harmonic or curve
-    along its joint at its average over the training data, because its extrapolation is undetermined; a
-    smooth effect at its value in the nearest row within. An effect whose argument is unknown (a NaN
+    a temperature, a load) and would change the effect, an effect that follows from physics with known
+    arguments (`FoundEffect.extrapolates`) is extrapolated. Any other is held constant: a harmonic or
+    curve along its joint at its average over the training data, because its extrapolation is
+    undetermined; a smooth effect at its value in the nearest row within. A scale that was found with
+    waves of the same joint is one curve with them, and held. An effect whose argument is unknown (a NaN
     covariate, a session without training data) is omitted, and where all are the result is that of the
-    rigid arm. Each such call warns once with a `SupportWarning`, and `in_support` gives the rows.
+    rigid arm. Each such call warns once with a `SupportWarning`; `in_support` and `support_reasons`
+    give the rows.
     
     Every method that computes takes ``covariates``, a dict of name to a number, (N,) or (N, k) array.
     An effect that needs a missing one is omitted with the warning where no covariates are given at all,
@@ -8544,8 +8563,9 @@ class CorrectedArm:
     >>> float(np.linalg.norm((model.forward(q) - arm.forward(q))[:, :3, 3], axis=1).max().round(4))
     0.0001
     >>> model.in_support([[0.5] * 6, [0.5, 2.0, 0.5, 0.5, 0.5, 0.5]])
-    array([[ True],
-           [False]])
+    array([ True, False])
+    >>> model.support_reasons([0.5, 2.0, 0.5, 0.5, 0.5, 0.5])
+    'joint 2 at 2 rad, data -0.985816 to 0.976438: cable of joint 4 held'
     """
     def __copy__(self) -> CorrectedArm:
         ...
@@ -8558,6 +8578,21 @@ class CorrectedArm:
     def copy(self) -> CorrectedArm:
         """
         An independent copy, with its own base and tool.
+        """
+    def effects_in_support(self, q: numpy.typing.ArrayLike, *, covariates: dict[str, numpy.typing.ArrayLike] | None = None) -> numpy.ndarray:
+        """
+        Which effects have all that they depend on within the training data, in which row.
+        
+        Parameters
+        ----------
+        q : (N, n) or (n,) array
+        covariates : dict, optional
+            As of `forward`.
+        
+        Returns
+        -------
+        (N, E) or (E,) array of bool
+            In the order of `effects`.
         """
     def forward(self, q: numpy.typing.ArrayLike, *, covariates: dict[str, numpy.typing.ArrayLike] | None = None, links: bool = False, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> numpy.ndarray:
         """
@@ -8587,11 +8622,11 @@ class CorrectedArm:
         Warns
         -----
         SupportWarning
-            Where effects were held or omitted.
+            Where effects were extrapolated, held or omitted.
         """
-    def in_support(self, q: numpy.typing.ArrayLike, *, covariates: dict[str, numpy.typing.ArrayLike] | None = None) -> numpy.ndarray:
+    def in_support(self, q: numpy.typing.ArrayLike, *, covariates: dict[str, numpy.typing.ArrayLike] | None = None) -> bool | numpy.ndarray:
         """
-        Which effects apply in which row.
+        Which rows lie within the training data, as far as any effect depends on them.
         
         Parameters
         ----------
@@ -8601,8 +8636,9 @@ class CorrectedArm:
         
         Returns
         -------
-        (N, E) or (E,) array of bool
-            In the order of `effects`; all False in a row is the rigid arm.
+        (N,) array of bool, or bool
+            Where it is False some effect is extrapolated, held or omitted: `effects_in_support` says which,
+            `support_reasons` why.
         """
     def inverse(self, poses: numpy.typing.ArrayLike, start: numpy.typing.ArrayLike | None = None, *, covariates: dict[str, numpy.typing.ArrayLike] | None = None, task: str = 'pose', axis: numpy.typing.ArrayLike = (0.0, 0.0, 1.0), position_tolerance: typing.SupportsFloat | typing.SupportsIndex | None = None, angle_tolerance: typing.SupportsFloat | typing.SupportsIndex | None = None, max_iterations: typing.SupportsInt | typing.SupportsIndex = 60, max_starts: typing.SupportsInt | typing.SupportsIndex = 64, candidates: typing.SupportsInt | typing.SupportsIndex = 1, centering_steps: typing.SupportsInt | typing.SupportsIndex | None = None, seed: typing.SupportsInt | typing.SupportsIndex = 0, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> InverseResult:
         """
@@ -8630,7 +8666,7 @@ class CorrectedArm:
         Warns
         -----
         SupportWarning
-            Where effects were held or omitted at the solution q.
+            Where effects were extrapolated, held or omitted at the solution q.
         """
     def jacobian(self, q: numpy.typing.ArrayLike, *, covariates: dict[str, numpy.typing.ArrayLike] | None = None, frame: str = 'world', num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> numpy.ndarray:
         """
@@ -8661,6 +8697,23 @@ class CorrectedArm:
     def show(self, q: numpy.typing.ArrayLike | None = None) -> plotly.graph_objects.Figure:
         """
         As of `Arm`: the rigid part alone.
+        """
+    def support_reasons(self, q: numpy.typing.ArrayLike, *, covariates: dict[str, numpy.typing.ArrayLike] | None = None) -> list[str] | str:
+        """
+        Why rows do not lie within the training data, and what is done there.
+        
+        Parameters
+        ----------
+        q : (N, n) or (n,) array
+        covariates : dict, optional
+            As of `forward`.
+        
+        Returns
+        -------
+        list of N str, or str
+            Of each row the joints and covariates that lie beyond, each with the effects that depend on it,
+            as "joint 2 at 1.7 rad, data -1 to 1: joint_harmonic of joint 2 held"; "" within. Joints count
+            from 1.
         """
     def to_urdf(self, path: str | os.PathLike[str] | None = None) -> str:
         """
@@ -9471,12 +9524,12 @@ class Structure:
         """
 class HeldOutPart:
     """
-    One session, or one touched point.
+    One group, session or touched point.
     """
     @property
     def name(self) -> str:
         """
-        "session 2", "point 0", "all".
+        "group east", "session 2", "point 0", "all".
         """
     @property
     def rms_after(self) -> float:
@@ -9530,7 +9583,7 @@ class HeldOut:
     @property
     def parts(self) -> list[HeldOutPart]:
         """
-        HeldOutPart: errors by session or touched point.
+        HeldOutPart: errors by group, session or touched point.
         """
     @property
     def rms_after(self) -> float:
@@ -10021,7 +10074,7 @@ def depth_from_pressure(pressure: numpy.typing.ArrayLike, latitude: numpy.typing
     >>> round(bathyal.depth_from_pressure(1000.0, latitude=45), 2)
     989.5
     """
-def diagnose(arm: Arm, data: Touches | Tracked, *, effects: collections.abc.Iterable[Effect] | None = None, parametrization: str = 'hayati', fixed: collections.abc.Sequence[str] = [], blocks: typing.SupportsInt | typing.SupportsIndex = 10, rival_odds: typing.SupportsFloat | typing.SupportsIndex = 0.05, leftover: typing.SupportsFloat | typing.SupportsIndex = 0.25, num_next_poses: typing.SupportsInt | typing.SupportsIndex = 8, progress: collections.abc.Callable[[float, str], None] | None = None, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> Diagnosis:
+def diagnose(arm: Arm, data: Touches | Tracked, *, effects: collections.abc.Iterable[Effect] | None = None, parametrization: str = 'hayati', fixed: collections.abc.Sequence[str] = [], blocks: typing.SupportsInt | typing.SupportsIndex = 10, groups: numpy.typing.ArrayLike | None = None, rival_odds: typing.SupportsFloat | typing.SupportsIndex = 0.05, leftover: typing.SupportsFloat | typing.SupportsIndex = 0.25, num_next_poses: typing.SupportsInt | typing.SupportsIndex = 8, progress: collections.abc.Callable[[float, str], None] | None = None, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> Diagnosis:
     """
     Find what the best rigid model of an arm gets wrong, name the cause, measure the gain.
     
@@ -10047,6 +10100,11 @@ def diagnose(arm: Arm, data: Touches | Tracked, *, effects: collections.abc.Iter
         Names of geometric parameters to hold at nominal.
     blocks : int
         Number of folds of the cross-validation, 3 to 50.
+    groups : (N,) array of int or str, optional
+        The group of each row, 2 groups or more: a placement of the arm, a day, a region. Whole groups
+        are then held out in turn instead of `blocks`, in which effects must prove themselves and the
+        held-out errors are measured. More than 50 groups are joined to 50 folds. A base or tool that
+        only one group has cannot be predicted from others: it stays as fitted to all rows.
     rival_odds : float
         Odds of an alternative against the best explanation from which the verdict is "ambiguous".
     leftover : float

@@ -78,13 +78,13 @@ std::string list_of(const Covariates& covariates) {
 }  // namespace
 
 struct CorrectedArm::Contribution {
-  Perturbations perturbations;  ///< [p] of parameter p, held or omitted where `applies` is false
-  RowMask applies;
+  Perturbations perturbations;  ///< [p] of parameter p, as `use` says
+  Eigen::Array<EffectUse, Eigen::Dynamic, 1> use;
 };
 
 struct CorrectedArm::Rows {
   EffectData data;
-  SupportMask mask;
+  EffectUses uses;
   EffectSum sum;
 
   JointMatrix moved() const { return data.q + sum.q; }
@@ -93,6 +93,10 @@ struct CorrectedArm::Rows {
 std::string describe(const FoundEffect& found) {
   const int joint = found.variant.joint;
   return found.variant.effect + (joint < 0 ? "" : " of joint " + std::to_string(joint + 1));
+}
+
+SupportMask within(const EffectUses& uses) {
+  return uses.unaryExpr([](EffectUse use) { return use == EffectUse::kWithin; });
 }
 
 CorrectedArm::CorrectedArm(Arm arm, std::vector<FoundEffect> effects, Support support)
@@ -130,8 +134,21 @@ CorrectedArm::CorrectedArm(Arm arm, std::vector<FoundEffect> effects, Support su
     }
     periods_.push_back(period);
   }
+  for (std::size_t e = 0; e < effects_.size(); ++e) extrapolated_.push_back(is_extrapolated(e));
   support_.check(arm_.size());
   check_effects();
+}
+
+/// Effects of one alias group along one joint were fitted as one curve: none of them holds alone.
+bool CorrectedArm::is_extrapolated(std::size_t effect) const {
+  const FoundEffect& found = effects_[effect];
+  if (!found.effect->extrapolates(found.variant)) return false;
+  if (found.variant.joint < 0 || found.variant.alias_group.empty()) return true;
+  return std::none_of(effects_.begin(), effects_.end(), [&](const FoundEffect& other) {
+    return other.variant.joint == found.variant.joint &&
+           other.variant.alias_group == found.variant.alias_group &&
+           !other.effect->extrapolates(other.variant);
+  });
 }
 
 /// One row of all covariates, within the support.
@@ -172,7 +189,7 @@ CorrectedPoses CorrectedArm::forward_of_record(JointView q, const Covariates& co
 
 CorrectedPoses CorrectedArm::poses_of(const Rows& rows, int num_threads) const {
   const JointMatrix moved = rows.moved();
-  CorrectedPoses result{bathyal::forward(arm_, view_of(moved), num_threads), rows.mask};
+  CorrectedPoses result{bathyal::forward(arm_, view_of(moved), num_threads), rows.uses};
   const auto count = static_cast<std::size_t>(moved.rows());
   parallel_for(count, kGrain, num_threads, [&](std::size_t begin, std::size_t end) {
     CorrectedFrames frames;
@@ -191,7 +208,7 @@ CorrectedPoses CorrectedArm::forward_links(JointView q, const Covariates& covari
   const Rows rows = prepare(q, covariates);
   const JointMatrix moved = rows.moved();
   const std::size_t width = 16 * arm_.links().size();
-  CorrectedPoses result{bathyal::forward_links(arm_, view_of(moved), num_threads), rows.mask};
+  CorrectedPoses result{bathyal::forward_links(arm_, view_of(moved), num_threads), rows.uses};
   const auto count = static_cast<std::size_t>(q.rows());
   parallel_for(count, kGrain, num_threads, [&](std::size_t begin, std::size_t end) {
     CorrectedFrames frames;
@@ -214,7 +231,7 @@ CorrectedJacobians CorrectedArm::jacobian(JointView q, const Covariates& covaria
   const std::vector<EffectSum> by_joint = derivative_by_joint(rows.data.q, covariates);
   const auto count = static_cast<std::size_t>(q.rows());
   const std::size_t width = 6 * static_cast<std::size_t>(size());
-  CorrectedJacobians result{std::vector<double>(count * width), rows.mask};
+  CorrectedJacobians result{std::vector<double>(count * width), rows.uses};
   parallel_for(count, kGrain, num_threads, [&](std::size_t begin, std::size_t end) {
     CorrectedFrames frames;
     for (std::size_t i = begin; i < end; ++i) {
@@ -245,8 +262,8 @@ std::vector<std::vector<Support::Gap>> CorrectedArm::gaps() const {
   return gaps;
 }
 
-SupportMask CorrectedArm::in_support(JointView q, const Covariates& covariates) const {
-  return prepare(q, covariates).mask;
+EffectUses CorrectedArm::effect_uses(JointView q, const Covariates& covariates) const {
+  return prepare(q, covariates).uses;
 }
 
 std::vector<FixedEffect> CorrectedArm::fixed_effects(JointView q,
@@ -283,7 +300,8 @@ CorrectedArm::Contribution CorrectedArm::contribution(std::size_t effect, const 
                                                       bool usable) const {
   const FoundEffect& found = effects_[effect];
   const Index count = rows.query.rows();
-  Contribution out{{}, RowMask::Constant(count, usable)};
+  Contribution out;
+  out.use.setConstant(count, usable ? EffectUse::kWithin : EffectUse::kOmitted);
   if (!usable) return out;
   out.perturbations = perturbations_of(*found.effect, found.variant, rows.query);
   if (found.effect->info().by_difference) return out;
@@ -296,19 +314,22 @@ CorrectedArm::Contribution CorrectedArm::contribution(std::size_t effect, const 
   };
   Perturbations low = perturbations_at(rows.low);
   const Perturbations high = perturbations_at(rows.high);
-  out.applies = same_rows(found, out.perturbations, low, count) &&
-                same_rows(found, out.perturbations, high, count);
-  if (out.applies.all()) return out;
+  const RowMask inside = same_rows(found, out.perturbations, low, count) &&
+                         same_rows(found, out.perturbations, high, count);
+  if (inside.all()) return out;
   const RowMask known = same_rows(found, low, high, count);
+  const EffectUse beyond = extrapolated_[effect] != 0 ? EffectUse::kExtrapolated : EffectUse::kHeld;
+  for (Index i = 0; i < count; ++i) {
+    if (!inside[i]) out.use[i] = known[i] ? beyond : EffectUse::kOmitted;
+  }
   const bool curve = found.variant.joint >= 0 && std::isfinite(periods_[effect]);
   const Perturbations held = curve ? average(effect) : std::move(low);
   for_each_pair(found, out.perturbations, held,
                 [&](RowMatrix& values, const RowMatrix& replacement) {
                   for (Index i = 0; i < count; ++i) {
-                    if (out.applies[i]) continue;
-                    if (known[i]) {
+                    if (out.use[i] == EffectUse::kHeld) {
                       values.row(i) = replacement.row(curve ? 0 : i);
-                    } else {
+                    } else if (out.use[i] == EffectUse::kOmitted) {
                       values.row(i).setZero();
                     }
                   }
@@ -322,14 +343,14 @@ CorrectedArm::Rows CorrectedArm::prepare(JointView q, const Covariates& covariat
   QueryRows rows = clamp_to_support(arm_, support_, q, covariates);
   rows.query.recording = rows.low.recording = rows.high.recording = recording;
   const std::vector<char> usable = usable_effects(covariates);
-  SupportMask mask(q.rows(), static_cast<Index>(effects_.size()));
+  EffectUses uses(q.rows(), static_cast<Index>(effects_.size()));
   EffectSum sum(arm_, q.rows());
   for (std::size_t e = 0; e < effects_.size(); ++e) {
     const Contribution own = contribution(e, rows, usable[e] != 0);
-    mask.col(static_cast<Index>(e)) = own.applies;
+    uses.col(static_cast<Index>(e)) = own.use;
     sum.add(own.perturbations, effects_[e].values);
   }
-  return {std::move(rows.query), std::move(mask), std::move(sum)};
+  return {std::move(rows.query), std::move(uses), std::move(sum)};
 }
 
 std::vector<char> CorrectedArm::usable_effects(const Covariates& covariates) const {

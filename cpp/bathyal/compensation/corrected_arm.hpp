@@ -12,40 +12,52 @@
 
 namespace bathyal {
 
-/// Which effect applies in which row, (N, effects).
+/// What a corrected arm does with an effect in a row.
+enum class EffectUse : char {
+  kWithin,        ///< its arguments lie within the support
+  kExtrapolated,  ///< they lie beyond, and it follows from physics: evaluated as within
+  kHeld,          ///< they lie beyond, and it follows a curve: held constant
+  kOmitted,       ///< one of them is unknown
+};
+using EffectUses = Eigen::Array<EffectUse, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 using SupportMask = Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+/// (N, effects) which effects lie within the support in which row.
+SupportMask within(const EffectUses& uses);
 
 struct CorrectedPoses {
   std::vector<double> poses;  ///< world_from_tool, (N, 4, 4); of links (N, L, 4, 4)
-  SupportMask in_support;     ///< which effects applied, neither held constant nor omitted
+  EffectUses uses;            ///< (N, effects)
 };
 
 struct CorrectedJacobians {
   std::vector<double> jacobians;  ///< (N, 6, n)
-  SupportMask in_support;
+  EffectUses uses;
 };
 
 struct CorrectedInverse {
-  InverseResult result;    ///< its errors are those of the corrected arm
-  SupportMask in_support;  ///< at the solution q
+  InverseResult result;  ///< its errors are those of the corrected arm
+  EffectUses uses;       ///< at the solution q
 };
 
 /// An arm with the result of a diagnosis: rigid geometry, effects with their values, and the
 /// support of the training data.
 ///
 /// Each pose is predicted independently: q is what the controller would record, and the effects
-/// perturb joints, frames and lengths from there (effect_sum.hpp). An effect applies in a row where
-/// its own arguments lie within the support: within the ranges of the training data, and in no gap
+/// perturb joints, frames and lengths from there (effect_sum.hpp). An effect is within the support
+/// in a row where its own arguments are: within the ranges of the training data, and in no gap
 /// between joint values that is wider than its period (of harmonics and curves along one joint,
 /// which were fitted together, the shortest). Where an argument that the effect depends on lies
-/// beyond (the perturbation would differ at the nearest row within), the effect is held constant: a
-/// harmonic or curve along its joint at its average over the training data, because its
-/// extrapolation is undetermined; a smooth effect at its value in the nearest row. The geometry was
-/// estimated together with the effects, so that omitting them would give larger errors. An effect
-/// whose argument is unknown (NaN, a session without training data) is omitted, as if the arm did
-/// not have it. Where all effects are omitted the result is that of the rigid arm, to the last bit.
-/// Every result reports which effects applied. An effect that depends on changes from row to row
-/// (EffectInfo::by_difference) has no bounds.
+/// beyond (the perturbation would differ at the nearest row within), an effect that follows from
+/// physics with known arguments (Effect::extrapolates) is evaluated as within. Any other is held
+/// constant: a harmonic or curve along its joint at its average over the training data, because its
+/// extrapolation is undetermined; a smooth effect at its value in the nearest row. What shares its
+/// joint and its alias group with an effect that is held was fitted together with it, and is held
+/// too. The geometry was estimated together with the effects, so that omitting them would give
+/// larger errors. An effect whose argument is unknown (NaN, a session without training data) is
+/// omitted, as if the arm did not have it. Where all effects are omitted the result is that of the
+/// rigid arm, to the last bit. Every result reports the use of each effect. An effect that depends
+/// on changes from row to row (EffectInfo::by_difference) has no bounds.
 ///
 /// Covariates, each (N, k) or one row for all: an effect that requires a missing one is omitted
 /// when no covariates are given at all, and is an error when some are. `payload` defaults to 0 kg,
@@ -102,10 +114,14 @@ class CorrectedArm {
   /// period of those along it, and of those that are along no joint.
   std::vector<std::vector<Support::Gap>> gaps() const;
 
-  /// Which effects apply in which row, (N, effects).
-  SupportMask in_support(JointView q, const Covariates& covariates = {}) const;
+  /// What is done with each effect in each row, (N, effects).
+  EffectUses effect_uses(JointView q, const Covariates& covariates = {}) const;
 
-  /// The effects at recorded rows, held constant or omitted as in every result.
+  /// Of each row the arguments that lie beyond the support and what is done with the effects that
+  /// depend on them, as text for people; empty where every effect is within.
+  std::vector<std::string> support_reasons(JointView q, const Covariates& covariates = {}) const;
+
+  /// The effects at recorded rows, extrapolated, held constant or omitted as in every result.
   std::vector<FixedEffect> fixed_effects(JointView q, const Covariates& covariates) const;
 
  private:
@@ -120,13 +136,15 @@ class CorrectedArm {
   Contribution contribution(std::size_t effect, const QueryRows& rows, bool usable) const;
   Rows prepare(JointView q, const Covariates& covariates, bool recording = false) const;
   CorrectedPoses poses_of(const Rows& rows, int num_threads) const;
+  bool is_extrapolated(std::size_t effect) const;
   std::vector<char> usable_effects(const Covariates& covariates) const;
   std::vector<EffectSum> derivative_by_joint(const JointMatrix& q,
                                              const Covariates& covariates) const;
 
   Arm arm_;
   std::vector<FoundEffect> effects_;
-  std::vector<double> periods_;  ///< of each effect; of those along one joint the shortest
+  std::vector<double> periods_;     ///< of each effect; of those along one joint the shortest
+  std::vector<char> extrapolated_;  ///< whether each effect is, beyond the support
   Support support_;
 };
 

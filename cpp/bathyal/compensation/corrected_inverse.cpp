@@ -80,7 +80,7 @@ class FixedPointIteration {
     const JointMatrix& q = answer_.result.q;
     CorrectedPoses corrected = model_.forward(view_of(q), covariates_, options_.num_threads);
     const std::vector<double> rigid = forward(model_.arm(), view_of(q), options_.num_threads);
-    answer_.in_support = std::move(corrected.in_support);
+    answer_.uses = std::move(corrected.uses);
     bool more = false;
     for (std::size_t i = 0; i < done_.size(); ++i) {
       if (done_[i]) continue;

@@ -2,6 +2,7 @@
 #include "bathyal/diagnosis/diagnose.hpp"
 
 #include <algorithm>
+#include <map>
 #include <numeric>
 #include <set>
 
@@ -13,6 +14,7 @@
 #include "bathyal/diagnosis/internal/model_check.hpp"
 #include "bathyal/diagnosis/internal/record_checks.hpp"
 #include "bathyal/diagnosis/internal/report.hpp"
+#include "bathyal/identify/model/calibration_data.hpp"
 #include "bathyal/selection/selection.hpp"
 
 namespace bathyal {
@@ -25,6 +27,27 @@ void check_effects(const std::vector<std::shared_ptr<const Effect>>& effects) {
     if (!effect) throw_argument("effects", "effects", "nothing in place of one");
     const std::string name = effect->info().name;
     if (!names.insert(name).second) throw_argument("effects", "each effect once", name + " twice");
+  }
+}
+
+/// Numbers of the groups in the order of their first rows.
+std::vector<int> numbered(const std::vector<std::string>& groups) {
+  std::map<std::string, int> known;
+  std::vector<int> out;
+  for (const std::string& group : groups)
+    out.push_back(known.emplace(group, static_cast<int>(known.size())).first->second);
+  return out;
+}
+
+void check_groups(const std::vector<std::string>& groups, Index rows) {
+  if (groups.empty()) return;
+  const auto count = static_cast<Index>(groups.size());
+  if (count != rows) {
+    throw_argument("groups", std::to_string(rows) + " labels, one a row", std::to_string(count));
+  }
+  const std::set<std::string> different(groups.begin(), groups.end());
+  if (static_cast<int>(different.size()) < selection::kMinGivenGroups) {
+    throw_argument("groups", "two groups or more", "\"" + groups.front() + "\" in all rows");
   }
 }
 
@@ -66,7 +89,8 @@ Diagnosis run(const Arm& arm, const Measurement& measurement, const Covariates& 
   // Bad covariates are refused before the long computation.
   make_effect_data(arm, measurement.q, covariates, measurement.has_rotation());
   ArmModel arm_model(arm, measurement, covariates, identify, effects);
-  const selection::SelectionOptions asked{options.num_threads, options.blocks};
+  const selection::SelectionOptions asked{options.num_threads, options.blocks,
+                                          numbered(options.groups)};
   const selection::Shortlist shortlist =
       shortlist_from_subset(arm_model, options.num_threads, progress);
   const selection::SelectionResult found =
@@ -87,9 +111,13 @@ template <class Data>
 Diagnosis run_without_duplicates(const Arm& arm, const Data& data, const DiagnoseOptions& options,
                                  const std::vector<std::shared_ptr<const Effect>>& effects,
                                  const DiagnosisProgress& progress) {
+  check_groups(options.groups, data.q.rows());
   const std::vector<int> first = find_duplicates(data);
   const Data once = without_duplicates(data, first);
-  Diagnosis out = run(arm, to_measurement(arm, once), once.covariates, options, effects, progress);
+  DiagnoseOptions of_once = options;
+  of_once.groups = picked(options.groups, distinct_rows(first));
+  check_groups(of_once.groups, once.q.rows());
+  Diagnosis out = run(arm, to_measurement(arm, once), once.covariates, of_once, effects, progress);
   expand_to_duplicates(first, out);
   return out;
 }

@@ -24,6 +24,9 @@ struct DiagnoseOptions {
   /// Unexplained structure, as a share of the variance that the effects explain, from which the
   /// verdict is unknown; 0 or more.
   double leftover = 0.25;
+  /// (N,) name of the group of each row (a placement, a day), 2 or more: they are the folds, held
+  /// out whole in turn, and `blocks` is not used. Empty: folds are made.
+  std::vector<std::string> groups = {};
   int num_next_poses = 8;  ///< of `next_poses`, 0 to 1 000
   int num_threads = 0;     ///< 0 = all; the same bytes for any number
 

@@ -95,7 +95,7 @@ struct HeldOut {
   double noise = 0.0;       ///< floor, 3-D [m]
   double p_value = 1.0;     ///< of the gain, by sign flips of folds
   struct Part {
-    std::string name;  ///< "session 2", "point 0", "all"
+    std::string name;  ///< "group east", "session 2", "point 0", "all"
     int rows = 0;
     double rms_before = 0.0;
     double rms_after = 0.0;

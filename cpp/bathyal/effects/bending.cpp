@@ -32,7 +32,10 @@ class LinkCompliance final : public Effect {
             "cantilever of Euler and Bernoulli, as in Timoshenko: Strength of materials, 1930; "
             "Khalil, Besnard: Geometric calibration of robots with flexible joints and links, 2002",
             {},
-            {{"flexibility", "1/(N m²)", 1e-8, 1e-2}}};
+            {{"flexibility", "1/(N m²)", 1e-8, 1e-2}},
+            false,
+            false,
+            true};
   }
 
   std::vector<EffectVariant> variants(const EffectData& data) const override {
@@ -90,7 +93,10 @@ class BaseCompliance final : public Effect {
         "Khalil, Besnard: Geometric calibration of robots with flexible joints and links, 2002 "
         "(an elastic joint before the first row)",
         {},
-        {{"compliance_x", "rad/(N m)", 1e-9, 1e-4}, {"compliance_y", "rad/(N m)", 1e-9, 1e-4}}};
+        {{"compliance_x", "rad/(N m)", 1e-9, 1e-4}, {"compliance_y", "rad/(N m)", 1e-9, 1e-4}},
+        false,
+        false,
+        true};
   }
 
   std::vector<EffectVariant> variants(const EffectData& data) const override {

@@ -18,7 +18,10 @@ class Thermal final : public Effect {
             "Gong, Yuan, Ni: Nongeometric error identification and compensation for robotic system "
             "by inverse calibration, 2000",
             {"temperature"},
-            {{"expansion", "1/K", 1e-6, 1e-4}}};
+            {{"expansion", "1/K", 1e-6, 1e-4}},
+            false,
+            false,
+            true};
   }
 
   std::vector<EffectVariant> variants(const EffectData& data) const override {

@@ -108,6 +108,10 @@ struct EffectInfo {
   bool by_difference = false;
   /// Whether several of its variants may represent one cause together, as harmonics form a curve.
   bool combinable = false;
+  /// Whether it follows from physics with known arguments (a torque, a temperature, a gear ratio):
+  /// beyond the ranges of the training data it is extrapolated. Any other follows a curve that the
+  /// data alone determine, and is held there. Effect::extrapolates tells variants apart.
+  bool extrapolates = false;
 };
 
 /// An effect of the library, or a user's own.
@@ -133,6 +137,10 @@ class Effect {
   virtual double period(const EffectVariant& /*variant*/) const {
     return std::numeric_limits<double>::infinity();
   }
+
+  /// Whether `variant` is extrapolated beyond the ranges of the training data: as its info says,
+  /// unless it has variants of both kinds.
+  virtual bool extrapolates(const EffectVariant& /*variant*/) const { return info().extrapolates; }
 
   /// Variants between two neighbours of a scan, in its order, for refinement; empty where there are
   /// none.

@@ -96,7 +96,10 @@ class JointCompliance final : public Effect {
         "Whitney, Lozinski, Rourke, 1986; Khalil, Besnard: Geometric calibration of robots with "
         "flexible joints and links, 2002",
         {},
-        {{"compliance", "rad/(N m) or m/N", 1e-8, 1e-3}}};
+        {{"compliance", "rad/(N m) or m/N", 1e-8, 1e-3}},
+        false,
+        false,
+        true};
   }
 
   std::vector<EffectVariant> variants(const EffectData& data) const override {
@@ -123,15 +126,26 @@ class JointCompliance final : public Effect {
     const GravityLoads loads(data, GravityLoads::Bodies::kArm, payload_of(data));
     Perturbations out;
     for (const EffectParameter& parameter : variant.parameters) {
-      const bool lumped = variant.settings.contains(parameter.name);
       out.push_back(
-          {move_joint(j, lumped ? moments.torque(index_of(variant, parameter.name, moment_count))
-                                : loads.torque(j))});
+          {move_joint(j, is_lumped(variant, parameter)
+                             ? moments.torque(index_of(variant, parameter.name, moment_count))
+                             : loads.torque(j))});
     }
     return out;
   }
 
+  /// Of unknown masses only those moments are fitted that the poses of the data tell apart: another
+  /// pose may need others.
+  bool extrapolates(const EffectVariant& variant) const override {
+    return std::none_of(
+        variant.parameters.begin(), variant.parameters.end(),
+        [&](const EffectParameter& parameter) { return is_lumped(variant, parameter); });
+  }
+
  private:
+  static bool is_lumped(const EffectVariant& variant, const EffectParameter& parameter) {
+    return variant.settings.contains(parameter.name);
+  }
   static bool is_felt(const Eigen::VectorXd& torque) {
     constexpr double kNothing = 1e-9;  // [N m] or [N], above rounding errors
     return varies(torque) && torque.maxCoeff() - torque.minCoeff() > kNothing;
@@ -158,7 +172,10 @@ class UnknownPayload final : public Effect {
         "q'_j = q_j + mass_compliance_j · τ_j(1 kg at the tool centre point), all turning joints",
         "Khalil, Besnard: Geometric calibration of robots with flexible joints and links, 2002",
         {},
-        {{"mass_compliance_1", "kg rad/(N m)", 1e-8, 1e-2}}};
+        {{"mass_compliance_1", "kg rad/(N m)", 1e-8, 1e-2}},
+        false,
+        false,
+        true};
   }
 
   std::vector<EffectVariant> variants(const EffectData& data) const override {

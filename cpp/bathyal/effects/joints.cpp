@@ -179,7 +179,10 @@ class JointScale final : public Effect {
         "q' = q (1 + scale)",
         "Mooring, Roth, Driels: Fundamentals of manipulator calibration, 1991",
         {},
-        {{"scale", "1", 1e-6, 2e-2}}};
+        {{"scale", "1", 1e-6, 2e-2}},
+        false,
+        false,
+        true};
   }
 
   std::vector<EffectVariant> variants(const EffectData& data) const override {
@@ -205,7 +208,10 @@ class JointCoupling final : public Effect {
             "Whitney, Lozinski, Rourke: Industrial robot forward calibration method and results, "
             "1986 (cross-coupling)",
             {},
-            {{"ratio", "1, rad/m or m/rad", 1e-6, 2e-2}}};
+            {{"ratio", "1, rad/m or m/rad", 1e-6, 2e-2}},
+            false,
+            false,
+            true};
   }
 
   std::vector<EffectVariant> variants(const EffectData& data) const override {

@@ -34,7 +34,7 @@ ArmFit identify_arm(const Arm& arm, const Touches& touches, const IdentifyOption
 ArmFit identify_arm(const Arm& arm, const Tracked& tracked, const IdentifyOptions& options = {});
 
 /// The same for an arm with effects: they are fixed at their values, each in the rows where it
-/// applies (CorrectedArm::in_support, by the covariates of the data), while the geometry is
+/// applies (CorrectedArm::effect_uses, by the covariates of the data), while the geometry is
 /// estimated again. Their values are reported as fixed parameters. The arm of the fit is the rigid
 /// part alone.
 /// \throw std::invalid_argument also for covariates as CorrectedArm::forward

@@ -155,4 +155,16 @@ Folds make_folds(const Observations& observations, int wanted) {
   return cut(observations, wanted, false);
 }
 
+Folds folds_of_groups(const std::vector<int>& group_of) {
+  const int groups = count_of(group_of);
+  Folds out;
+  out.count = std::min(groups, kMostGroupFolds);
+  for (const int group : group_of) out.fold_of.push_back(group % kMostGroupFolds);
+  out.description = groups == out.count
+                        ? std::to_string(groups) + " given groups were held out in turn"
+                        : std::to_string(groups) + " given groups were held out in " +
+                              std::to_string(out.count) + " sets of whole groups";
+  return out;
+}
+
 }  // namespace bathyal::selection

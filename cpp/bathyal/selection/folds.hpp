@@ -28,4 +28,12 @@ std::vector<int> find_replicates(const Eigen::Ref<const Eigen::MatrixXd>& q, dou
 /// cannot be held out, where replicates link everything.
 Folds make_folds(const Observations& observations, int wanted = 10);
 
+inline constexpr int kMinGivenGroups = 2;  ///< given groups: fewer leave nothing to predict from
+/// More given groups are joined to so many folds.
+inline constexpr int kMostGroupFolds = 50;
+
+/// Each given group is a fold, whatever else its observations share; of more than kMostGroupFolds
+/// groups several make one. `group_of` (observations,) are numbers 0 … groups - 1.
+Folds folds_of_groups(const std::vector<int>& group_of);
+
 }  // namespace bathyal::selection

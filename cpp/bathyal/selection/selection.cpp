@@ -279,11 +279,13 @@ void StructureSelection::fill_detectable() {
 
 SelectionResult StructureSelection::run(const Shortlist& shortlist) {
   report_progress(shortlist.terms.empty() ? 0.1 : 0.4, "testing the rigid model for lack of fit");
-  out_.folds = make_folds(model_.observations(), options_.folds);
+  const bool given = !options_.groups.empty();
+  out_.folds =
+      given ? folds_of_groups(options_.groups) : make_folds(model_.observations(), options_.folds);
   select_explanation(shortlist);
   fill_detectable();
   const NuisanceBasis& whole = working_point_.nuisance(active_.terms);
-  out_.held_out = out_.folds.count >= kMinFolds && whole.dof >= kMinDof;
+  out_.held_out = out_.folds.count >= (given ? kMinGivenGroups : kMinFolds) && whole.dof >= kMinDof;
   if (!out_.held_out) {
     working_point_.fit({});
     active_.terms.clear();

@@ -20,6 +20,9 @@ using Progress = std::function<void(double done, const std::string& stage)>;
 struct SelectionOptions {
   int num_threads = 0;
   int folds = 10;  ///< of the cross-validation
+  /// (observations,) 0 …: given groups, which are held out whole in turn (folds_of_groups); empty:
+  /// the folds are made (make_folds).
+  std::vector<int> groups = {};
 };
 
 /// A selected term and its evidence.

@@ -19,7 +19,7 @@ TEST(CorrectedArm, ComposesTheChainAsItsHeaderSays) {
   const CorrectedArm model(arm, effects, some_support(arm));
   const JointMatrix q = poses_within(arm, 5, 1);
   const CorrectedPoses found = model.forward(view_of(q), some_covariates());
-  EXPECT_TRUE(found.in_support.all());
+  EXPECT_TRUE(within(found.uses).all());
   for (Index i = 0; i < q.rows(); ++i) {
     Eigen::VectorXd moved = q.row(i).transpose();
     moved[1] += 2e-3 * (std::sin(3.0 * q(i, 1)) + std::cos(q(i, 0))) + 1e-3 * 1.5 * -9.80665;
@@ -104,7 +104,7 @@ TEST(CorrectedArm, AsksForCovariatesWhereSomeAreTold) {
   const CorrectedArm model(arm, {growth(1e-4)}, some_support(arm));
   const JointMatrix q = JointMatrix::Zero(2, arm.size());
   const CorrectedPoses found = model.forward(view_of(q));
-  EXPECT_FALSE(found.in_support.any());
+  EXPECT_FALSE(within(found.uses).any());
   EXPECT_EQ(found.poses, forward(arm, view_of(q)));
   try {
     model.forward(view_of(q), {{"payload", column({1.0})}});

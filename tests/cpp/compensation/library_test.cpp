@@ -64,7 +64,7 @@ void expect_the_chain_of_identification(const Library& library) {
   const ChainDerivatives chain(library.parameters, library.x, {});
   ChainFrames frames;
   const CorrectedPoses found = library.model().forward(view(scene.q), scene.covariates);
-  EXPECT_TRUE(found.in_support.all());
+  EXPECT_TRUE(within(found.uses).all());
   double moved = 0.0;
   for (Index i = 0; i < scene.q.rows(); ++i) {
     const double* q = scene.q.row(i).data();

@@ -28,8 +28,8 @@ TEST(CorrectedArm, SaysWhichEffectsCount) {
   SupportMask expected = SupportMask::Constant(7, 4, true);
   expected(1, 0) = expected(1, 1) = expected(3, 1) = expected(6, 1) = false;
   expected(5, 3) = expected(6, 3) = false;
-  EXPECT_TRUE((found.in_support == expected).all()) << found.in_support;
-  EXPECT_TRUE((model.in_support(view_of(q), covariates) == expected).all());
+  EXPECT_TRUE((within(found.uses) == expected).all()) << within(found.uses);
+  EXPECT_TRUE((within(model.effect_uses(view_of(q), covariates)) == expected).all());
 }
 
 TEST(CorrectedArm, HoldsWhatLiesBeyondAtTheNearestRow) {
@@ -54,6 +54,77 @@ TEST(CorrectedArm, HoldsWhatLiesBeyondAtTheNearestRow) {
   const JointView one(found.jacobians.data(), 6, arm.size()), other(rigid.data(), 6, arm.size());
   EXPECT_LT((one.col(0) - other.col(0)).cwiseAbs().maxCoeff(), 1e-12);
   EXPECT_GT((one.col(1) - other.col(1)).cwiseAbs().maxCoeff(), 1e-4);
+}
+
+/// The only variant of an effect of the library along `joint`.
+FoundEffect of_library(const std::shared_ptr<const Effect>& effect, const EffectData& data,
+                       int joint, double value) {
+  for (const EffectVariant& variant : effect->variants(data)) {
+    if (variant.joint != joint) continue;
+    return {effect, variant,
+            Eigen::VectorXd::Constant(static_cast<Index>(variant.parameters.size()), value)};
+  }
+  throw std::logic_error("no such variant");
+}
+
+TEST(CorrectedArm, ExtrapolatesWhatFollowsFromKnownTorques) {
+  Arm arm = irregular_arm(4);
+  const RowMatrix training = 0.5 * RowMatrix::Random(60, arm.size());
+  const EffectData data = make_effect_data(arm, training, {}, false);
+  const FoundEffect sagging = of_library(effects::joint_compliance(), data, 2, 1e-5);
+  const CorrectedArm model(arm, {sagging}, support_of(training, {}));
+  const JointMatrix q = 1.5 * JointMatrix::Random(20, arm.size());
+  const EffectData far = make_effect_data(arm, RowMatrix(q), {}, false);
+  const CorrectedPoses found = model.forward(view_of(q));
+  JointMatrix moved = q;
+  moved.col(2) += 1e-5 * sagging.effect->perturbations(sagging.variant, far)[0][0].values.col(0);
+  EXPECT_LT(difference(found.poses, forward(arm, view_of(moved))), 1e-14);
+  EXPECT_GT((found.uses == EffectUse::kExtrapolated).count(), 15);
+  EXPECT_EQ((found.uses == EffectUse::kHeld).count(), 0);
+
+  // 3 kg at the tool, more than ever: the torque follows.
+  const Covariates laden{{"payload", column({3.0})}};
+  const JointMatrix home = JointMatrix::Zero(1, arm.size());
+  EXPECT_EQ(model.effect_uses(view_of(home), laden)(0, 0), EffectUse::kExtrapolated);
+  const Covariates unknown{{"payload", column({kNan})}};
+  EXPECT_EQ(model.effect_uses(view_of(home), unknown)(0, 0), EffectUse::kOmitted);
+}
+
+TEST(CorrectedArm, HoldsAScaleThatWasFittedWithWaves) {
+  const Arm arm = ur10e();
+  const RowMatrix training = RowMatrix::Random(80, arm.size());
+  const EffectData data = make_effect_data(arm, training, {}, false);
+  const FoundEffect scale = of_library(effects::joint_scale(), data, 2, 1e-3);
+  const FoundEffect wave = of_library(effects::joint_harmonic(), data, 2, 1e-3);
+  const FoundEffect other = of_library(effects::joint_harmonic(), data, 3, 1e-3);
+  const JointMatrix q = JointMatrix::Constant(1, arm.size(), 2.0);
+  const auto use_in = [&](std::vector<FoundEffect> found) {
+    return CorrectedArm(arm, std::move(found), support_of(training, {}))
+        .effect_uses(view_of(q))(0, 0);
+  };
+  EXPECT_EQ(use_in({scale}), EffectUse::kExtrapolated);
+  EXPECT_EQ(use_in({scale, other}), EffectUse::kExtrapolated);
+  EXPECT_EQ(use_in({scale, wave}), EffectUse::kHeld);
+}
+
+TEST(CorrectedArm, GivesTheReasonsOfARow) {
+  const Arm arm = ur10e();
+  const CorrectedArm model(arm, {curve(2e-3), growth(1e-4), moved_base(1e-3)}, some_support(arm));
+  JointMatrix q = JointMatrix::Constant(5, arm.size(), 0.3);
+  q(1, 0) = 1.5;  // an argument of the curve and the growth
+  q(2, 5) = 1.5;  // of nothing
+  const std::vector<std::string> reasons = model.support_reasons(
+      view_of(q),
+      {{"temperature", column({15, 15, 15, 35, kNan})}, {"session", column({1, 1, 1, 7, kNan})}});
+  EXPECT_EQ(reasons[0], "");
+  EXPECT_EQ(reasons[1], "joint 1 at 1.5 rad, data -1 to 1: curve of joint 2 held, growth held");
+  EXPECT_EQ(reasons[2], "");
+  EXPECT_EQ(reasons[3],
+            "temperature at 35, data 10 to 30: growth held; session 7, not in the data: "
+            "moved_base omitted");
+  EXPECT_EQ(reasons[4], "temperature unknown: growth omitted; session unknown: moved_base omitted");
+  EXPECT_EQ(model.support_reasons(view_of(q))[0],
+            "temperature not given: growth omitted; session not given: moved_base omitted");
 }
 
 /// Two waves along the third joint and a map along the fourth, of the library.
@@ -89,7 +160,7 @@ TEST(CorrectedArm, HoldsWavesInGapsWiderThanTheirPeriod) {
   SupportMask expected = SupportMask::Constant(3, 3, true);
   expected(1, 0) = expected(1, 1) = false;
   const CorrectedPoses found = model.forward(view_of(q));
-  EXPECT_TRUE((found.in_support == expected).all()) << found.in_support;
+  EXPECT_TRUE((within(found.uses) == expected).all()) << within(found.uses);
 
   // Held at the average of what was taught: here by a plain sum over both stretches.
   const auto wave = [](double at) {
@@ -109,6 +180,9 @@ TEST(CorrectedArm, HoldsWavesInGapsWiderThanTheirPeriod) {
   EXPECT_LT((tip.translation() - pose_at(found.poses, 1).translation()).norm(), 1e-5);
   EXPECT_GT(std::abs(sum / kParts), 1e-4);
 
+  EXPECT_EQ(model.support_reasons(view_of(q))[1],
+            "joint 3 at 0.1 rad, in the gap of the data from -0.2 to 0.6: joint_harmonic of joint "
+            "3 held");
   const std::vector<std::vector<Support::Gap>> gaps = model.gaps();
   ASSERT_EQ(gaps.size(), 6u);
   for (std::size_t j = 0; j < gaps.size(); ++j) EXPECT_EQ(gaps[j].size(), j == 2 ? 1u : 0u);
@@ -129,8 +203,8 @@ TEST(CorrectedArm, ALoneRowInAGapTeachesNothing) {
   const std::vector<FoundEffect> found{waves(arm)[0], waves(arm)[1]};
   const CorrectedArm one(arm, found, without), other(arm, found, support_of(more, {}));
   const JointMatrix q = JointMatrix::Constant(1, arm.size(), 0.2);
-  EXPECT_FALSE(one.in_support(view_of(q))(0, 0));
-  EXPECT_FALSE(other.in_support(view_of(q))(0, 0));
+  EXPECT_FALSE(within(one.effect_uses(view_of(q)))(0, 0));
+  EXPECT_FALSE(within(other.effect_uses(view_of(q)))(0, 0));
   EXPECT_LT(difference(one.forward(view_of(q)).poses, other.forward(view_of(q)).poses), 1e-12);
 }
 
@@ -140,7 +214,7 @@ TEST(CorrectedArm, IsRigidWhereEverythingIsLeftOut) {
   const JointMatrix q = JointMatrix::Constant(4, arm.size(), 0.7);
   const CorrectedPoses found =
       model.forward(view_of(q), {{"temperature", column({kNan})}, {"session", column({7.0})}});
-  EXPECT_FALSE(found.in_support.any());
+  EXPECT_FALSE(within(found.uses).any());
   EXPECT_EQ(found.poses, forward(arm, view_of(q)));
 }
 
@@ -151,15 +225,15 @@ TEST(CorrectedArm, CountsNoLoadWhereNoneIsTold) {
   EXPECT_EQ(model.forward(view_of(q)).poses, forward(arm, view_of(q)));
   const Support bare = support_of(RowMatrix(q), {});
   const CorrectedArm unladen(arm, {sag(1e-3)}, bare);
-  EXPECT_TRUE(unladen.in_support(view_of(q)).all());
-  EXPECT_FALSE(unladen.in_support(view_of(q), {{"payload", column({1.0})}}).any());
+  EXPECT_TRUE(within(unladen.effect_uses(view_of(q))).all());
+  EXPECT_FALSE(within(unladen.effect_uses(view_of(q), {{"payload", column({1.0})}})).any());
 }
 
 TEST(CorrectedArm, HasNoBoundsForDifferences) {
   const Arm arm = ur10e();
   const CorrectedArm model(arm, {late(0.1)}, some_support(arm));
   const JointMatrix q = JointMatrix::Constant(3, arm.size(), 2.0);
-  EXPECT_TRUE(model.in_support(view_of(q), {{"time", column({1e6})}}).all());
+  EXPECT_TRUE(within(model.effect_uses(view_of(q), {{"time", column({1e6})}})).all());
 }
 
 TEST(CorrectedArm, InverseHoldsBeyondTheSupport) {
@@ -170,7 +244,7 @@ TEST(CorrectedArm, InverseHoldsBeyondTheSupport) {
   const std::vector<double> targets = model.forward(view_of(q)).poses;
   const CorrectedInverse found = model.inverse(targets, view_of(q));
   EXPECT_EQ(found.result.status[0], InverseStatus::kReached);
-  EXPECT_FALSE(found.in_support(0, 0));
+  EXPECT_FALSE(within(found.uses)(0, 0));
   EXPECT_LT((found.result.q - q).cwiseAbs().maxCoeff(), 1e-8);
 }
 
@@ -220,7 +294,7 @@ TEST(Support, IsNotLeftByTheLastDigit) {
   const CorrectedArm model(arm, {curve(1e-3)}, some_support(arm));
   JointMatrix q = JointMatrix::Constant(2, arm.size(), 1.0 + 1e-10);
   q.row(1).setConstant(1.0 + 1e-6);
-  const SupportMask mask = model.in_support(view_of(q));
+  const SupportMask mask = within(model.effect_uses(view_of(q)));
   EXPECT_TRUE(mask(0, 0));
   EXPECT_FALSE(mask(1, 0));
 }

@@ -64,6 +64,31 @@ TEST(Diagnose, NamesAnEccentricEncoder) {
   EXPECT_GT(found.held_out.rms_before, 3.0 * found.held_out.rms_after);
 }
 
+/// Regions of joint 0, given as groups: each is predicted from the others.
+TEST(Diagnose, HoldsOutGivenGroups) {
+  const Tracked measured = wavy(1e-3, 1e-4, 150);
+  DiagnoseOptions options;
+  for (const double q : measured.q.col(0))
+    options.groups.push_back(q < -0.7 ? "left" : q < 0.7 ? "middle" : "right");
+  const Diagnosis found = diagnose(six_joints(), measured, options);
+  EXPECT_EQ(found.held_out.blocks, 3);
+  EXPECT_EQ(found.held_out.how, "3 given groups were held out in turn");
+  std::map<std::string, int> rows;
+  for (const auto& part : found.held_out.parts) rows[part.name] = part.rows;
+  for (const std::string name : {"left", "middle", "right"})
+    EXPECT_EQ(rows["group " + name], std::ranges::count(options.groups, name)) << name;
+  EXPECT_NE(found.held_out.before, diagnose(six_joints(), measured).held_out.before);
+}
+
+TEST(Diagnose, RefusesGroupsThatAreNone) {
+  const Tracked measured = wavy(1e-3, 1e-4, 60);
+  DiagnoseOptions options;
+  options.groups.assign(59, "a");
+  EXPECT_THROW(diagnose(six_joints(), measured, options), std::invalid_argument);
+  options.groups.assign(60, "a");
+  EXPECT_THROW(diagnose(six_joints(), measured, options), std::invalid_argument);
+}
+
 TEST(Diagnose, ReportsExtrapolatedRowsSeparately) {
   const Tracked measured = wavy(1e-3, 1e-4, 150);
   std::set<Index> ends;  // rows at an end of a joint's range: outside those of all other folds

@@ -51,6 +51,20 @@ TEST(Library, NamesRangesAfterParametersThatThereAre) {
   }
 }
 
+TEST(Library, ExtrapolatesWhatFollowsFromKnownArguments) {
+  const std::set<std::string> expected{"joint_scale",     "joint_coupling", "joint_compliance",
+                                       "link_compliance", "payload",        "base_compliance",
+                                       "thermal"};
+  const Scene scene(irregular_arm(3));
+  std::set<std::string> found;
+  for (const auto& effect : library_effects()) {
+    if (effect->info().extrapolates) found.insert(effect->info().name);
+    for (const EffectVariant& v : effect->variants(scene.data()))
+      EXPECT_EQ(effect->extrapolates(v), effect->info().extrapolates) << v.effect;
+  }
+  EXPECT_EQ(found, expected);
+}
+
 TEST(Variants, NeedTheirCovariates) {
   Scene bare(irregular_arm(3));
   bare.covariates.clear();

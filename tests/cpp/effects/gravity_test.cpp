@@ -178,6 +178,17 @@ TEST(GravityEffects, MomentsFoundInSomePosesMeanTheSameInOthers) {
   }
 }
 
+/// Those of other poses were dropped where the data did not tell them apart.
+TEST(GravityEffects, MomentsOfUnknownMassesAreNotExtrapolated) {
+  Scene scene(irregular_arm(3));
+  scene.arm = without_masses(scene.arm);
+  const auto effect = library_effects()[5];
+  ASSERT_EQ(effect->info().name, "joint_compliance");
+  const auto variants = effect->variants(scene.data());
+  ASSERT_FALSE(variants.empty());
+  for (const EffectVariant& v : variants) EXPECT_FALSE(effect->extrapolates(v));
+}
+
 TEST(GravityEffects, LinksBendAsCantilevers) {
   const Scene scene(irregular_arm(3));
   const auto variants = variants_of("link_compliance", scene.data());

@@ -115,5 +115,20 @@ TEST(Replicates, AreFoundAlongChains) {
   EXPECT_EQ(find_replicates(q, 1e-3), (std::vector<int>{0, 0, 0, 1, 2}));
 }
 
+TEST(Folds, OfGivenGroupsAreTheGroups) {
+  const Folds folds = folds_of_groups({0, 1, 0, 2, 1});
+  EXPECT_EQ(folds.count, 3);
+  EXPECT_EQ(folds.fold_of, (std::vector<int>{0, 1, 0, 2, 1}));
+  EXPECT_EQ(folds.description, "3 given groups were held out in turn");
+}
+
+TEST(Folds, OfManyGivenGroupsAreSeveralGroups) {
+  std::vector<int> groups;
+  for (int i = 0; i < 240; ++i) groups.push_back(i / 2);
+  const Folds folds = folds_of_groups(groups);
+  EXPECT_EQ(folds.count, kMostGroupFolds);
+  for (int i = 0; i < 240; i += 2) EXPECT_EQ(folds.fold_of[i], folds.fold_of[i + 1]);
+}
+
 }  // namespace
 }  // namespace bathyal::selection

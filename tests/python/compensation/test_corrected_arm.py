@@ -46,8 +46,9 @@ def test_shapes_are_those_of_any_arm() -> None:
     assert arm.forward(Q, covariates=COVARIATES, links=True).shape == (200, 7, 4, 4)
     assert arm.jacobian(Q[:2], covariates=ALL).shape == (2, 6, 6)
     assert arm.jacobian(Q[0], covariates=ALL, frame="tool").shape == (6, 6)
-    assert arm.in_support(Q, covariates=COVARIATES).shape == (200, 4)
-    assert arm.in_support(Q[0], covariates=ALL).tolist() == [True] * 4
+    assert arm.effects_in_support(Q, covariates=COVARIATES).shape == (200, 4)
+    assert arm.effects_in_support(Q[0], covariates=ALL).tolist() == [True] * 4
+    assert arm.in_support(Q, covariates=COVARIATES).shape == (200,)
     assert arm.forward(np.zeros((0, 6)), covariates=ALL).shape == (0, 4, 4)
 
 
@@ -104,7 +105,7 @@ def test_verify_arm_tells_it_its_covariates() -> None:
     arm = model()
     seen = arm.forward(Q, covariates=COVARIATES)[:, :3, 3] + [4.0, 5.0, 6.0]
     assert bathyal.verify_arm(arm, Q, seen, covariates=COVARIATES).rms_after < 1e-12
-    with pytest.warns(bathyal.SupportWarning, match="thermal left out"):
+    with pytest.warns(bathyal.SupportWarning, match="temperature: not given"):
         assert bathyal.verify_arm(arm, Q, seen).rms_after > 1e-4
     with pytest.raises(ValueError, match="`covariates`: expected none of a rigid arm, got temp"):
         bathyal.verify_arm(arm.arm, Q, seen, covariates={"temperature": 20.0})

@@ -46,7 +46,7 @@ def test_the_ur10s_model_predicts_poses_that_were_not_used() -> None:
     every = ur10("C")
     unused = np.arange(len(every.q)) % 8 == 4
     q, position = every.q[unused], every.position[unused]
-    within = report.model.in_support(q).all(axis=1)
+    within = report.model.in_support(q)
     error = report.model.forward(q[within])[:, :3, 3] - position[within]
     rigid = report.fit.arm.forward(q[within])[:, :3, 3] - position[within]
     assert within.mean() > 0.8
@@ -56,7 +56,7 @@ def test_the_ur10s_model_predicts_poses_that_were_not_used() -> None:
 @pytest.mark.parametrize("within", [True, False])
 def test_what_one_session_teaches_helps_in_another(within: bool) -> None:
     report, other = _report_of_another_session(), ur10("B")
-    known = report.model.in_support(other.q).all(axis=1)
+    known = report.model.in_support(other.q)
     assert 0.1 < known.mean() < 0.9
     q, places = other.q[known == within], other.position[known == within]
     with warnings.catch_warnings():

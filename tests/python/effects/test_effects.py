@@ -67,6 +67,34 @@ def test_the_library_has_every_effect_and_says_what_it_is() -> None:
     assert not bathyal.effects.get("joint_map").by_difference
 
 
+def test_the_library_says_what_is_extrapolated() -> None:
+    physics = {
+        "joint_scale",
+        "joint_coupling",
+        "joint_compliance",
+        "link_compliance",
+        "payload",
+        "base_compliance",
+        "thermal",
+    }
+    assert {effect.name for effect in bathyal.effects.list() if effect.extrapolates} == physics
+    assert "beyond the data: extrapolated" in str(bathyal.effects.get("thermal"))
+    assert "beyond the data" not in str(bathyal.effects.get("joint_map"))
+
+
+def test_an_effect_of_a_user_is_extrapolated_where_it_says_so() -> None:
+    held, free = (model_of(cable, extrapolates=given) for given in (False, True))
+    q = np.full((1, 6), 1.4)
+    for model in (held, free):
+        assert not model.in_support(q).any()
+    with pytest.warns(bathyal.SupportWarning):
+        assert np.array_equal(
+            free.forward(q), held.arm.forward(q + 1e-3 * np.sin(2.8) * np.eye(6)[3])
+        )
+    with pytest.warns(bathyal.SupportWarning):
+        assert not np.array_equal(free.forward(q), held.forward(q))
+
+
 def test_a_name_that_no_effect_has_is_refused_with_those_that_there_are() -> None:
     with pytest.raises(ValueError, match=r"`effect`: expected one of joint_harmonic, .*, got 'x'"):
         bathyal.effects.get("x")

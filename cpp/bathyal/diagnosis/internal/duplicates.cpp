@@ -11,15 +11,6 @@
 namespace bathyal::diagnosis {
 namespace {
 
-/// Rows that duplicate no earlier one, in their order.
-std::vector<int> distinct_rows(const std::vector<int>& of) {
-  std::vector<int> rows;
-  for (int i = 0; i < static_cast<int>(of.size()); ++i) {
-    if (of[i] == i) rows.push_back(i);
-  }
-  return rows;
-}
-
 using Numbers = std::vector<double>;
 
 void add(Numbers& numbers, const auto& more) {
@@ -64,6 +55,14 @@ Data common_part(const Data& data, const std::vector<int>& rows) {
 }
 
 }  // namespace
+
+std::vector<int> distinct_rows(const std::vector<int>& of) {
+  std::vector<int> rows;
+  for (int i = 0; i < static_cast<int>(of.size()); ++i) {
+    if (of[i] == i) rows.push_back(i);
+  }
+  return rows;
+}
 
 std::vector<int> find_duplicates(const Tracked& tracked) {
   std::vector<Numbers> rows;

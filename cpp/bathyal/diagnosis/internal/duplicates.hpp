@@ -16,6 +16,9 @@ namespace bathyal::diagnosis {
 std::vector<int> find_duplicates(const Tracked& tracked);
 std::vector<int> find_duplicates(const Touches& touches);
 
+/// Rows that duplicate no earlier one, ascending.
+std::vector<int> distinct_rows(const std::vector<int>& of);
+
 /// The data without duplicate rows.
 Tracked without_duplicates(const Tracked& tracked, const std::vector<int>& of);
 Touches without_duplicates(const Touches& touches, const std::vector<int>& of);

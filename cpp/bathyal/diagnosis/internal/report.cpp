@@ -105,7 +105,7 @@ class Reporter {
     constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
     HeldOut& out = out_.held_out;
     out.how = counted(m_.rows(), m_.tracked ? "pose" : "touch", m_.tracked ? "poses" : "touches") +
-              (found_.folds.count < selection::kMinFolds
+              (options_.groups.empty() && found_.folds.count < selection::kMinFolds
                    ? " make fewer than three blocks of poses that differ"
                    : " leave hardly more equations than unknowns");
     out.noise = std::sqrt(3.0) * out_.noise;
@@ -139,7 +139,14 @@ class Reporter {
     out.rms_after = all.rms_after;
     const std::vector<int>& session = model_.observations().session;
     const std::vector<std::string> names = session_names();
-    for (std::size_t s = 0; names.size() > 1 && s < names.size(); ++s) {
+    std::set<std::string> reported;
+    for (const std::string& group : options_.groups) {
+      if (!reported.insert(group).second) continue;
+      out.parts.push_back(
+          part("group " + group, [&](Index i) { return options_.groups[i] == group; }));
+    }
+    const bool by_session = names.size() > 1 && options_.groups.empty();
+    for (std::size_t s = 0; by_session && s < names.size(); ++s) {
       out.parts.push_back(
           part("session " + names[s], [&](Index i) { return session[i] == static_cast<int>(s); }));
     }
