@@ -23,7 +23,7 @@ struct DiagnoseOptions {
   double rival_odds = 0.05;
   /// Unexplained structure, as a share of the variance that the effects explain, from which the
   /// verdict is unknown; 0 or more.
-  double leftover = 0.25;
+  double leftover = 0.03;
   int num_next_poses = 8;  ///< of `next_poses`, 0 to 1 000
   int num_threads = 0;     ///< 0 = all; the same bytes for any number
 
