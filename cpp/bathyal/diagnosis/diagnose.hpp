@@ -23,7 +23,7 @@ struct DiagnoseOptions {
   double rival_odds = 0.05;
   /// Unexplained structure, as a share of the variance that the effects explain, from which the
   /// verdict is unknown; 0 or more.
-  double leftover = 0.25;
+  double leftover = 0.03;
   /// (N,) name of the group of each row (a placement, a day), 2 or more: they are the folds, held
   /// out whole in turn, and `blocks` is not used. Empty: folds are made.
   std::vector<std::string> groups = {};

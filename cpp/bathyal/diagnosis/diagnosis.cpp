@@ -23,7 +23,8 @@ std::string to_text(const Dependence& dependence) {
       return "position";
     case Kind::kJoints:
       if (dependence.coordinates.size() == 1) return "joint " + joint(0);
-      return "joints " + joint(0) + " and " + joint(1);
+      if (dependence.coordinates.size() == 2) return "joints " + joint(0) + " and " + joint(1);
+      return "all joints together";
     case Kind::kTime:
       if (!dependence.period) return "time";
       return "time, period " + diagnosis::seconds(*dependence.period);

@@ -58,7 +58,7 @@ struct Dependence {
   enum class Kind {
     kNone,
     kPosition,  ///< of the tip
-    kJoints,    ///< values of one joint, or of two together
+    kJoints,    ///< values of one joint, of two together, or of all
     kTime,      ///< a drift, or a vibration where `period` is given
     kOrder,     ///< of the rows, where no times are recorded
     kApproach,  ///< the direction of a joint's last move

@@ -2,10 +2,13 @@
 #include "bathyal/selection/lack_of_fit.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <map>
 #include <utility>
 
 #include "bathyal/selection/internal/cross_validation.hpp"
+#include "bathyal/selection/internal/grid_scan.hpp"
 #include "bathyal/selection/internal/subset_search.hpp"
 
 namespace bathyal::selection {
@@ -14,6 +17,9 @@ namespace {
 constexpr int kMaxRounds = 4;
 constexpr std::size_t kMaxLackOfFitTerms = 6;  ///< tested at once
 constexpr std::size_t kManyTerms = 6;
+constexpr int kFewestReplaced = 1;
+constexpr std::size_t kMaxReplacements = 4;  ///< from which a search begins
+constexpr double kReplacementGain = 2.0;     ///< log evidence
 
 bool contains(const std::vector<int>& terms, int term) {
   return std::find(terms.begin(), terms.end(), term) != terms.end();
@@ -44,6 +50,10 @@ ActiveSet LackOfFitCheck::select(const std::vector<int>& terms) {
     unplaced_ = significant(active);
     // So many terms approximate anything: structure is reported in addition to them.
     if (active.terms.size() > kManyTerms) break;
+    if (auto next = replaced(active)) {
+      active = std::move(*next);
+      continue;
+    }
     const std::vector<int> tested = predictive(active, unplaced_);
     if (tested.empty()) break;
     std::erase_if(unplaced_, [&](int term) { return contains(tested, term); });
@@ -73,6 +83,81 @@ std::vector<int> LackOfFitCheck::significant(const ActiveSet& active) const {
     found.push_back(d.term);
   }
   return found;
+}
+
+/// Names that only crowd around something else leave little; what they crowd around shows where
+/// one term does better than all of them. Tried are all sets of selected terms; the best of each
+/// lack-of-fit term, most first.
+std::vector<Replacement> LackOfFitCheck::replacements(const ActiveSet& active) const {
+  std::vector<int> asked;
+  for (int term = 0; term < static_cast<int>(working_point_.model().terms().size()); ++term) {
+    if (working_point_.term(term).lack_of_fit && !contains(active.lack_of_fit, term))
+      asked.push_back(term);
+  }
+  const CandidateSet candidates = working_point_.candidate_set(active.all());
+  const auto whole = candidates.evaluate(all_members(candidates));
+  if (!whole || asked.empty()) return {};
+  std::map<int, Replacement> best;
+  const auto count = static_cast<unsigned>(active.terms.size());
+  for (unsigned removed = 1; removed < (1u << count); ++removed) {
+    if (std::popcount(removed) < kFewestReplaced) continue;
+    check_stop_();
+    std::vector<int> rest;
+    for (unsigned i = 0; i < count; ++i) {
+      if (!(removed >> i & 1u)) rest.push_back(active.terms[i]);
+    }
+    const std::vector<int> others = joined(rest, active.lack_of_fit);
+    const auto fit = candidates.evaluate(members_of(candidates, others));
+    if (!fit) continue;
+    const NuisanceBasis& basis = working_point_.nuisance(others);
+    for (const ScannedTerm& scanned :
+         scan(working_point_.model(), asked, basis.basis,
+              working_point_.model().linearization().residual, basis.dof,
+              working_point_.num_threads())) {
+      const double gain = fit->score + scanned.gain -
+                          std::log(working_point_.term(scanned.term).multiplicity) - whole->score;
+      if (!(gain > kReplacementGain)) continue;
+      const auto [place, fresh] = best.emplace(scanned.term, Replacement{scanned.term, rest, gain});
+      if (!fresh && gain > place->second.gain) place->second = {scanned.term, rest, gain};
+    }
+  }
+  std::vector<Replacement> out;
+  for (auto& [term, replacement] : best) out.push_back(std::move(replacement));
+  std::stable_sort(out.begin(), out.end(),
+                   [](const Replacement& a, const Replacement& b) { return a.gain > b.gain; });
+  if (out.size() > kMaxReplacements) out.resize(kMaxReplacements);
+  return out;
+}
+
+/// The best set that begins with a replacement, where one predicts held-out rows better too.
+std::optional<ActiveSet> LackOfFitCheck::replaced(const ActiveSet& active) {
+  if (active.terms.empty()) return std::nullopt;
+  const std::vector<Replacement> starts = replacements(active);
+  if (starts.empty()) return std::nullopt;
+  std::vector<int> tested;
+  for (const Replacement& start : starts) tested.push_back(start.lack_of_fit);
+  const CandidateSet candidates =
+      working_point_.candidate_set(joined(joined(candidates_, active.lack_of_fit), tested));
+  std::vector<int> best_set;
+  double best = candidates.evaluate(members_of(candidates, active.all()))->score;
+  for (const Replacement& start : starts) {
+    check_stop_();
+    const std::vector<int> set = stepwise_search(
+        candidates, members_of(candidates, joined(joined(start.rest, active.lack_of_fit),
+                                                  {start.lack_of_fit})));
+    const double score = candidates.evaluate(set)->score;
+    if (score > best) {
+      best = score;
+      best_set = set;
+    }
+  }
+  ActiveSet next;
+  for (const int term : terms_of(candidates, best_set)) {
+    (working_point_.term(term).lack_of_fit ? next.lack_of_fit : next.terms).push_back(term);
+  }
+  if (next.lack_of_fit.size() <= active.lack_of_fit.size() || !is_improvement(next, active))
+    return std::nullopt;
+  return next;
 }
 
 /// Lack-of-fit terms replace others only where they predict held-out rows, as those must.

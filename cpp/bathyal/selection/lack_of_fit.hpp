@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "bathyal/selection/folds.hpp"
@@ -17,6 +18,13 @@ struct ActiveSet {
   std::vector<int> terms;
   std::vector<int> lack_of_fit;
   std::vector<int> all() const;
+};
+
+/// A lack-of-fit term that scores better than several selected terms in their place.
+struct Replacement {
+  int lack_of_fit = 0;
+  std::vector<int> rest;  ///< the terms that stay
+  double gain = 0.0;      ///< in log evidence, over the active set
 };
 
 /// Lack of fit of a selection: lack-of-fit terms take part in the search, and may replace a term
@@ -41,6 +49,8 @@ class LackOfFitCheck {
 
  private:
   std::vector<int> significant(const ActiveSet& active) const;
+  std::vector<Replacement> replacements(const ActiveSet& active) const;
+  std::optional<ActiveSet> replaced(const ActiveSet& active);
   std::vector<int> predictive(const ActiveSet& active, const std::vector<int>& lack_of_fit_terms);
   bool is_improvement(const ActiveSet& next, const ActiveSet& active);
   double log_predictive_density(const std::vector<int>& terms) const;

@@ -83,6 +83,12 @@ class Model {
   virtual std::vector<Eigen::MatrixXd> columns(std::span<const int> terms) const = 0;
   virtual const Linearization& linearization() const = 0;
 
+  /// (N, d) each: coordinates, each of unit spread, in which near observations should have
+  /// residuals that are no more alike than those of strangers. No NaN.
+  virtual const std::vector<Eigen::MatrixXd>& contexts() const = 0;
+  /// (M, d) each: d rows / d a shift of each observation along d axes, at the current estimate.
+  virtual std::vector<Eigen::MatrixXd> directions() const = 0;
+
   /// Fits the base model together with `terms`, which become the active set. The setting of a
   /// continuous term is fitted too.
   virtual void fit(const std::vector<int>& terms) = 0;

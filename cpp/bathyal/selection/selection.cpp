@@ -55,6 +55,7 @@ class StructureSelection {
   void fill_held_out(const BlockCrossValidation& held, const HeldOutErrors& before);
   void fill_evidence();
   void add_lack_of_fit(const std::vector<LackOfFit>& forward);
+  void test_remainder();
   void fill_alternatives();
   void fill_detectable();
 
@@ -254,6 +255,21 @@ void StructureSelection::add_lack_of_fit(const std::vector<LackOfFit>& forward) 
   }
 }
 
+/// What is left beside all of these, in whatever form.
+void StructureSelection::test_remainder() {
+  std::vector<int> terms = active_.terms;
+  for (const SelectedTerm& selected : out_.lack_of_fit) terms.push_back(selected.term);
+  const NuisanceBasis& whole = working_point_.nuisance(terms);
+  out_.autocorrelation =
+      test_autocorrelation(model_, whole.basis, whole.dof, weights_, options_.num_threads);
+  std::erase_if(out_.autocorrelation, [](const Autocorrelation& a) { return a.p > kBeyondNoise; });
+  out_.pure_error = test_pure_error(model_, whole.basis, whole.dof, weights_);
+  // Two measures of the same.
+  double more = out_.autocorrelation.empty() ? 0.0 : out_.autocorrelation.front().explained;
+  if (out_.pure_error.p <= kBeyondNoise) more = std::max(more, out_.pure_error.explained);
+  out_.unexplained += more;
+}
+
 void StructureSelection::fill_alternatives() {
   if (active_.terms.empty()) return;
   for (const int term : active_.terms) selector_.add_candidate(term);
@@ -301,6 +317,7 @@ SelectionResult StructureSelection::run(const Shortlist& shortlist) {
   drop_unpredictive_terms();
   fill_evidence();
   add_lack_of_fit(check.remaining(active_, active_.terms != promised));
+  test_remainder();
   fill_alternatives();
   for (Index i = 0; i < weights_.size(); ++i) {
     if (!(weights_[i] > 0.0)) out_.outliers.push_back(static_cast<int>(i));

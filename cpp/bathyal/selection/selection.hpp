@@ -5,10 +5,12 @@
 #include <string>
 #include <vector>
 
+#include "bathyal/selection/autocorrelation.hpp"
 #include "bathyal/selection/folds.hpp"
 #include "bathyal/selection/lack_of_fit.hpp"
 #include "bathyal/selection/model.hpp"
 #include "bathyal/selection/outlier_test.hpp"
+#include "bathyal/selection/pure_error.hpp"
 #include "bathyal/selection/term_selection.hpp"
 #include "bathyal/selection/working_point.hpp"
 
@@ -49,6 +51,10 @@ struct SelectionResult {
   Folds folds;
   std::vector<SelectedTerm> terms;
   std::vector<SelectedTerm> lack_of_fit;      ///< structure that the terms do not explain
+  /// Likeness of near residuals given the terms and `lack_of_fit`, beyond noise, most significant
+  /// first.
+  std::vector<Autocorrelation> autocorrelation;
+  PureErrorTest pure_error;                   ///< given the same
   std::vector<AlternativeTerm> alternatives;  ///< by term, most likely first
   std::vector<LackOfFit> lack_of_fit_before;  ///< of the base model, most significant first
   std::vector<int> outliers;                  ///< observations excluded

@@ -38,6 +38,9 @@ class LinearModel final : public Model {
     columns_.push_back(columns);
   }
   Eigen::VectorXd& data() { return at_.residual; }
+  std::vector<int>& replicates() { return observations_.replicate; }
+  void add_context(const Eigen::MatrixXd& coordinates) { contexts_.push_back(coordinates); }
+  void add_direction(const Eigen::MatrixXd& loads) { directions_.push_back(loads); }
   void set_base(const Eigen::VectorXd& column) { at_.jacobian = column; }
 
   const Observations& observations() const override { return observations_; }
@@ -53,6 +56,8 @@ class LinearModel final : public Model {
     return out;
   }
   const Linearization& linearization() const override { return at_; }
+  const std::vector<Eigen::MatrixXd>& contexts() const override { return contexts_; }
+  std::vector<Eigen::MatrixXd> directions() const override { return directions_; }
   void fit(const std::vector<int>&) override {}
   std::shared_ptr<const Checkpoint> save() const override { return std::make_shared<Checkpoint>(); }
   void restore(const Checkpoint&) override {}
@@ -67,6 +72,8 @@ class LinearModel final : public Model {
   std::vector<Eigen::MatrixXd> columns_;
   std::vector<std::vector<int>> scans_;
   std::vector<VarianceComponent> variance_components_;
+  std::vector<Eigen::MatrixXd> contexts_;
+  std::vector<Eigen::MatrixXd> directions_;
 };
 
 inline Eigen::VectorXd in_fold(Index fold, double size) {

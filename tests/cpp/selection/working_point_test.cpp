@@ -42,6 +42,8 @@ class ManyRows final : public Model {
   std::vector<int> refine(int) override { return {}; }
   std::vector<Eigen::MatrixXd> columns(std::span<const int>) const override { return {}; }
   const Linearization& linearization() const override { return at_; }
+  const std::vector<Eigen::MatrixXd>& contexts() const override { return contexts_; }
+  std::vector<Eigen::MatrixXd> directions() const override { return {}; }
   void fit(const std::vector<int>&) override {}
   std::shared_ptr<const Checkpoint> save() const override { return std::make_shared<Checkpoint>(); }
   void restore(const Checkpoint&) override {}
@@ -72,6 +74,7 @@ class ManyRows final : public Model {
   Linearization at_;
   std::vector<Term> terms_;
   std::vector<std::vector<int>> scans_;
+  std::vector<Eigen::MatrixXd> contexts_;
   std::vector<VarianceComponent> variance_components_;
 };
 

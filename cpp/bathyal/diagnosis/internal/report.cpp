@@ -13,8 +13,6 @@
 namespace bathyal::diagnosis {
 namespace {
 
-constexpr double kMinReplicateDof =
-    12.0;  ///< degrees of freedom from which replicates estimate the noise
 constexpr std::size_t kMaxAlternatives = 5;
 
 /// The t whose two tails hold 5 %.
@@ -74,7 +72,7 @@ class Reporter {
       dof += 3.0 * (static_cast<double>(rows.size()) - 1.0);
       ++poses;
     }
-    if (dof >= kMinReplicateDof && squares > 0.0) {
+    if (dof >= selection::kMinPureErrorDof && squares > 0.0) {
       out_.noise = std::sqrt(squares / dof);
       out_.noise_source = "repeats of " + counted(poses, "pose");
     } else {
@@ -294,21 +292,35 @@ class Reporter {
   }
 
   void fill_unexplained() {
-    if (found_.lack_of_fit.empty()) return;
+    const auto rows = static_cast<double>(3 * m_.rows());
+    const double size = std::sqrt(found_.unexplained / rows) * model_.mean_unit();
+    const double share =
+        found_.base_squares > 0.0 ? found_.unexplained / found_.base_squares : 0.0;
+    if (found_.lack_of_fit.empty()) {
+      if (found_.pure_error.p <= selection::kBeyondNoise) {
+        out_.unexplained = {{}, -1, "more than repeats of a pose differ", size, share,
+                            found_.pure_error.p};
+      }
+      if (found_.autocorrelation.empty()) return;
+      const selection::Autocorrelation& alike = found_.autocorrelation.front();
+      const Dependence& context = model_.context(alike.context);
+      out_.unexplained = {context, std::max(alike.direction - kFirstJoint, -1),
+                          describe(alike.direction, context), size, share, alike.p};
+      return;
+    }
     const auto most =
         std::max_element(found_.lack_of_fit.begin(), found_.lack_of_fit.end(),
                          [](const selection::SelectedTerm& a, const selection::SelectedTerm& b) {
                            return a.explained < b.explained;
                          });
-    const auto rows = static_cast<double>(3 * m_.rows());
-    out_.unexplained = structure(
-        most->term, std::sqrt(found_.unexplained / rows) * model_.mean_unit(),
-        found_.base_squares > 0.0 ? found_.unexplained / found_.base_squares : 0.0, most->p);
+    out_.unexplained = structure(most->term, size, share, most->p);
   }
 
   void decide() {
     const bool unexplained =
-        !found_.lack_of_fit.empty() && found_.unexplained > options_.leftover * found_.explained;
+        (!found_.lack_of_fit.empty() || !found_.autocorrelation.empty() ||
+         found_.pure_error.p <= selection::kBeyondNoise) &&
+        found_.unexplained > options_.leftover * found_.explained;
     if (unexplained) {
       out_.verdict = Verdict::kUnknown;
       return;

@@ -164,6 +164,7 @@ void ArmModel::gather_terms(const Effects& effects) {
   }
   lack_of_fit_terms_ =
       make_lack_of_fit_terms(data_, m_.tracked ? tips_from_base() : Eigen::Matrix3Xd());
+  contexts_ = make_contexts(data_, m_.tracked ? tips_from_base() : Eigen::Matrix3Xd());
   std::map<int, std::vector<int>> families;
   for (int p = 0; p < static_cast<int>(lack_of_fit_terms_.size()); ++p) {
     const LackOfFitTerm& about = lack_of_fit_terms_[p];
@@ -275,6 +276,33 @@ std::vector<Eigen::MatrixXd> ArmModel::columns(std::span<const int> terms) const
     }
     out.push_back(std::move(one.columns));
   }
+  return out;
+}
+
+std::vector<Eigen::MatrixXd> ArmModel::directions() const {
+  const auto rows = static_cast<Index>(m_.rows());
+  const auto acting_on = [](std::vector<Perturbation> perturbations) {
+    ActingVariant out;
+    out.variant.effect = "direction";
+    for (Perturbation& perturbation : perturbations) {
+      out.variant.parameters.push_back({std::to_string(out.perturbations.size()), "", 1.0});
+      out.perturbations.push_back({std::move(perturbation)});
+    }
+    return out;
+  };
+  std::vector<ActingVariant> acting;
+  for (const int frame : {0, static_cast<int>(nominal_.joints().size()) + 1}) {
+    std::vector<Perturbation> shifts;
+    for (int axis = 0; axis < 3; ++axis) {
+      shifts.push_back({PerturbationSite::kFrame, frame, RowMatrix::Zero(rows, 6)});
+      shifts.back().values.col(axis).setOnes();
+    }
+    acting.push_back(acting_on(std::move(shifts)));
+  }
+  for (int j = 0; j < static_cast<int>(data_.q.cols()); ++j)
+    acting.push_back(acting_on({{PerturbationSite::kJoint, j, RowMatrix::Ones(rows, 1)}}));
+  std::vector<Eigen::MatrixXd> out;
+  for (ParameterColumns& one : columns_of(std::move(acting))) out.push_back(std::move(one.columns));
   return out;
 }
 

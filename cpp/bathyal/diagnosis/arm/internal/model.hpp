@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "bathyal/diagnosis/arm/internal/contexts.hpp"
 #include "bathyal/diagnosis/arm/internal/lack_of_fit.hpp"
 #include "bathyal/effects/effect.hpp"
 #include "bathyal/identify/fit/arm_fit.hpp"
@@ -42,6 +43,10 @@ class ArmModel final : public selection::Model {
   void take_terms(const ArmModel& subset);
   std::vector<Eigen::MatrixXd> columns(std::span<const int> terms) const override;
   const selection::Linearization& linearization() const override { return linearization_; }
+  const std::vector<Eigen::MatrixXd>& contexts() const override { return contexts_.coordinates; }
+  /// The base's axes, the tool's axes, each joint.
+  std::vector<Eigen::MatrixXd> directions() const override;
+  const Dependence& context(int index) const { return contexts_.dependence[index]; }
   void fit(const std::vector<int>& terms) override;
   std::shared_ptr<const Checkpoint> save() const override;
   void restore(const Checkpoint& checkpoint) override;
@@ -163,6 +168,7 @@ class ArmModel final : public selection::Model {
   std::vector<int> rows_;
   std::set<const Effect*> needs_record_;
   std::vector<LackOfFitTerm> lack_of_fit_terms_;
+  Contexts contexts_;
   selection::Observations observations_;
   std::vector<selection::Term> terms_;
   std::vector<Source> sources_;

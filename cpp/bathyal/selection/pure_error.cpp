@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bathyal/selection/pure_error.hpp"
+
+#include <algorithm>
+#include <map>
+#include <vector>
+
+#include "bathyal/estimation/f_distribution.hpp"
+
+namespace bathyal::selection {
+
+PureErrorTest test_pure_error(const Model& model, const Eigen::MatrixXd& basis, double dof,
+                              const Eigen::VectorXd& weights) {
+  const Linearization& at = model.linearization();
+  const Eigen::VectorXd residual = at.residual - basis * (basis.transpose() * at.residual);
+  std::vector<std::vector<Index>> rows(static_cast<std::size_t>(weights.size()));
+  for (Index m = 0; m < residual.size(); ++m) {
+    const int observation = at.observation[static_cast<std::size_t>(m)];
+    if (observation >= 0 && weights[observation] > 0.0)
+      rows[static_cast<std::size_t>(observation)].push_back(m);
+  }
+  std::map<int, std::vector<std::size_t>> replicates;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (!rows[i].empty()) replicates[model.observations().replicate[i]].push_back(i);
+  }
+  PureErrorTest out;
+  double squares = 0.0;
+  for (const auto& [number, members] : replicates) {
+    if (members.size() < 2) continue;
+    Eigen::MatrixXd values(static_cast<Index>(rows[members.front()].size()),
+                           static_cast<Index>(members.size()));
+    for (std::size_t i = 0; i < members.size(); ++i)
+      values.col(static_cast<Index>(i)) = residual(rows[members[i]]);
+    squares += (values.colwise() - values.rowwise().mean()).squaredNorm();
+    out.dof += static_cast<double>(values.rows()) * static_cast<double>(members.size() - 1);
+  }
+  const double left = dof - out.dof;
+  if (out.dof < kMinPureErrorDof || !(squares > 0.0) || !(left > 0.0)) return out;
+  out.variance = squares / out.dof;
+  const double lack_of_fit = std::max(residual.squaredNorm() - squares, 0.0);
+  out.p = f_tail(lack_of_fit / left / out.variance, left, out.dof);
+  out.explained = std::max(lack_of_fit - left * out.variance, 0.0);
+  return out;
+}
+
+}  // namespace bathyal::selection
