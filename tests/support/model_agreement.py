@@ -12,11 +12,17 @@ import bathyal
 
 def difference(report: Any, data: bathyal.Tracked | bathyal.Touches) -> float:
     """How far the model's tips at the recorded joints lie from those that the residuals tell, at
-    most [m]. Rows that lack a covariate are not asked: the model leaves out what looks at it there.
+    most [m]. A load that is not known in every row was not used in the fit, and is not given. Rows
+    that lack a covariate are not asked: the model leaves out what looks at it there.
     Of a tool that slipped at a row and not at a time, the rows before the slip are not
     asked: by itself each of them is a pose after it."""
     model = report.model
-    tips = model.forward(data.q, covariates=data.covariates)[:, :3, 3]
+    used = {
+        name: values
+        for name, values in data.covariates.items()
+        if name != "payload" or np.isfinite(values).all()
+    }
+    tips = model.forward(data.q, covariates=used)[:, :3, 3]
     residuals = np.asarray(report.residuals_after)
     known = np.ones(len(data.q), bool)
     for values in data.covariates.values():
