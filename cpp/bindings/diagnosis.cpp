@@ -255,14 +255,15 @@ void bind_diagnose(py::module_& module) {
       "diagnose",
       [](const py::typing::Union<Arm>& given, const py::typing::Union<Touches, Tracked>& data,
          const py::typing::Optional<py::typing::Iterable<Effect>>& effects,
-         const std::string& parametrization, std::vector<std::string> fixed, int blocks,
-         double rival_odds, double leftover, int num_next_poses, const MaybeProgress& progress,
-         int num_threads) {
+         const std::string& parametrization, std::vector<std::string> fixed,
+         std::optional<double> length_prior, int blocks, double rival_odds, double leftover,
+         int num_next_poses, const MaybeProgress& progress, int num_threads) {
         const Arm& arm = arm_argument(given);
         const DiagnoseOptions options{
             .parametrization =
                 enum_argument("parametrization", parametrization, parametrization_names()),
             .fixed = std::move(fixed),
+            .length_prior = length_prior,
             .blocks = blocks,
             .rival_odds = rival_odds,
             .leftover = leftover,
@@ -293,10 +294,11 @@ void bind_diagnose(py::module_& module) {
       },
       py::arg("arm"), py::arg("data"), py::kw_only(), py::arg("effects") = py::none(),
       py::arg("parametrization") = enum_name(defaults.parametrization, parametrization_names()),
-      py::arg("fixed") = defaults.fixed, py::arg("blocks") = defaults.blocks,
-      py::arg("rival_odds") = defaults.rival_odds, py::arg("leftover") = defaults.leftover,
-      py::arg("num_next_poses") = defaults.num_next_poses, py::arg("progress") = py::none(),
-      py::arg("num_threads") = defaults.num_threads, kDiagnoseDoc);
+      py::arg("fixed") = defaults.fixed, py::arg("length_prior") = defaults.length_prior,
+      py::arg("blocks") = defaults.blocks, py::arg("rival_odds") = defaults.rival_odds,
+      py::arg("leftover") = defaults.leftover, py::arg("num_next_poses") = defaults.num_next_poses,
+      py::arg("progress") = py::none(), py::arg("num_threads") = defaults.num_threads,
+      kDiagnoseDoc);
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include "bathyal/diagnosis/internal/model_check.hpp"
 #include "bathyal/diagnosis/internal/record_checks.hpp"
 #include "bathyal/diagnosis/internal/report.hpp"
+#include "bathyal/effects/gravity_load.hpp"
 #include "bathyal/selection/selection.hpp"
 
 namespace bathyal {
@@ -25,6 +26,25 @@ void check_effects(const std::vector<std::shared_ptr<const Effect>>& effects) {
     if (!effect) throw_argument("effects", "effects", "nothing in place of one");
     const std::string name = effect->info().name;
     if (!names.insert(name).second) throw_argument("effects", "each effect once", name + " twice");
+  }
+}
+
+/// Effects that the caller chose, and that act by a weight that these data do not have.
+void check_weight(const EffectData& data,
+                  const std::vector<std::shared_ptr<const Effect>>& effects) {
+  if (masses_known(*data.arm) || data.has("payload")) return;
+  std::set<std::string> names;
+  for (const auto& effect : effects) names.insert(effect->info().name);
+  const auto library = library_effects();
+  const bool chosen = std::any_of(library.begin(), library.end(), [&](const auto& effect) {
+    return !names.contains(effect->info().name);
+  });
+  for (const auto& effect : effects) {
+    if (!chosen || !effect->needs_weight({})) continue;
+    throw_argument("effects", "effects that these data can show",
+                   effect->info().name +
+                       ", which an arm without masses does not feel: give its links their masses, "
+                       "or record `payload`");
   }
 }
 
@@ -62,9 +82,11 @@ Diagnosis run(const Arm& arm, const Measurement& measurement, const Covariates& 
   IdentifyOptions identify;
   identify.parametrization = options.parametrization;
   identify.fixed = options.fixed;
+  identify.length_prior = options.length_prior;
   identify.num_threads = options.num_threads;
   // Bad covariates are refused before the long computation.
-  make_effect_data(arm, measurement.q, covariates, measurement.has_rotation());
+  check_weight(make_effect_data(arm, measurement.q, covariates, measurement.has_rotation()),
+               effects);
   ArmModel arm_model(arm, measurement, covariates, identify, effects);
   const selection::SelectionOptions asked{options.num_threads, options.blocks};
   const selection::Shortlist shortlist =
@@ -101,6 +123,7 @@ void DiagnoseOptions::check() const {
   check_range("blocks", blocks, 3, 50);
   check_range("rival_odds", rival_odds, 0.0, 1.0);
   check_not_negative("leftover", leftover);
+  if (length_prior) check_positive("length_prior", *length_prior);
   constexpr int kMostNextPoses = 1000;
   check_range("num_next_poses", num_next_poses, 0, kMostNextPoses);
 }

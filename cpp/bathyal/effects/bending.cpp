@@ -60,6 +60,8 @@ class LinkEnds {
 
 class LinkCompliance final : public Effect {
  public:
+  bool needs_weight(const EffectVariant&) const override { return true; }
+
   EffectInfo info() const override {
     return {"link_compliance",
             "a link, or a column, that bends under what it carries",
@@ -122,6 +124,8 @@ class LinkCompliance final : public Effect {
 
 class BaseCompliance final : public Effect {
  public:
+  bool needs_weight(const EffectVariant&) const override { return true; }
+
   EffectInfo info() const override {
     return {
         "base_compliance",

@@ -87,6 +87,12 @@ class LumpedMoments {
 /// (settings say which), and "compliance" is that under the recorded payload.
 class JointCompliance final : public Effect {
  public:
+  bool needs_weight(const EffectVariant& variant) const override {
+    return std::any_of(
+        variant.parameters.begin(), variant.parameters.end(),
+        [&](const EffectParameter& p) { return !variant.settings.contains(p.name); });
+  }
+
   EffectInfo info() const override {
     return {
         "joint_compliance",

@@ -129,7 +129,9 @@ class ToolChange final : public FrameBySession {
 };
 
 /// Settings: "moment", how many rows came before it, and, where times were recorded, "time",
-/// halfway between the rows before and after it. Predicted poses without time come after it.
+/// halfway between the rows before and after it. Predicted poses without a time come before or
+/// after it by their covariate "row", their place in the record counted from 0, and without either
+/// after it.
 class ToolSlip final : public Effect {
  public:
   EffectInfo info() const override {
@@ -174,6 +176,9 @@ class ToolSlip final : public Effect {
       for (std::size_t i = 0; i < data.order.size(); ++i) {
         if (static_cast<double>(i) >= moment) after[data.order[i]] = 1.0;
       }
+    } else if (data.has("row")) {
+      after =
+          (data.covariate("row").col(0).array() >= setting_of(variant, "moment")).cast<double>();
     } else {
       after.setOnes();
     }
