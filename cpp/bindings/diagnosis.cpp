@@ -202,6 +202,10 @@ void bind_result(py::module_& module) {
           "CorrectedArm: geometry and effects, with the support of the data.")
       .def_readonly("noise", &Diagnosis::noise, "Standard deviation per axis [m].")
       .def_readonly("noise_source", &Diagnosis::noise_source, "What the noise was estimated from.")
+      .def_readonly(
+          "noise_is_measured", &Diagnosis::noise_is_measured,
+          "Whether repeats of poses give the noise; otherwise it is what the model itself "
+          "leaves.")
       .def_readonly("detectable", &Diagnosis::detectable,
                     "Smallest size of an effect that is found, per axis [m].")
       .def_property_readonly(

@@ -57,6 +57,7 @@ struct Diagnosis {
   Support support;                 ///< of the data: with `arm` and `found` it makes a CorrectedArm
   double noise = 0.0;              ///< standard deviation of a measurement, per axis [m]
   std::string noise_source;        ///< "repeats of 12 poses" …
+  bool noise_is_measured = false;  ///< by repeats; otherwise it is what the model itself leaves
   double detectable = 0.0;         ///< smallest size of an effect that is found, per axis [m]
   Eigen::Matrix3Xd residuals_before;  ///< (3, N) geometry alone [m]
   Eigen::Matrix3Xd residuals_after;   ///< (3, N) with the effects [m]
