@@ -9,6 +9,7 @@
 #include "bathyal/base/random.hpp"
 #include "bathyal/diagnosis/arm/internal/model.hpp"
 #include "bathyal/diagnosis/arm/internal/next_poses.hpp"
+#include "bathyal/diagnosis/arm/internal/room_check.hpp"
 #include "bathyal/diagnosis/internal/duplicates.hpp"
 #include "bathyal/diagnosis/internal/model_check.hpp"
 #include "bathyal/diagnosis/internal/record_checks.hpp"
@@ -95,8 +96,9 @@ Diagnosis run(const Arm& arm, const Measurement& measurement, const Covariates& 
       selection::select_terms(arm_model, asked, progress, shortlist);
   Diagnosis out = report(arm_model, measurement, arm, found, options);
   check_model(out, arm_model, measurement, options.num_threads);
-  for (const auto& sentences : {arm_model.geometry_warnings(), arm_model.untried(),
-                                check_record(arm_model.data(), effects)}) {
+  for (const auto& sentences :
+       {arm_model.geometry_warnings(), check_room(arm, arm_model.state(), measurement),
+        arm_model.untried(), check_record(arm_model.data(), effects)}) {
     out.warnings.insert(out.warnings.end(), sentences.begin(), sentences.end());
   }
   if (out.verdict == Verdict::kAmbiguous) {
