@@ -204,6 +204,10 @@ void bind_result(py::module_& module) {
           "CorrectedArm: geometry and effects, with the support of the data.")
       .def_readonly("noise", &Diagnosis::noise, "Standard deviation per axis [m].")
       .def_readonly("noise_source", &Diagnosis::noise_source, "What the noise was estimated from.")
+      .def_readonly(
+          "noise_is_measured", &Diagnosis::noise_is_measured,
+          "Whether repeats of poses give the noise; otherwise it is what the model itself "
+          "leaves.")
       .def_readonly("detectable", &Diagnosis::detectable,
                     "Smallest size of an effect that is found, per axis [m].")
       .def_property_readonly(
@@ -278,14 +282,16 @@ void bind_diagnose(py::module_& module) {
       "diagnose",
       [](const py::typing::Union<Arm>& given, const py::typing::Union<Touches, Tracked>& data,
          const py::typing::Optional<py::typing::Iterable<Effect>>& effects,
-         const std::string& parametrization, std::vector<std::string> fixed, int blocks,
-         const OptionalArray& groups, double rival_odds, double leftover, int num_next_poses,
-         const MaybeProgress& progress, int num_threads) {
+         const std::string& parametrization, std::vector<std::string> fixed,
+         std::optional<double> length_prior, int blocks, const OptionalArray& groups,
+         double rival_odds, double leftover, int num_next_poses, const MaybeProgress& progress,
+         int num_threads) {
         const Arm& arm = arm_argument(given);
         const DiagnoseOptions options{
             .parametrization =
                 enum_argument("parametrization", parametrization, parametrization_names()),
             .fixed = std::move(fixed),
+            .length_prior = length_prior,
             .blocks = blocks,
             .rival_odds = rival_odds,
             .leftover = leftover,
@@ -317,8 +323,9 @@ void bind_diagnose(py::module_& module) {
       },
       py::arg("arm"), py::arg("data"), py::kw_only(), py::arg("effects") = py::none(),
       py::arg("parametrization") = enum_name(defaults.parametrization, parametrization_names()),
-      py::arg("fixed") = defaults.fixed, py::arg("blocks") = defaults.blocks,
-      py::arg("groups") = py::none(), py::arg("rival_odds") = defaults.rival_odds,
+      py::arg("fixed") = defaults.fixed, py::arg("length_prior") = defaults.length_prior,
+      py::arg("blocks") = defaults.blocks, py::arg("groups") = py::none(),
+      py::arg("rival_odds") = defaults.rival_odds,
       py::arg("leftover") = defaults.leftover, py::arg("num_next_poses") = defaults.num_next_poses,
       py::arg("progress") = py::none(), py::arg("num_threads") = defaults.num_threads,
       kDiagnoseDoc);

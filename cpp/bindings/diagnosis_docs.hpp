@@ -44,6 +44,9 @@ parametrization : {"hayati", "dh"}
     Of the geometry, as in `identify_arm`.
 fixed : list of str
     Names of geometric parameters to hold at nominal.
+length_prior : float, optional
+    The maker's tolerance: standard deviation of every a and d about nominal [m], as of
+    `identify_arm`. None: no prior.
 blocks : int
     Number of folds of the cross-validation, 3 to 50.
 groups : (N,) array of int or str, optional

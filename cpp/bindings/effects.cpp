@@ -24,6 +24,7 @@ constexpr double kTypicalSize = 1e-3;  ///< of a parameter without a given scale
 
 const EnumNames<UserSite>& site_names() {
   static const EnumNames<UserSite> names{{"joint", UserSite::kJoint},
+                                         {"link", UserSite::kLink},
                                          {"base", UserSite::kBase},
                                          {"tool", UserSite::kTool},
                                          {"lengths", UserSite::kLengths}};

@@ -24,16 +24,19 @@ Parameters
 name : str
     As diagnosis will name it.
 function : callable
-    ``function(data, joint)`` of site "joint", else ``function(data)``; `data` is an EffectRows.
-    Gives what a unit of each parameter does in each row: (N, k) of the sites "joint" [rad or m]
-    and "lengths" [share], (N, k, 6) of "base" and "tool" (shift x, y, z [m], then turn x, y, z
-    [rad] in that frame). Of one parameter (N,) and (N, 6) do as well.
+    ``function(data, joint)`` of the sites "joint" and "link", else ``function(data)``; `data` is an
+    EffectRows. Gives what a unit of each parameter does in each row: (N, k) of the sites "joint"
+    [rad or m] and "lengths" [share], (N, k, 6) of "link", "base" and "tool" (shift x, y, z [m],
+    then turn x, y, z [rad], in that frame; all that lies beyond moves along). Of one parameter (N,)
+    and (N, 6) do as well.
 parameters : dict of str to str
     Name to unit of each.
 joints : "each" or list of int, optional
-    Of site "joint": which it may sit in, counted from 0.
+    Of the sites "joint" and "link": which it may sit in, counted from 0.
 site : str
-    What it moves: "joint", "base", "tool" or "lengths" (all a and d of the arm).
+    What it moves: "joint", "link" (the frame of the link that the joint moves, which is also that
+    of ``forward(q, links=True)``; small turns), "base", "tool" or "lengths" (all a and d of the
+    arm).
 needs : list of str
     Covariates without which it is not observable.
 words, formula, source : str
@@ -145,8 +148,9 @@ Every method that computes takes ``covariates``, a dict of name to a number, (N,
 An effect that needs a missing one is omitted with the warning where no covariates are given at all,
 and refused where some are. `payload` defaults to 0 kg and `gravity` to (0, 0, −9.80665) m/s² in the
 base frame of the arm. A base that moved and a tool that was changed follow `session`; a tool that
-slipped follows `time`, and without it has slipped; a clock shift follows the speeds between rows by
-`time`, and without it joints are at rest.
+slipped follows `time`, without it `row` (the place in the record of the training data, counted from
+0), and without either has slipped; a clock shift follows the speeds between rows by `time`, and
+without it joints are at rest.
 
 Parameters
 ----------
@@ -160,7 +164,7 @@ Raises
 ------
 ValueError
     For an effect whose values or settings do not fit the arm, or that needs a covariate that `data`
-    does not have.
+    does not have; for one that acts by weight on an arm without masses that carried nothing.
 
 Examples
 --------

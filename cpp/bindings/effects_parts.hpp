@@ -14,7 +14,7 @@
 namespace bathyal::python {
 
 /// Where an effect of a user acts.
-enum class UserSite { kJoint, kBase, kTool, kLengths };
+enum class UserSite { kJoint, kLink, kBase, kTool, kLengths };
 
 /// The description of a user-defined effect.
 struct UserEffect {
@@ -22,7 +22,8 @@ struct UserEffect {
   std::vector<EffectParameter> parameters;
   UserSite site = UserSite::kJoint;
   bool each_joint = false;
-  std::vector<int> joints;  ///< of kJoint, unless it is each of them
+  bool acts_by_joint() const { return site == UserSite::kJoint || site == UserSite::kLink; }
+  std::vector<int> joints;  ///< of kJoint and kLink, unless it is each of them
   double period = std::numeric_limits<double>::infinity();
 };
 

@@ -88,7 +88,7 @@ class PythonEffect final : public Effect {
                                   [&](const std::string& name) { return changes(data, name); });
     std::vector<EffectVariant> variants;
     if (!seen) return variants;
-    if (user_.site != UserSite::kJoint) {
+    if (!user_.acts_by_joint()) {
       variants.push_back(variant_of(-1));
     } else if (user_.each_joint) {
       for (int j = 0; j < static_cast<int>(data.q.cols()); ++j) variants.push_back(variant_of(j));
@@ -120,13 +120,19 @@ class PythonEffect final : public Effect {
     for (Index p = 0; p < parameters; ++p) {
       perturbations.push_back({site_of(variant, *data.arm)});
       perturbations.back().front().values = numbers.middleCols(p * width, width);
+      if (user_.site == UserSite::kLink) {
+        to_row_frame(data.arm->links()[perturbations.back().front().index].row_from_link,
+                     perturbations.back().front().values);
+      }
     }
     return perturbations;
   }
 
  private:
   std::string name() const { return "effect " + user_.info.name; }
-  bool is_frame() const { return user_.site == UserSite::kBase || user_.site == UserSite::kTool; }
+  bool is_frame() const {
+    return user_.site != UserSite::kJoint && user_.site != UserSite::kLengths;
+  }
 
   EffectVariant variant_of(int joint) const {
     EffectVariant variant;
@@ -142,6 +148,8 @@ class PythonEffect final : public Effect {
     switch (user_.site) {
       case UserSite::kJoint:
         return {PerturbationSite::kJoint, variant.joint, {}};
+      case UserSite::kLink:
+        return {PerturbationSite::kFrame, link_of(variant, arm), {}};
       case UserSite::kBase:
         return {PerturbationSite::kFrame, 0, {}};
       case UserSite::kTool:
@@ -152,14 +160,35 @@ class PythonEffect final : public Effect {
     return {PerturbationSite::kLength, 0, {}};
   }
 
+  /// The link that the leading joint of the variant's coordinate moves.
+  int link_of(const EffectVariant& variant, const Arm& arm) const {
+    const auto leads = [&](const Joint& joint) { return joint.coordinate == variant.joint; };
+    const auto leader = std::find_if(arm.joints().begin(), arm.joints().end(), leads);
+    if (variant.joint < 0 || leader == arm.joints().end()) {
+      throw_argument(name(), "a joint from 0 to " + std::to_string(arm.size() - 1),
+                     std::to_string(variant.joint));
+    }
+    return static_cast<int>(leader - arm.joints().begin()) + 1;
+  }
+
+  /// Small shifts and turns (N, 6) of the frame of a link as those of the frame behind its row.
+  static void to_row_frame(const Pose& row_from_link, RowMatrix& values) {
+    const Eigen::Matrix3d rotation = row_from_link.linear();
+    for (Index i = 0; i < values.rows(); ++i) {
+      const Vec3 turn = rotation * values.row(i).tail<3>().transpose();
+      const Vec3 shift = rotation * values.row(i).head<3>().transpose() -
+                         turn.cross(Vec3(row_from_link.translation()));
+      values.row(i) << shift.transpose(), turn.transpose();
+    }
+  }
+
   /// (N, parameters · width), the numbers of one parameter next to each other.
   RowMatrix call(const EffectVariant& variant, const EffectData& data, Index parameters,
                  Index width) const {
     py::object result;
     try {
       const py::object rows = py::cast(EffectRows(data));
-      result = user_.site == UserSite::kJoint ? function_.get()(rows, variant.joint)
-                                              : function_.get()(rows);
+      result = user_.acts_by_joint() ? function_.get()(rows, variant.joint) : function_.get()(rows);
     } catch (const py::error_already_set& error) {
       if (!error.matches(PyExc_Exception)) throw;  // an interrupt is the caller's own
       throw Error(name() + ": its function raised " + python_error_text(error));
@@ -208,8 +237,8 @@ void check(const UserEffect& user) {
     check_positive(name + " scale of " + parameter.name, parameter.scale);
   }
   const bool joints = user.each_joint || !user.joints.empty();
-  if (joints != (user.site == UserSite::kJoint)) {
-    throw_argument(name, "`joints` where its site is \"joint\", and there alone",
+  if (joints != user.acts_by_joint()) {
+    throw_argument(name, "`joints` where its site is \"joint\" or \"link\", and there alone",
                    joints ? "joints of another site" : "none");
   }
   for (std::size_t i = 0; i < user.joints.size(); ++i) {

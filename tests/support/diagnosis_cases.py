@@ -184,6 +184,7 @@ def base(count: int = 240, sessions: int = 2) -> Report:
         data=data,
         noise=NOISE,
         noise_source="exact repeats of 12 poses",
+        noise_is_measured=True,
         detectable=0.012e-3,
         residuals_before=fit.residuals,
         residuals_after=rest,

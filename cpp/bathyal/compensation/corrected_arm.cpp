@@ -8,6 +8,7 @@
 
 #include "bathyal/base/check.hpp"
 #include "bathyal/base/parallel.hpp"
+#include "bathyal/effects/gravity_load.hpp"
 
 namespace bathyal {
 namespace {
@@ -165,7 +166,15 @@ Covariates CorrectedArm::known_covariates() const {
 /// Evaluates the effects at one pose of the support: errors then occur here and not at first use.
 void CorrectedArm::check_effects() const {
   const Covariates covariates = known_covariates();
+  const auto payload = support_.covariates.find("payload");
+  const bool loaded = masses_known(arm_) || (payload != support_.covariates.end() &&
+                                             (payload->second.high.array() > 0.0).any());
   for (const FoundEffect& found : effects_) {
+    if (!loaded && found.effect->needs_weight(found.variant)) {
+      throw_argument("effect " + found.variant.effect,
+                     "an arm whose links have masses, or a `payload` in the data",
+                     "neither: no weight acts on the arm");
+    }
     for (const std::string& name : found.effect->info().needs) {
       if (!covariates.contains(name)) {
         throw_argument("support", name + ", which " + describe(found) + " needs",

@@ -121,8 +121,8 @@ class Bounds {
 }  // namespace
 
 bool is_library_covariate(std::string_view name) {
-  constexpr std::array<std::string_view, 6> kNames{"temperature", "time",    "payload",
-                                                   "direction",   "gravity", "session"};
+  constexpr std::array<std::string_view, 7> kNames{"temperature", "time",    "payload", "direction",
+                                                   "gravity",     "session", "row"};
   return std::find(kNames.begin(), kNames.end(), name) != kNames.end();
 }
 

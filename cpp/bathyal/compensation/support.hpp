@@ -11,7 +11,7 @@
 namespace bathyal {
 
 /// Whether effects of the library use a covariate of that name: temperature, time, payload,
-/// direction, gravity, session.
+/// direction, gravity, session, row.
 bool is_library_covariate(std::string_view name);
 
 /// The covariates of recorded rows that effects use: of the library's those that are known in every

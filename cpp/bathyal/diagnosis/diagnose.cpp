@@ -10,10 +10,12 @@
 #include "bathyal/base/random.hpp"
 #include "bathyal/diagnosis/arm/internal/model.hpp"
 #include "bathyal/diagnosis/arm/internal/next_poses.hpp"
+#include "bathyal/diagnosis/arm/internal/room_check.hpp"
 #include "bathyal/diagnosis/internal/duplicates.hpp"
 #include "bathyal/diagnosis/internal/model_check.hpp"
 #include "bathyal/diagnosis/internal/record_checks.hpp"
 #include "bathyal/diagnosis/internal/report.hpp"
+#include "bathyal/effects/gravity_load.hpp"
 #include "bathyal/identify/model/calibration_data.hpp"
 #include "bathyal/selection/selection.hpp"
 
@@ -51,6 +53,25 @@ void check_groups(const std::vector<std::string>& groups, Index rows) {
   }
 }
 
+/// Effects that the caller chose, and that act by a weight that these data do not have.
+void check_weight(const EffectData& data,
+                  const std::vector<std::shared_ptr<const Effect>>& effects) {
+  if (masses_known(*data.arm) || data.has("payload")) return;
+  std::set<std::string> names;
+  for (const auto& effect : effects) names.insert(effect->info().name);
+  const auto library = library_effects();
+  const bool chosen = std::any_of(library.begin(), library.end(), [&](const auto& effect) {
+    return !names.contains(effect->info().name);
+  });
+  for (const auto& effect : effects) {
+    if (!chosen || !effect->needs_weight({})) continue;
+    throw_argument("effects", "effects that these data can show",
+                   effect->info().name +
+                       ", which an arm without masses does not feel: give its links their masses, "
+                       "or record `payload`");
+  }
+}
+
 void check_positions_differ(const RowMatrix& position) {
   if ((position.rowwise() - position.row(0)).cwiseAbs().maxCoeff() > 0.0) return;
   throw_argument("position", "positions that differ", "the same in all rows");
@@ -85,9 +106,11 @@ Diagnosis run(const Arm& arm, const Measurement& measurement, const Covariates& 
   IdentifyOptions identify;
   identify.parametrization = options.parametrization;
   identify.fixed = options.fixed;
+  identify.length_prior = options.length_prior;
   identify.num_threads = options.num_threads;
   // Bad covariates are refused before the long computation.
-  make_effect_data(arm, measurement.q, covariates, measurement.has_rotation());
+  check_weight(make_effect_data(arm, measurement.q, covariates, measurement.has_rotation()),
+               effects);
   ArmModel arm_model(arm, measurement, covariates, identify, effects);
   const selection::SelectionOptions asked{options.num_threads, options.blocks,
                                           numbered(options.groups)};
@@ -97,8 +120,9 @@ Diagnosis run(const Arm& arm, const Measurement& measurement, const Covariates& 
       selection::select_terms(arm_model, asked, progress, shortlist);
   Diagnosis out = report(arm_model, measurement, arm, found, options);
   check_model(out, arm_model, measurement, options.num_threads);
-  for (const auto& sentences : {arm_model.geometry_warnings(), arm_model.untried(),
-                                check_record(arm_model.data(), effects)}) {
+  for (const auto& sentences :
+       {arm_model.geometry_warnings(), check_room(arm, arm_model.state(), measurement),
+        arm_model.untried(), check_record(arm_model.data(), effects)}) {
     out.warnings.insert(out.warnings.end(), sentences.begin(), sentences.end());
   }
   if (out.verdict == Verdict::kAmbiguous) {
@@ -129,6 +153,7 @@ void DiagnoseOptions::check() const {
   check_range("blocks", blocks, 3, 50);
   check_range("rival_odds", rival_odds, 0.0, 1.0);
   check_not_negative("leftover", leftover);
+  if (length_prior) check_positive("length_prior", *length_prior);
   constexpr int kMostNextPoses = 1000;
   check_range("num_next_poses", num_next_poses, 0, kMostNextPoses);
 }

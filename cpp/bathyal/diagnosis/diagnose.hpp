@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,7 +18,10 @@ namespace bathyal {
 struct DiagnoseOptions {
   Parametrization parametrization = Parametrization::kHayati;
   std::vector<std::string> fixed = {};  ///< names of parameters to hold at nominal
-  int blocks = 10;                      ///< folds of the cross-validation, 3 … 50
+  /// Prior standard deviation of every a and d about nominal [m], above 0; without it that of
+  /// identify_arm: none where the data determine the scale of the arm.
+  std::optional<double> length_prior = {};
+  int blocks = 10;  ///< folds of the cross-validation, 3 … 50
   /// Odds of an alternative against the best explanation from which the verdict is ambiguous, 0
   /// … 1.
   double rival_odds = 0.05;
@@ -56,6 +60,7 @@ struct Diagnosis {
   Support support;                 ///< of the data: with `arm` and `found` it makes a CorrectedArm
   double noise = 0.0;              ///< standard deviation of a measurement, per axis [m]
   std::string noise_source;        ///< "repeats of 12 poses" …
+  bool noise_is_measured = false;  ///< by repeats; otherwise it is what the model itself leaves
   double detectable = 0.0;         ///< smallest size of an effect that is found, per axis [m]
   Eigen::Matrix3Xd residuals_before;  ///< (3, N) geometry alone [m]
   Eigen::Matrix3Xd residuals_after;   ///< (3, N) with the effects [m]
@@ -65,9 +70,11 @@ struct Diagnosis {
 /// Tests the best rigid model of the arm for lack of fit, names the causes, and measures the gain
 /// on held-out data. docs/how_it_diagnoses.md explains how each step decides. A covariate that is
 /// missing (NaN) in some rows is not used; rows that repeat another to the last digit count once;
-/// warnings say so. \throw std::invalid_argument for bad data or options, another number of joints,
-/// an effect that
-///        is given twice
+/// warnings say so.
+/// \throw std::invalid_argument for bad data or options, another number of joints, an effect that
+/// is
+///        given twice; for an effect that these data cannot show because no weight acts on the arm
+///        (links without masses, no recorded payload), unless all of the library are given
 Diagnosis diagnose(const Arm& arm, const Touches& touches, const DiagnoseOptions& options = {},
                    const std::vector<std::shared_ptr<const Effect>>& effects = library_effects(),
                    const DiagnosisProgress& progress = {});

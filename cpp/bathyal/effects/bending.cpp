@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <vector>
+
+#include "bathyal/arm/row_frames.hpp"
 #include "bathyal/effects/gravity_load.hpp"
 #include "bathyal/effects/internal/library.hpp"
 
@@ -21,14 +25,49 @@ GravityLoads loads_of(const EffectData& data) {
   return {data, GravityLoads::Bodies::kArm, payload_of(data)};
 }
 
+/// Where a link ends, in the frame behind the row of each joint, and begins, along the axis in the
+/// frame before it: at the origins of the joints. Rows do not determine them, since their frames
+/// slide along the axes as neighbouring axes tilt. Where links have frames of their own, as those
+/// of a URDF, a joint's origin is the point of its axis next to the origin of the frame of the link
+/// that it moves (of a sliding joint: while its value is 0); else that of the frame before its row.
+/// The last link ends in the flange.
+class LinkEnds {
+ public:
+  explicit LinkEnds(const Arm& arm) : flange_(arm.flange().translation()) {
+    const std::vector<Link>& links = arm.links();
+    const bool own_frames = std::any_of(links.begin() + 1, links.end(), [](const Link& link) {
+      return link.row_from_link.matrix() != Pose::Identity().matrix();
+    });
+    for (std::size_t k = 0; k < arm.joints().size(); ++k) {
+      const Joint& joint = arm.joints()[k];
+      const Vec3 origin =
+          row_pose(joint.row, joint.type, 0.0) * links[k + 1].row_from_link.translation();
+      along_axis_.push_back(own_frames ? origin.z() : 0.0);
+    }
+  }
+
+  /// In the frame before the row.
+  Vec3 start(int row) const { return along_axis_[row] * Vec3::UnitZ(); }
+  /// In the frame behind the row.
+  Vec3 end(int row) const {
+    return row + 1 < static_cast<int>(along_axis_.size()) ? start(row + 1) : flange_;
+  }
+
+ private:
+  std::vector<double> along_axis_;
+  Vec3 flange_;
+};
+
 class LinkCompliance final : public Effect {
  public:
+  bool needs_weight(const EffectVariant&) const override { return true; }
+
   EffectInfo info() const override {
     return {"link_compliance",
             "a link, or a column, that bends under what it carries",
-            "frame behind the row: turn flexibility · |l| (M⊥ + l×F / 2), shift flexibility · |l| "
-            "(M⊥×l / 2 + (l×F)×l / 3); l the link, F and M force and moment at its end of all that "
-            "lies beyond, flexibility 1 / (E I)",
+            "end of the link: turn flexibility · |l| (M⊥ + l×F / 2), shift flexibility · |l| "
+            "(M⊥×l / 2 + (l×F)×l / 3); l from the joint's origin to the next one's (the flange), F "
+            "and M force and moment there of all that lies beyond, flexibility 1 / (E I)",
             "cantilever of Euler and Bernoulli, as in Timoshenko: Strength of materials, 1930; "
             "Khalil, Besnard: Geometric calibration of robots with flexible joints and links, 2002",
             {},
@@ -64,19 +103,23 @@ class LinkCompliance final : public Effect {
   /// (N, 6) shift and turn of the frame behind `row`, per flexibility.
   static RowMatrix bend(const EffectData& data, const GravityLoads& loads, int row) {
     RowMatrix out(data.rows(), 6);
+    const LinkEnds ends(*data.arm);
+    const Vec3 at = ends.end(row);  // in the frame behind the row
     for (Index i = 0; i < data.rows(); ++i) {
       const Pose& from = loads.frames(i).world_from_row[row];
       const Pose& to = loads.frames(i).world_from_row[row + 1];
-      const Vec3 link = to.linear().transpose() * (to.translation() - from.translation());
+      const Vec3 end = to * at;
+      const Vec3 link = to.linear().transpose() * (end - from * ends.start(row));
       const double length = link.norm();
       // The link itself is link row + 1: the load at its end starts with the next one.
-      const GravityLoad load = loads.beyond(i, static_cast<std::size_t>(row) + 2, to.translation());
+      const GravityLoad load = loads.beyond(i, static_cast<std::size_t>(row) + 2, end);
       const Vec3 force = to.linear().transpose() * load.force;
       Vec3 moment = to.linear().transpose() * load.moment;
       if (length > 0.0) moment -= moment.dot(link) / (length * length) * link;
       const Vec3 bent = link.cross(force);
-      out.row(i).head<3>() = length * (0.5 * moment.cross(link) + bent.cross(link) / 3.0);
-      out.row(i).tail<3>() = length * (moment + 0.5 * bent);
+      const Vec3 shift = length * (0.5 * moment.cross(link) + bent.cross(link) / 3.0);
+      const Vec3 turn = length * (moment + 0.5 * bent);
+      out.row(i) << (shift - turn.cross(at)).transpose(), turn.transpose();
     }
     return out;
   }
@@ -84,6 +127,8 @@ class LinkCompliance final : public Effect {
 
 class BaseCompliance final : public Effect {
  public:
+  bool needs_weight(const EffectVariant&) const override { return true; }
+
   EffectInfo info() const override {
     return {
         "base_compliance",

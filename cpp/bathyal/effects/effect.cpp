@@ -52,6 +52,10 @@ void check_known(const Covariates& covariates, const RowMatrix& q) {
     } else if (name == "gravity") {
       check_shape(name, values, n, 3);
       check_each(name, values, "finite numbers", [](double v) { return std::isfinite(v); });
+    } else if (name == "row") {
+      check_shape(name, values, n, 1);
+      check_each(name, values, "whole numbers of 0 or more",
+                 [](double v) { return v >= 0.0 && std::isfinite(v) && v == std::round(v); });
     } else if (name == "session") {
       check_shape(name, values, n, 1);
       check_each(name, values, "whole numbers",

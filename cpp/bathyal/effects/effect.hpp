@@ -84,7 +84,7 @@ struct EffectData {
 /// Sets gravity, and the order of the rows by time, where time was recorded; `arm` must outlive the
 /// result.
 /// \throw std::invalid_argument for covariates of the library (temperature, time, payload,
-///         direction, gravity, session) of another shape, or with values out of their range
+///         direction, gravity, session, row) of another shape, or with values out of their range
 EffectData make_effect_data(const Arm& arm, const RowMatrix& q, const Covariates& covariates,
                             bool has_rotation);
 
@@ -141,6 +141,10 @@ class Effect {
   /// Whether `variant` is extrapolated beyond the ranges of the training data: as its info says,
   /// unless it has variants of both kinds.
   virtual bool extrapolates(const EffectVariant& /*variant*/) const { return info().extrapolates; }
+
+  /// Whether `variant` acts by the weight of the links and the recorded payload alone: an arm
+  /// without masses that carries nothing does not feel it.
+  virtual bool needs_weight(const EffectVariant& /*variant*/) const { return false; }
 
   /// Variants between two neighbours of a scan, in its order, for refinement; empty where there are
   /// none.

@@ -87,6 +87,12 @@ class LumpedMoments {
 /// (settings say which), and "compliance" is that under the recorded payload.
 class JointCompliance final : public Effect {
  public:
+  bool needs_weight(const EffectVariant& variant) const override {
+    return std::any_of(
+        variant.parameters.begin(), variant.parameters.end(),
+        [&](const EffectParameter& p) { return !variant.settings.contains(p.name); });
+  }
+
   EffectInfo info() const override {
     return {
         "joint_compliance",
@@ -168,7 +174,8 @@ class UnknownPayload final : public Effect {
   EffectInfo info() const override {
     return {
         "payload",
-        "an unknown mass at the tool, on joints that yield",
+        "a mass at the tool that was not recorded, in addition to a recorded payload that changes, "
+        "on joints that yield",
         "q'_j = q_j + mass_compliance_j · τ_j(1 kg at the tool centre point), all turning joints",
         "Khalil, Besnard: Geometric calibration of robots with flexible joints and links, 2002",
         {},
@@ -179,6 +186,12 @@ class UnknownPayload final : public Effect {
   }
 
   std::vector<EffectVariant> variants(const EffectData& data) const override {
+    // While the load stays the same, its torques are part of what makes joints give way: an unknown
+    // mass of the links explains them as well. One that changes separates compliance and load, and
+    // known masses what is missing from the load.
+    const bool separable =
+        masses_known(*data.arm) && data.has("payload") && varies(data.covariate("payload").col(0));
+    if (!separable) return {};
     const GravityLoads loads = of_one_kilogram(data);
     EffectVariant variant{"payload", -1, {}, {}, "payload"};
     for (int j = 0; j < static_cast<int>(data.q.cols()); ++j) {

@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
+#include <utility>
 
 #include "bathyal/effects/internal/library.hpp"
 
@@ -48,19 +50,25 @@ class FrameBySession : public Effect {
   std::vector<EffectVariant> variants(const EffectData& data) const override {
     const std::vector<double> sessions = sessions_of(data);
     std::vector<EffectVariant> out;
-    for (std::size_t s = 1; s < sessions.size(); ++s) {
-      out.push_back(
-          {name(), -1, {{"from", sessions[s]}}, shift_and_turn(turns(data), s + 1), name()});
-    }
-    if (sessions.size() < 3) return out;
-    EffectVariant each{name(), -1, {}, {}, name()};
-    for (std::size_t s = 1; s < sessions.size(); ++s) {
-      each.settings[numbered("session", s + 1)] = sessions[s];
-      for (EffectParameter& p : shift_and_turn(turns(data), s + 1)) {
-        each.parameters.push_back(std::move(p));
+    const auto add_from_each = [&](bool turned) {
+      for (std::size_t s = 1; s < sessions.size(); ++s) {
+        out.push_back({name(), -1, {{"from", sessions[s]}}, shift_and_turn(turned, s + 1), name()});
       }
+    };
+    add_from_each(turns(data));
+    if (sessions.size() > 2) {
+      EffectVariant each{name(), -1, {}, {}, name()};
+      for (std::size_t s = 1; s < sessions.size(); ++s) {
+        each.settings[numbered("session", s + 1)] = sessions[s];
+        for (EffectParameter& p : shift_and_turn(turns(data), s + 1)) {
+          each.parameters.push_back(std::move(p));
+        }
+      }
+      out.push_back(std::move(each));
     }
-    out.push_back(std::move(each));
+    // One that moved and did not turn: where poses hardly distinguish it from a tool, turns that
+    // are not there would be evidence against it.
+    if (turns(data)) add_from_each(false);
     return out;
   }
 
@@ -129,7 +137,9 @@ class ToolChange final : public FrameBySession {
 };
 
 /// Settings: "moment", how many rows came before it, and, where times were recorded, "time",
-/// halfway between the rows before and after it. Predicted poses without time come after it.
+/// halfway between the rows before and after it. Predicted poses without a time come before or
+/// after it by their covariate "row", their place in the record counted from 0, and without either
+/// after it.
 class ToolSlip final : public Effect {
  public:
   EffectInfo info() const override {
@@ -146,10 +156,12 @@ class ToolSlip final : public Effect {
     for (int m = kFewestRows; m + kFewestRows <= static_cast<int>(data.rows()); ++m) {
       if (parts(data, m)) moments.push_back(m);
     }
+    const std::set<int> between = boundaries(data);
     const std::size_t step = (moments.size() + kMostMoments - 1) / kMostMoments;
     std::vector<EffectVariant> out;
-    for (std::size_t i = 0; i < moments.size(); i += step) {
-      out.push_back(slip_at(moments[i], data));
+    for (std::size_t i = 0; i < moments.size(); ++i) {
+      // A slip between two sessions is a tool that was changed: no other moment is exactly that.
+      if (i % step == 0 || between.contains(moments[i])) out.push_back(slip_at(moments[i], data));
     }
     return out;
   }
@@ -174,6 +186,9 @@ class ToolSlip final : public Effect {
       for (std::size_t i = 0; i < data.order.size(); ++i) {
         if (static_cast<double>(i) >= moment) after[data.order[i]] = 1.0;
       }
+    } else if (data.has("row")) {
+      after =
+          (data.covariate("row").col(0).array() >= setting_of(variant, "moment")).cast<double>();
     } else {
       after.setOnes();
     }
@@ -196,6 +211,24 @@ class ToolSlip final : public Effect {
   }
   static double time_of(const EffectData& data, int place) {
     return data.covariate("time")(data.order[place], 0);
+  }
+  /// Moments between two sessions: each has all of its rows on one side.
+  static std::set<int> boundaries(const EffectData& data) {
+    std::set<int> out;
+    if (!data.has("session")) return out;
+    std::map<double, std::pair<int, int>> spans;  // first and last place in the order
+    for (int i = 0; i < static_cast<int>(data.order.size()); ++i) {
+      const double label = data.covariate("session")(data.order[i], 0);
+      spans.try_emplace(label, i, i).first->second.second = i;
+    }
+    for (const auto& [label, span] : spans) {
+      const int first = span.first;
+      const bool parted = std::any_of(spans.begin(), spans.end(), [first](const auto& other) {
+        return other.second.first < first && first <= other.second.second;
+      });
+      if (!parted) out.insert(first);
+    }
+    return out;
   }
   /// Rows of the same time cannot be on both sides.
   static bool parts(const EffectData& data, int moment) {

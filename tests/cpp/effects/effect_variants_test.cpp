@@ -131,7 +131,7 @@ TEST(Variants, SessionsOfFewRowsAreNone) {
   scene.covariates["session"](0, 0) = scene.covariates["session"](1, 0) = 5.0;
   EXPECT_TRUE(variants_of("base_shift", scene.data()).empty());
   scene.covariates["session"](2, 0) = 5.0;
-  EXPECT_EQ(variants_of("base_shift", scene.data()).size(), 1U);
+  EXPECT_EQ(variants_of("base_shift", scene.data()).size(), 2U);
 }
 
 TEST(Variants, SlipsAreThinnedAndNeverPartRowsOfOneTime) {
@@ -143,6 +143,22 @@ TEST(Variants, SlipsAreThinnedAndNeverPartRowsOfOneTime) {
   for (const EffectVariant& v : variants_of("tool_slip", pairs.data())) {
     EXPECT_EQ(static_cast<int>(v.settings.at("moment")) % 2, 0);
   }
+}
+
+TEST(Variants, SlipsBetweenSessionsAreNeverThinned) {
+  Scene scene(irregular_arm(3), 1500);
+  scene.covariates.erase("time");
+  const auto has = [&](double moment) {
+    return !variants_where("tool_slip", scene.data(), [&](const EffectVariant& v) {
+              return v.settings.at("moment") == moment;
+            }).empty();
+  };
+  EXPECT_TRUE(has(12.0));
+  EXPECT_TRUE(has(25.0));
+  scene.covariates["session"](1499, 0) = 7.0;  // no moment parts it from the last one
+  EXPECT_TRUE(has(12.0));
+  EXPECT_FALSE(has(25.0));
+  EXPECT_LE(variants_of("tool_slip", scene.data()).size(), 402U);
 }
 
 TEST(Variants, TurnsOfTheToolNeedOrientations) {

@@ -189,7 +189,20 @@ TEST(GravityEffects, MomentsOfUnknownMassesAreNotExtrapolated) {
   for (const EffectVariant& v : variants) EXPECT_FALSE(effect->extrapolates(v));
 }
 
-TEST(GravityEffects, LinksBendAsCantilevers) {
+/// In the base: of joint k, the point of its axis next to the frame of its link; of a sliding joint
+/// that of the guide, which does not slide.
+Vec3 origin_of_joint(const Arm& arm, const Eigen::VectorXd& q, std::size_t k) {
+  const std::vector<Pose> frames = plain_frames(arm, q);
+  const Vec3 place = (frames[k + 1] * arm.links()[k + 1].row_from_link).translation();
+  const Vec3 axis = frames[k].linear().col(2), before = frames[k].translation();
+  const Joint& joint = arm.joints()[k];
+  const double slid = joint.type == JointType::kPrismatic
+                          ? joint.multiplier * q[joint.coordinate] + joint.offset
+                          : 0.0;
+  return before + axis * (axis.dot(place - before) - slid);
+}
+
+TEST(GravityEffects, LinksBendAsCantileversBetweenTheOriginsOfTheirJoints) {
   const Scene scene(irregular_arm(3));
   const auto variants = variants_of("link_compliance", scene.data());
   EXPECT_EQ(variants.size(), scene.arm.joints().size());
@@ -203,8 +216,11 @@ TEST(GravityEffects, LinksBendAsCantilevers) {
           const std::vector<Pose> frames = plain_frames(scene.arm, q);
           const std::vector<Body> bodies =
               bodies_of(scene.arm, q, scene.covariates.at("payload")(i, 0));
-          const Vec3 end = frames[row + 1].translation();
-          const Vec3 l = end - frames[row].translation();  // all in the base, turned at the end
+          const bool last = row + 1 == static_cast<int>(scene.arm.joints().size());
+          const Vec3 end = last ? Vec3((frames[row + 1] * scene.arm.flange()).translation())
+                                : origin_of_joint(scene.arm, q, static_cast<std::size_t>(row) + 1);
+          // All in the base, turned at the end.
+          const Vec3 l = end - origin_of_joint(scene.arm, q, static_cast<std::size_t>(row));
           Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
           for (std::size_t k = static_cast<std::size_t>(row) + 2; k < bodies.size(); ++k) {
             const Vec3 weight = bodies[k].mass * gravity_at(scene, i);
@@ -216,10 +232,29 @@ TEST(GravityEffects, LinksBendAsCantilevers) {
           const Vec3 turn = flexible * (across + 0.5 * l.cross(force));
           const Vec3 shift = flexible * (0.5 * across.cross(l) + l.cross(force).cross(l) / 3.0);
           const Eigen::Matrix3d into = frames[row + 1].linear().transpose();
-          return wrong_frame(row + 1, into * shift, into * turn);
+          const Vec3 to_end = end - frames[row + 1].translation();
+          return wrong_frame(row + 1, into * (shift - turn.cross(to_end)), into * turn);
         },
         1e-4);
   }
+}
+
+/// Where there is nothing but a table, a link has the ends of its row.
+TEST(GravityEffects, LinksOfATableEndInTheFramesOfItsRows) {
+  Scene scene(planar_arm(), 6);
+  const auto bend = [&](Vec3 offset) {
+    std::vector<Link> links(3);
+    if (!offset.isZero()) {
+      for (Link& link : links) link.row_from_link.translation() = offset;
+    }
+    const Scene own{Arm("planar", scene.arm.joints(), links), 6};
+    const auto variants = variants_of("link_compliance", own.data());
+    return RowMatrix(
+        perturbations_of(*effect_named("link_compliance"), variants.at(0), own.data())[0][0]
+            .values);
+  };
+  EXPECT_EQ(bend(Vec3::Zero()), bend(Vec3(0.1, 0.0, 0.0)));  // next to the same points of the axes
+  EXPECT_NE(bend(Vec3::Zero()), bend(Vec3(0.0, 0.0, 0.1)));
 }
 
 /// F L³ / 3 E I and F L² / 2 E I of a beam with a load at its end.

@@ -204,3 +204,14 @@ def test_every_verdict_is_one_paragraph_of_sentences(name):
     assert not re.search(r"nan|inf\b|\.\.|,\.| {2}|\( |\bNone\b", text)
     assert text.endswith(".")
     assert len(text) < 2000
+
+
+def test_a_share_of_what_is_above_noise_is_reported_where_noise_is_measured() -> None:
+    report = cases.named()
+    assert "100 % of the variance above noise is explained" in summary(report)
+    report.noise_is_measured = False
+    report.noise_source = "what the model leaves"
+    text = summary(report)
+    assert "above noise is explained" not in text
+    assert "93 % of the held-out variance is explained" in text
+    assert numbers.gained_share_text(report, 0.5) == "46 % of the held-out variance"

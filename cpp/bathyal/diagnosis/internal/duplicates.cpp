@@ -6,6 +6,7 @@
 #include <map>
 
 #include "bathyal/base/text.hpp"
+#include "bathyal/diagnosis/arm/internal/descriptions.hpp"
 #include "bathyal/identify/model/calibration_data.hpp"
 
 namespace bathyal::diagnosis {
@@ -126,6 +127,21 @@ void expand_to_duplicates(const std::vector<int>& of, Diagnosis& diagnosis) {
   }
   for (NamedEffect& effect : diagnosis.effects) {
     for (int& row : effect.rows) row = rows[row];
+  }
+  // Moments of slips count rows, of those that were kept.
+  for (FoundEffect& found : diagnosis.found) {
+    const auto moment = found.variant.settings.find("moment");
+    if (moment == found.variant.settings.end() || found.variant.settings.contains("time")) continue;
+    const double kept = moment->second;
+    moment->second = rows[static_cast<std::size_t>(kept)];
+    for (NamedEffect& effect : diagnosis.effects) {
+      if (effect.name != found.variant.effect) continue;
+      for (Estimate& setting : effect.parameters) {
+        if (setting.name != "moment" || setting.value != kept) continue;
+        setting.value = setting.low = setting.high = moment->second;
+        effect.description = description_of(found.variant, diagnosis.arm);
+      }
+    }
   }
   for (Outlier& outlier : diagnosis.fit.outliers) outlier.row = rows[outlier.row];
   diagnosis.warnings.push_back(

@@ -73,6 +73,7 @@ class Reporter {
       ++poses;
     }
     if (dof >= selection::kMinPureErrorDof && squares > 0.0) {
+      out_.noise_is_measured = true;
       out_.noise = std::sqrt(squares / dof);
       out_.noise_source = "repeats of " + counted(poses, "pose");
     } else {

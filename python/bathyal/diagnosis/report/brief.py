@@ -12,10 +12,10 @@ from bathyal._core import Touches
 from bathyal.diagnosis.report.numbers import (
     chance_text,
     estimate_text,
+    gained_share_text,
     is_setting,
     length_text,
     parameter_name,
-    share_text,
 )
 from bathyal.diagnosis.report.text import (
     amplitude_text,
@@ -145,7 +145,7 @@ def _gain(report: Diagnosis) -> dict[str, str]:
     }
     if math.isfinite(report.gain):
         numbers["explained"] = (
-            f"{share_text(report.gain)} of the variance above noise, {chance_text(held.p_value)}"
+            f"{gained_share_text(report, report.gain)}, {chance_text(held.p_value)}"
         )
     return numbers
 

@@ -11,12 +11,12 @@ from typing import TYPE_CHECKING, Any
 from bathyal.diagnosis.report.numbers import (
     chance_text,
     estimate_text,
+    gained_share_text,
     is_setting,
     length_text,
     odds_text,
     parameter_name,
     setting_text,
-    share_text,
 )
 from bathyal.diagnosis.report.text import amplitude_text, groups_of, is_of_noise, noise_evidence
 
@@ -41,11 +41,11 @@ def causes_of(report: Diagnosis) -> str:
     if report.ambiguous:
         parts.append("<p>The data do not distinguish:</p>")
         parts += [f"<div class='card'>{_alternatives(group)}</div>" for group in groups_of(report)]
-    parts += [_card(effect) for effect in report.effects]
+    parts += [_card(report, effect) for effect in report.effects]
     return "".join(parts)
 
 
-def _card(effect: Any) -> str:
+def _card(report: Diagnosis, effect: Any) -> str:
     """A cause: its numbers to the left, the evidence to the right."""
     numbers_of = effect.parameters.items()
     texts = [setting_text(name, float(one.value)) for name, one in numbers_of if is_setting(one)]
@@ -63,7 +63,7 @@ def _card(effect: Any) -> str:
         rest = len(effect.rows) - _MOST_OUTLIERS
         listed += f" and {rest:,} more" if rest > 0 else ""
         numbers += f"<p>Rows, counted from 0: {listed}</p>"
-    evidence = _evidence(effect)
+    evidence = _evidence(report, effect)
     name = f"<code>{html.escape(effect.name)}</code>"
     form = f" · {html.escape(', '.join(settings))}" if settings else ""
     bar = "" if is_of_noise(effect) else _bar(effect.gain)
@@ -90,13 +90,14 @@ def _bar(share: float) -> str:
     return f"<div class='gain'><i style='width:{wide:.1f}%'></i></div>"
 
 
-def _evidence(effect: Any) -> str:
+def _evidence(report: Diagnosis, effect: Any) -> str:
     if is_of_noise(effect):
         return f"<p>{html.escape(noise_evidence(effect))}</p>"
+    share, of_what = gained_share_text(report, effect.gain).split(" of ")
     return table(
         ("evidence", ""),
         [
-            ("of the variance above noise, held out", share_text(effect.gain)),
+            (f"of {of_what}", share),
             ("error held out without it", length_text(effect.held_out_before)),
             ("error held out with it", length_text(effect.held_out_after)),
             ("moves the tip, per axis", length_text(effect.size)),

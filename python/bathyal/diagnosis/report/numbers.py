@@ -5,9 +5,12 @@ an interval warrants."""
 from __future__ import annotations
 
 import math
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from bathyal.view.text import number
+
+if TYPE_CHECKING:
+    from bathyal._core import Diagnosis
 
 # Units as they are kept, and as they are shown: the unit, and how many of it make one.
 _SHOWN = {
@@ -48,6 +51,17 @@ def share_text(share: float) -> str:
         return "?"
     digits = 0 if abs(share) >= 0.1 or share == 0 else 1
     return f"{number(100 * share, digits)} %"
+
+
+def gained_share_text(report: Diagnosis, gain: float) -> str:
+    """ "97 % of the variance above noise", where repeats measure the noise; where the floor is what
+    the model itself leaves, the share of the whole variance."""
+    if report.noise_is_measured:
+        return f"{share_text(gain)} of the variance above noise"
+    held = report.held_out
+    whole = held.rms_before**2
+    above = whole - held.noise**2
+    return f"{share_text(gain * above / whole if whole > 0 else gain)} of the held-out variance"
 
 
 def chance_text(p: float) -> str:

@@ -30,6 +30,7 @@ from bathyal.diagnosis.report.figure import (
 )
 from bathyal.diagnosis.report.numbers import (
     chance_text,
+    gained_share_text,
     length_text,
     share_text,
 )
@@ -161,10 +162,11 @@ def _tiles(report: Diagnosis) -> str:
     elif report.verdict == "none":
         tiles.append((f"{len(report.data):,}", "poses, none held out"))
     else:
+        share, of_what = gained_share_text(report, report.gain).split(" of ")
         change = f"{length_text(held.rms_before)} → {length_text(held.rms_after)}"
         tiles += [
             (change, "error on data held out (3-D rms)"),
-            (share_text(report.gain), "of the variance above noise is gone"),
+            (share, f"of {of_what} is gone"),
             (chance_text(held.p_value), "p-value of the gain"),
         ]
     if report.verdict == "unknown" and report.leftover is not None:

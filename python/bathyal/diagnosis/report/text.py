@@ -13,6 +13,7 @@ from bathyal.diagnosis.report.numbers import (
     chance_text,
     estimate_text,
     figures,
+    gained_share_text,
     is_setting,
     length_text,
     odds_text,
@@ -170,13 +171,13 @@ def gain_text(report: Diagnosis) -> str:
         f"{length_text(held.noise)})"
     )
     if math.isfinite(report.gain):
-        text += f": {share_text(report.gain)} of the variance above noise is explained"
+        text += f": {gained_share_text(report, report.gain)} is explained"
     return f"{text} ({chance_text(held.p_value)})."
 
 
 def evidence_texts(report: Diagnosis) -> list[str]:
     """Of each cause a sentence: what it explains of held-out data, and the best alternative."""
-    return [sentence(_evidence(effect)) for effect in report.effects]
+    return [sentence(_evidence(report, effect)) for effect in report.effects]
 
 
 def is_of_noise(effect: Any) -> bool:
@@ -185,11 +186,11 @@ def is_of_noise(effect: Any) -> bool:
     return effect.name in ("outliers", "range_noise", "quantisation")
 
 
-def _evidence(effect: Any) -> str:
+def _evidence(report: Diagnosis, effect: Any) -> str:
     if is_of_noise(effect):
         return f"{upper(effect.words)}: {noise_evidence(effect)}"
     text = (
-        f"{upper(effect.words)}: {share_text(effect.gain)} of the variance above noise on data "
+        f"{upper(effect.words)}: {gained_share_text(report, effect.gain)} on data "
         f"held out ({length_text(effect.held_out_before)} without it, "
         f"{length_text(effect.held_out_after)} with it; {chance_text(effect.p_value)})"
     )

@@ -58,7 +58,8 @@ std::string description_of(const EffectVariant& variant, const Arm& arm) {
       {"base_compliance", [&] { return std::string("the base tilting under the arm's weight"); }},
       {"tool_slip",
        [&] {
-         return "the tool slipping after row " + three_digits(setting("moment")) + " in time";
+         return "the tool slipping after row " + std::to_string(std::lround(setting("moment"))) +
+                (variant.settings.contains("time") ? " in time" : "");
        }},
       {"tool_change", [&] { return session_description(variant, "the tool sitting otherwise"); }},
       {"thermal", [&] { return std::string("links growing with temperature"); }},

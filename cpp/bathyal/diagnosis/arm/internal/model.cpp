@@ -24,6 +24,9 @@ constexpr double kMinSingularValue = 1e-5;  ///< of the largest singular value, 
 constexpr double kOrdinaryMove = 1e-3;      ///< [m]
 constexpr double kRounding = 1e-7;
 constexpr int kMomentsNear = 8;       ///< on either side
+constexpr double kRowMiss = 0.03;     ///< [m] or [rad] of a row: farther off than any maker is
+constexpr double kToolMiss = 1.0;     ///< [m] of a tool, from where the search starts
+constexpr double kNothing = 1e-10;    ///< of an effect's largest perturbation: rounding
 constexpr double kPlausible = 100.0;  ///< of a parameter's scale, where the effect gives none
 /// Of the residual degrees of freedom, that one effect may use: beyond a third, the penalty of
 /// parameters that explain nothing is less than their apparent gain.
@@ -95,6 +98,21 @@ void ArmModel::free_observable_directions() {
   const RankReport rank =
       numerical_rank(qr_factor(derivatives(x_), system.num_threads()), kMinSingularValue);
   observable_ = rank.directions.leftCols(rank.rank);
+  hold_weak_directions();
+}
+
+/// Directions that the data hardly determine would run off, by lengths of metres that cancel. No
+/// maker misses by so much: weak priors about nominal, which matter in no other direction.
+void ArmModel::hold_weak_directions() {
+  for (const int c : base_free_) {
+    Parameter& parameter = problem_.parameters.parameters[static_cast<std::size_t>(c)];
+    const ParameterSlot& place = problem_.parameters.slots[static_cast<std::size_t>(c)];
+    const bool tool = place.kind == ParameterKind::kToolShift;
+    if (parameter.prior_std != Parameter::kNoPrior || !(tool || is_row(place))) continue;
+    parameter.prior_std = tool ? kToolMiss : kRowMiss;
+    ++weak_priors_;
+  }
+  problem_.system->set_free(base_free_);
 }
 
 void ArmModel::gather_data(const Covariates& covariates) {
@@ -142,6 +160,7 @@ void ArmModel::gather_terms(const Effects& effects) {
   for (const auto& effect : effects) {
     std::vector<EffectVariant> variants = effect->variants(data_);
     std::erase_if(variants, [this](const EffectVariant& variant) { return is_too_wide(variant); });
+    find_largest(*effect, variants);
     std::map<std::pair<int, std::string>, std::vector<int>> by_alias_group;
     for (EffectVariant& variant : variants) {
       by_alias_group[{variant.joint, variant.alias_group}].push_back(
@@ -231,6 +250,38 @@ std::vector<int> ArmModel::refine(int term) {
     }
   }
   return chain;
+}
+
+/// The scale of an effect without a plausible size is that of its columns: those that are nothing
+/// next to its others, in any of its variants, would get values that mean nothing.
+void ArmModel::find_largest(const Effect& effect, const std::vector<EffectVariant>& variants) {
+  const EffectInfo info = effect.info();
+  for (const EffectVariant& variant : variants) {
+    const bool sized = std::all_of(
+        variant.parameters.begin(), variant.parameters.end(),
+        [&](const EffectParameter& p) { return std::isfinite(plausible_size(info, p)); });
+    if (sized) continue;
+    const auto perturbations = perturbations_of(effect, variant);
+    for (std::size_t p = 0; p < perturbations.size(); ++p) {
+      double& largest = largest_[&effect][variant.parameters[p].unit];
+      for (const Perturbation& perturbation : perturbations[p]) {
+        largest = std::max(largest, perturbation.values.norm());
+      }
+    }
+  }
+}
+
+void ArmModel::silence(const Effect& effect, const EffectVariant& variant,
+                       std::vector<std::vector<Perturbation>>& perturbations) const {
+  const auto known = largest_.find(&effect);
+  if (known == largest_.end()) return;
+  for (std::size_t p = 0; p < perturbations.size(); ++p) {
+    const auto largest = known->second.find(variant.parameters[p].unit);
+    if (largest == known->second.end()) continue;
+    for (Perturbation& perturbation : perturbations[p]) {
+      if (perturbation.values.norm() < kNothing * largest->second) perturbation.values.setZero();
+    }
+  }
 }
 
 std::vector<std::vector<Perturbation>> ArmModel::perturbations_of(int term) const {

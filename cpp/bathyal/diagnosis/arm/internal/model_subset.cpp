@@ -43,6 +43,7 @@ ArmModel::ArmModel(const ArmModel& whole, const std::vector<int>& rows,
   rows_ = rows;
   gather_observations();
   take_terms(whole);
+  largest_ = whole.largest_;
   find_record_effects();
   evaluate_effects_at(x_);
   linearize_at(x_);
@@ -57,8 +58,11 @@ void ArmModel::take_terms(const ArmModel& subset) {
 
 std::vector<std::vector<Perturbation>> ArmModel::perturbations_of(
     const Effect& effect, const EffectVariant& variant) const {
-  if (!needs_record_.contains(&effect)) return bathyal::perturbations_of(effect, variant, data_);
-  return perturbations_in_record(effect, variant);
+  std::vector<std::vector<Perturbation>> out =
+      needs_record_.contains(&effect) ? perturbations_in_record(effect, variant)
+                                      : bathyal::perturbations_of(effect, variant, data_);
+  silence(effect, variant, out);
+  return out;
 }
 
 /// Evaluated with all rows of the record.

@@ -1,0 +1,80 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Joints that give way under load are called so; a payload only where a load that changes shows."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import bathyal
+from bathyal import Arm, CorrectedArm, Link, Tracked
+from bathyal.effects import FoundEffect
+
+_RIGHT = np.pi / 2
+_ROWS = {
+    "a": [0.08, 0.42, 0, 0, 0, 0],
+    "alpha": [-_RIGHT, 0, _RIGHT, -_RIGHT, _RIGHT, 0],
+    "d": [0.4, 0, 0.06, 0.48, 0, 0.09],
+    "theta": [0, -_RIGHT, _RIGHT, 0, 0, 0],
+}
+_MASSES = (30, 10, 4, 3, 3, 3, 6)
+_NOISE = 4e-5
+
+
+def _heavy() -> Arm:
+    return Arm.from_dh(**_ROWS, links=[Link(mass=mass) for mass in _MASSES])
+
+
+@pytest.mark.parametrize("rows", [60, 120])
+@pytest.mark.parametrize("seed", [0, 1])
+def test_joints_that_give_way_are_no_load_that_nobody_reported(rows: int, seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    found = [
+        FoundEffect("joint_compliance", {"compliance": compliance}, joint=joint)
+        for joint, compliance in ((1, 4e-6), (2, 1e-5), (4, 2e-5))
+    ]
+    q = rng.uniform(-4, 4, (100, 6))
+    truth = CorrectedArm(_heavy(), found, Tracked(q, np.zeros((100, 3))))
+    q = rng.uniform(-1.5, 1.5, (rows, 6))
+    data = Tracked(q, truth.forward(q)[:, :3, 3] + rng.normal(0, _NOISE, (rows, 3)))
+    report = bathyal.diagnose(Arm.from_dh(**_ROWS), data)
+    assert report.verdict in ("named", "ambiguous")
+    assert [e.name for e in report.effects] == ["joint_compliance"] * 2
+    assert {e.joint for e in report.effects} == {1, 2}
+    assert "payload" not in {cause.name for cause in report.ambiguous}
+
+
+@pytest.mark.parametrize("seed", [0, 1])
+def test_a_load_that_is_missing_from_one_that_changes_is_named(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    recorded = rng.choice([0.0, 2.0, 5.0], 200)
+    q = rng.uniform(-1.5, 1.5, (200, 6))
+    found = [
+        FoundEffect("joint_compliance", {"compliance": compliance}, joint=joint)
+        for joint, compliance in ((1, 8e-6), (2, 2e-5))
+    ]
+    known = Tracked(q, np.zeros((200, 3)), covariates={"payload": recorded + 4.0})
+    truth = CorrectedArm(_heavy(), found, known)
+    tips = truth.forward(q, covariates={"payload": recorded + 4.0})[:, :3, 3]
+    data = Tracked(q, tips + rng.normal(0, _NOISE, (200, 3)), covariates={"payload": recorded})
+    report = bathyal.diagnose(_heavy(), data)
+    names = sorted(e.name for e in report.effects)
+    assert names == ["joint_compliance", "joint_compliance", "payload"]
+    [payload] = [e for e in report.effects if e.name == "payload"]
+    for name, compliance in (("mass_compliance_2", 8e-6), ("mass_compliance_3", 2e-5)):
+        found_value = payload.parameters[name]
+        assert abs(found_value.value - 4.0 * compliance) < 4 * found_value.std
+
+
+@pytest.mark.parametrize("timed", [True, False])
+def test_time_is_spoken_of_where_it_was_recorded(timed: bool) -> None:
+    rng = np.random.default_rng(2)
+    arm = bathyal.arms.ur10()
+    q = rng.uniform(-1.5, 1.5, (150, 6))
+    pose = arm.forward(q)
+    tips = pose[:, :3, 3] + (np.arange(150) >= 61)[:, None] * pose[:, :3, 0] * 1e-3
+    covariates = {"time": np.arange(150.0)} if timed else {}
+    data = Tracked(q, tips + rng.normal(0, _NOISE, tips.shape), covariates=covariates)
+    report = bathyal.diagnose(arm, data)
+    [effect] = report.effects
+    assert effect.words == "the tool slipping after row 61" + (" in time" if timed else "")
