@@ -81,6 +81,7 @@ class McapWriter {
   std::size_t chunk_size_;
   std::unique_ptr<std::FILE, Closer> file_;
   McapWriterState state_;
+  bool has_messages_ = false;  ///< the chunk that is open
 };
 
 /// A message as it is in a file.
@@ -95,8 +96,5 @@ struct McapMessage {
 /// empty for a whole file \throw Error for bytes that are no MCAP, or chunks that are compressed
 std::string read_mcap(std::string_view bytes,
                       const std::function<void(const McapMessage&)>& message);
-
-/// CRC-32 (ISO 3309), as zlib's.
-std::uint32_t crc32(std::string_view bytes);
 
 }  // namespace bathyal

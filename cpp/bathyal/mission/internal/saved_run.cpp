@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "bathyal/log/mcap.hpp"
+#include "bathyal/log/crc32.hpp"
 #include "bathyal/mission/archive.hpp"
 #include "bathyal/navigation/navigation_state_bytes.hpp"
 
