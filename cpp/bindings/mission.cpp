@@ -230,15 +230,17 @@ std::string_view text_of(const py::handle& object) {
 }
 
 std::string_view bytes_of(const py::handle& object) {
-  char* data = nullptr;
-  Py_ssize_t size = 0;
-  if (PyBytes_AsStringAndSize(object.ptr(), &data, &size) != 0) throw py::error_already_set();
-  return {data, static_cast<std::size_t>(size)};
+  if (!PyBytes_Check(object.ptr())) {
+    throw py::type_error(std::string("expected bytes, got ") + Py_TYPE(object.ptr())->tp_name);
+  }
+  return {PyBytes_AS_STRING(object.ptr()),
+          static_cast<std::size_t>(PyBytes_GET_SIZE(object.ptr()))};
 }
 
 std::uint64_t nanoseconds_of(const py::handle& object) {
-  const std::uint64_t value = PyLong_AsUnsignedLongLong(object.ptr());
-  if (value == static_cast<std::uint64_t>(-1) && PyErr_Occurred() != nullptr) {
+  static_assert(sizeof(unsigned long) == 8);
+  const unsigned long value = PyLong_AsUnsignedLong(object.ptr());
+  if (value == static_cast<unsigned long>(-1) && PyErr_Occurred() != nullptr) {
     throw py::error_already_set();
   }
   return value;

@@ -11778,6 +11778,8 @@ def write_mcap(path: str, messages: list[tuple[str, int, bytes]]) -> None:
     
     Raises
     ------
+    TypeError, ValueError, OverflowError
+        For messages that are no such tuples.
     Error
         Where the file cannot be written.
     """
