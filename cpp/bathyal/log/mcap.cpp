@@ -19,6 +19,7 @@ namespace bathyal {
 namespace {
 
 constexpr std::uint64_t kMessageHead = 22;  ///< bytes of a message's record before its data
+constexpr const char* kClosed = ": the log is closed";
 constexpr std::string_view kMagic("\x89MCAP0\r\n", 8);
 
 enum Op : std::uint8_t {
@@ -276,9 +277,11 @@ McapWriter::McapWriter(const std::string& path, McapWriterState state, std::size
 }
 
 void McapWriter::put(std::string_view bytes) {
-  if (!file_) throw Error(path_ + ": the log is closed");
+  if (!file_) throw Error(path_ + kClosed);
   if (std::fwrite(bytes.data(), 1, bytes.size(), file_.get()) != bytes.size()) {
-    throw Error(path_ + ": " + std::strerror(errno));
+    const std::string reason = path_ + ": " + std::strerror(errno);
+    file_.reset();  // what is in the file is no longer what the state says: no save from here on
+    throw Error(reason);
   }
   state_.written += bytes.size();
 }
@@ -359,7 +362,8 @@ void McapWriter::flush() {
 }
 
 void McapWriter::sync() {
-  if (file_ && std::fflush(file_.get()) != 0) throw Error(path_ + ": " + std::strerror(errno));
+  if (!file_) throw Error(path_ + kClosed);
+  if (std::fflush(file_.get()) != 0) throw Error(path_ + ": " + std::strerror(errno));
 }
 
 void McapWriter::close() {

@@ -56,13 +56,14 @@ class McapWriter {
   std::uint16_t add_schema(const McapSchema& schema);     ///< \return its id
   std::uint16_t add_channel(const McapChannel& channel);  ///< \return its id, from 1
 
-  /// \param time [ns], of channels of an id that was given
+  /// \param time [ns], of channels of an id that was given \throw Error where the disk is full
   void write(std::uint16_t channel, std::uint64_t time, std::string_view data);
 
   /// Closes the chunk that is open, so that a crash loses nothing before this moment.
   void flush();
 
-  /// What is written is in the file; the chunk that is open stays so.
+  /// What is written is in the file; the chunk that is open stays so. \throw Error where the disk
+  /// is full, or the log is closed or was not written to its end: its state is no file's then
   void sync();
 
   /// The last chunk, the summary and the end. \throw Error where the disk is full
