@@ -45,10 +45,14 @@ std::string text(const py::dict& dict, const char* key) {
   return dict.contains(key) ? dict[key].cast<std::string>() : std::string();
 }
 
+Condition condition_of(const std::string& text, const std::vector<std::string>& signals) {
+  return {text, signals, mission_units(signals)};
+}
+
 std::optional<Condition> condition(const py::dict& dict, const char* key,
                                    const std::vector<std::string>& signals) {
   if (!dict.contains(key) || dict[key].is_none()) return std::nullopt;
-  return Condition(dict[key].cast<std::string>(), signals);
+  return condition_of(dict[key].cast<std::string>(), signals);
 }
 
 const EnumNames<CommandKind>& command_kinds() {
@@ -168,7 +172,7 @@ std::shared_ptr<const MissionPlan> made(
   for (const py::handle item : guards) {
     in_row("always", plan->guards.size(), [&] {
       const auto dict = item.cast<py::dict>();
-      plan->guards.push_back({text(dict, "name"), Condition(text(dict, "when"), signals),
+      plan->guards.push_back({text(dict, "name"), condition_of(text(dict, "when"), signals),
                               number(dict, "persist", 0.0), tree_of(dict["response"])});
     });
   }
