@@ -125,6 +125,7 @@ void Pilot::step_cruise(PilotState& state, const VehicleState& estimated, const 
   }
   state.z = moved_towards(state.z, target.z, options_.climb_speed * time);
   aim.z = state.z;
+  aim.climb = target.climb;
   Vec6 relative = estimated.velocity;
   relative.head<3>() -= estimated.world_from_vehicle.linear().transpose() * current;
   const CruiseOutput output = cruise_->step(state.cruise, estimated, relative, aim, time);

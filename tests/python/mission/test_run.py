@@ -185,6 +185,26 @@ def test_remus_runs_a_survey_near_the_bottom(tmp_path):
     assert run.metrics["distance"] > 400.0
 
 
+@pytest.mark.parametrize("seed", [1, 2, 3])
+def test_remus_keeps_three_metres_over_an_uneven_bottom(tmp_path, seed):
+    path = tmp_path / "mission.yaml"
+    path.write_text(
+        "world: {water: {surface: 0},"
+        " terrain: {seabed: {size: [500, 200], spacing: 2, depth: 25, relief_rms: 1.0}}}\n"
+        "vehicle: {preset: remus100}\n"
+        "start: {position: [-200, 0, -2]}\n"
+        "mission:\n"
+        "  - leg: {to: [-110, 0], depth: 10 m, speed: 1.5 m/s, tolerance: 5 m}\n"
+        "  - follow: {points: [[150, 0], [150, 40], [-110, 40]], altitude: 3 m, speed: 1.5 m/s,"
+        " tolerance: 8 m}\n"
+    )
+    run = bathyal.run(path, seed=seed)
+    assert run.status == "done"
+    assert run.metrics["least_altitude"] > 2.0
+    altitude = run.log.messages("/state")["altitude"]
+    assert np.median(altitude[len(altitude) // 3 :]) < 4.5
+
+
 @pytest.mark.parametrize(
     ("old", "new", "message"),
     [
