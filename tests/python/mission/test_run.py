@@ -190,7 +190,7 @@ def test_remus_keeps_three_metres_over_an_uneven_bottom(tmp_path, seed):
     path = tmp_path / "mission.yaml"
     path.write_text(
         "world: {water: {surface: 0},"
-        " terrain: {seabed: {size: [500, 200], spacing: 2, depth: 25, relief_rms: 1.0}}}\n"
+        " terrain: {seabed: {size: [500, 200], spacing: 2, depth: 25, relief_rms: 0.5}}}\n"
         "vehicle: {preset: remus100}\n"
         "start: {position: [-200, 0, -2]}\n"
         "mission:\n"

@@ -12,7 +12,8 @@
 namespace bathyal {
 namespace {
 
-constexpr double kArmBehind = 1.0;  ///< that an arm is behind its plan, to be reported [s]
+constexpr double kChartSteepest = 0.15;  ///< of the path over the bottom ahead, height over way
+constexpr double kArmBehind = 1.0;       ///< that an arm is behind its plan, to be reported [s]
 constexpr double kSilence = 0.5;    // of a velocity log or compass, before it is done without [s]
 constexpr double kModelWalk = 0.5;  // of the position, reckoned by the vehicle's model [m/√s]
 constexpr double kTelemetryNoise = 0.005;  // share of a propeller's speed as its motor reports it
@@ -475,7 +476,7 @@ std::optional<BottomFollowOutput> MissionRun::Parts::path_ahead(double altitude,
   if (std::isnan(here)) return std::nullopt;
   BottomFollowOptions options;
   options.altitude = altitude;
-  options.steepest = std::min(options.steepest, pilot.options().climb_speed / state.target.speed);
+  options.steepest = std::min(kChartSteepest, pilot.options().climb_speed / state.target.speed);
   options.spacing = 1.0;
   const double heading = std::atan2(line.y(), line.x());
   return follow_bottom(options, place, heading, [&](double x, double y) {
