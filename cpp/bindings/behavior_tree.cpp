@@ -163,7 +163,7 @@ str
   py::class_<Condition>(module, "Condition", R"(A condition on named signals, in words.
 
 Comparisons joined by and, or, not and brackets: ``depth > 40 m or battery < 20 %``. Units are m, cm,
-km, s, min, h, %, V, A, deg, rad and m/s. Nothing is evaluated as code.
+km, s, min, h, %, V, A, deg, rad, m/s and kg. Nothing is evaluated as code.
 
 Parameters
 ----------

@@ -7,6 +7,8 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -43,10 +45,14 @@ std::string text(const py::dict& dict, const char* key) {
   return dict.contains(key) ? dict[key].cast<std::string>() : std::string();
 }
 
+Condition condition_of(const std::string& text, const std::vector<std::string>& signals) {
+  return {text, signals, mission_units(signals)};
+}
+
 std::optional<Condition> condition(const py::dict& dict, const char* key,
                                    const std::vector<std::string>& signals) {
   if (!dict.contains(key) || dict[key].is_none()) return std::nullopt;
-  return Condition(dict[key].cast<std::string>(), signals);
+  return condition_of(dict[key].cast<std::string>(), signals);
 }
 
 const EnumNames<CommandKind>& command_kinds() {
@@ -166,7 +172,7 @@ std::shared_ptr<const MissionPlan> made(
   for (const py::handle item : guards) {
     in_row("always", plan->guards.size(), [&] {
       const auto dict = item.cast<py::dict>();
-      plan->guards.push_back({text(dict, "name"), Condition(text(dict, "when"), signals),
+      plan->guards.push_back({text(dict, "name"), condition_of(text(dict, "when"), signals),
                               number(dict, "persist", 0.0), tree_of(dict["response"])});
     });
   }
@@ -220,11 +226,32 @@ class LoggedRun {
   std::optional<MissionRun> run_;
 };
 
+std::string_view text_of(const py::handle& object) {
+  Py_ssize_t size = 0;
+  const char* data = PyUnicode_AsUTF8AndSize(object.ptr(), &size);
+  if (data == nullptr) throw py::error_already_set();
+  return {data, static_cast<std::size_t>(size)};
+}
+
+std::string_view bytes_of(const py::handle& object) {
+  if (!PyBytes_Check(object.ptr())) {
+    throw py::type_error(std::string("expected bytes, got ") + Py_TYPE(object.ptr())->tp_name);
+  }
+  return {PyBytes_AS_STRING(object.ptr()),
+          static_cast<std::size_t>(PyBytes_GET_SIZE(object.ptr()))};
+}
+
+std::uint64_t nanoseconds_of(const py::handle& object) {
+  static_assert(sizeof(unsigned long) == 8);
+  const unsigned long value = PyLong_AsUnsignedLong(object.ptr());
+  if (value == static_cast<unsigned long>(-1) && PyErr_Occurred() != nullptr) {
+    throw py::error_already_set();
+  }
+  return value;
+}
+
 py::dict messages_of(const py::bytes& bytes) {
-  char* data = nullptr;
-  py::ssize_t size = 0;
-  if (PyBytes_AsStringAndSize(bytes.ptr(), &data, &size) != 0) throw py::error_already_set();
-  const std::string_view content(data, static_cast<std::size_t>(size));
+  const std::string_view content = bytes_of(bytes);
   std::map<std::string, std::string> topics;
   const std::string reason = read_mcap(content, [&topics](const McapMessage& message) {
     std::string& all = topics[std::string(message.topic)];
@@ -251,20 +278,19 @@ using LoggedMessage = py::typing::Tuple<py::str, py::int_, py::bytes>;
 
 void write_mcap(const std::string& path, const py::typing::List<LoggedMessage>& messages) {
   McapWriter writer(path);
-  std::map<std::string, std::uint16_t, std::less<>> channels;
+  std::unordered_map<std::string_view, std::uint16_t> channels;  // by texts that the list holds
   for (const py::handle item : messages) {
-    const auto message = item.cast<py::tuple>();
-    if (message.size() != 3) {
-      throw_argument("messages", "tuples of topic, time and data", std::to_string(message.size()));
+    if (!py::isinstance<py::tuple>(item) || PyTuple_GET_SIZE(item.ptr()) != 3) {
+      throw_argument("messages", "tuples of topic, time and data", Py_TYPE(item.ptr())->tp_name);
     }
-    const auto topic = message[0].cast<std::string_view>();
-    const auto data = message[2].cast<py::bytes>();
+    const std::string_view topic = text_of(PyTuple_GET_ITEM(item.ptr(), 0));
     auto known = channels.find(topic);
     if (known == channels.end()) {
       const std::uint16_t channel = writer.add_channel({0, std::string(topic), "json"});
       known = channels.emplace(topic, channel).first;
     }
-    writer.write(known->second, message[1].cast<std::uint64_t>(), std::string_view(data));
+    writer.write(known->second, nanoseconds_of(PyTuple_GET_ITEM(item.ptr(), 1)),
+                 bytes_of(PyTuple_GET_ITEM(item.ptr(), 2)));
   }
   writer.close();
 }

@@ -55,6 +55,8 @@ messages : list of tuples
 
 Raises
 ------
+TypeError, ValueError, OverflowError
+    For messages that are no such tuples.
 Error
     Where the file cannot be written.)";
 

@@ -3,6 +3,7 @@
 
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <tuple>
@@ -220,16 +221,23 @@ py::tuple from_mesh(const TriangleMesh& mesh, std::optional<double> mass,
   return py::make_tuple(Vehicle(found.options), to_numpy(found.vehicle_from_mesh));
 }
 
-FlowFunction flow_argument(const py::object& object) {
+/// The acceleration at a place is the change over one step about the moment, within the times that
+/// are simulated: over the steps of Runge–Kutta's method it adds up to the whole change, jumps too.
+FlowFunction flow_argument(const py::object& object, const SimulateOptions& options) {
   if (object.is_none()) return {};
   if (PyCallable_Check(object.ptr()) == 0) {
     const Vec3 current = vector_argument("current", object);
     return [current](const Vec3&, double) { return Flow{current, Vec3::Zero()}; };
   }
-  return [object](const Vec3& point, double time) {
+  return [object, options](const Vec3& point, double time) {
     const py::gil_scoped_acquire locked;
     const py::array place = to_numpy(std::vector<double>(point.begin(), point.end()));
-    return Flow{vector_argument("current", object(place, time)), Vec3::Zero()};
+    const auto velocity = [&](double t) { return vector_argument("current", object(place, t)); };
+    const double before = std::max(0.0, time - 0.5 * options.step);
+    const double after = std::min(options.duration, time + 0.5 * options.step);
+    Flow flow{velocity(time)};
+    if (after > before) flow.acceleration = (velocity(after) - velocity(before)) / (after - before);
+    return flow;
   };
 }
 
@@ -272,7 +280,7 @@ VehicleMotionRecord simulated(const Vehicle& vehicle, const StateLike& state,
   options.free = free_argument(free);
   const VehicleState start = state_argument(state);
   const WrenchFunction wrench = wrench_argument(thrust);
-  const FlowFunction flow = flow_argument(current);
+  const FlowFunction flow = flow_argument(current, options);
   options.environment = environment_of(world);
   const py::gil_scoped_release unlocked;
   return simulate(vehicle, start, wrench, flow, options);

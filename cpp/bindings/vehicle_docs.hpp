@@ -75,7 +75,8 @@ thrust : (6,) array or function
 duration, step : float
     [s]
 current : (3,) array or function, optional
-    Of the water in the world [m/s]; or a function of point and time that gives it.
+    Of the water in the world [m/s]; or a function of point and time that gives it, called twelve
+    times a step: its change over a step is the water's acceleration, which pushes the vehicle.
 free : six bools, optional
     Surge, sway, heave, roll, pitch, yaw: velocities that are not free stay as they are at the start.
 world : World, optional

@@ -32,9 +32,16 @@ if(BATHYAL_WERROR AND "${CMAKE_CXX_COMPILER_ID} ${CMAKE_CXX_COMPILER_VERSION}"
   target_compile_options(bathyal_flags INTERFACE -Werror)
 endif()
 if(BATHYAL_SANITIZE)
-  target_compile_options(bathyal_flags INTERFACE -fsanitize=address,undefined
-                                                 -fno-sanitize-recover=all -fno-omit-frame-pointer)
-  target_link_options(bathyal_flags INTERFACE -fsanitize=address,undefined)
+  if(BATHYAL_SANITIZE STREQUAL "thread")
+    set(sanitizers -fsanitize=thread)
+  elseif(BATHYAL_SANITIZE MATCHES "^(ON|address)$")
+    set(sanitizers -fsanitize=address,undefined)
+  else()
+    message(FATAL_ERROR "BATHYAL_SANITIZE: expected address or thread, got ${BATHYAL_SANITIZE}")
+  endif()
+  target_compile_options(bathyal_flags INTERFACE ${sanitizers} -fno-sanitize-recover=all
+                                                 -fno-omit-frame-pointer)
+  target_link_options(bathyal_flags INTERFACE ${sanitizers})
 endif()
 
 # bathyal_simd_kernels(<variable> <prefix>)

@@ -5782,7 +5782,8 @@ class Vehicle:
         duration, step : float
             [s]
         current : (3,) array or function, optional
-            Of the water in the world [m/s]; or a function of point and time that gives it.
+            Of the water in the world [m/s]; or a function of point and time that gives it, called twelve
+        times a step: its change over a step is the water's acceleration, which pushes the vehicle.
         free : six bools, optional
             Surge, sway, heave, roll, pitch, yaw: velocities that are not free stay as they are at the start.
         world : World, optional
@@ -6473,7 +6474,7 @@ class Condition:
     A condition on named signals, in words.
     
     Comparisons joined by and, or, not and brackets: ``depth > 40 m or battery < 20 %``. Units are m, cm,
-    km, s, min, h, %, V, A, deg, rad and m/s. Nothing is evaluated as code.
+    km, s, min, h, %, V, A, deg, rad, m/s and kg. Nothing is evaluated as code.
     
     Parameters
     ----------
@@ -11836,6 +11837,8 @@ def write_mcap(path: str, messages: list[tuple[str, int, bytes]]) -> None:
     
     Raises
     ------
+    TypeError, ValueError, OverflowError
+        For messages that are no such tuples.
     Error
         Where the file cannot be written.
     """

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bathyal/base/error.hpp"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 
@@ -10,6 +11,7 @@ void throw_argument(std::string_view name, std::string_view expected, std::strin
   std::string text;
   text.append("`").append(name).append("`: expected ").append(expected);
   text.append(", got ").append(got);
+  std::replace(text.begin(), text.end(), '\0', '?');  // what() would end there
   throw std::invalid_argument(text);
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -12,10 +13,13 @@
 #include <utility>
 
 #include "bathyal/base/error.hpp"
+#include "bathyal/log/crc32.hpp"
 
 namespace bathyal {
 namespace {
 
+constexpr std::uint64_t kMessageHead = 22;  ///< bytes of a message's record before its data
+constexpr const char* kClosed = ": the log is closed";
 constexpr std::string_view kMagic("\x89MCAP0\r\n", 8);
 
 enum Op : std::uint8_t {
@@ -32,16 +36,28 @@ enum Op : std::uint8_t {
   kDataEnd = 0x0F,
 };
 
+static_assert(std::endian::native == std::endian::little, "numbers are written as in memory");
+
+/// Numbers one after another, little-endian.
+template <class... Numbers>
+std::array<char, (sizeof(Numbers) + ...)> packed(Numbers... values) {
+  std::array<char, (sizeof(Numbers) + ...)> bytes;
+  char* at = bytes.data();
+  ((std::memcpy(at, &values, sizeof values), at += sizeof values), ...);
+  return bytes;
+}
+
+template <std::size_t Size>
+void append(std::string& to, const std::array<char, Size>& bytes) {
+  to.append(bytes.data(), Size);
+}
+
 /// Little-endian numbers and texts with their lengths.
 class Bytes {
  public:
   template <class Number>
   Bytes& number(Number value) {
-    char raw[sizeof value];
-    for (std::size_t i = 0; i < sizeof value; ++i) {
-      raw[i] = static_cast<char>(static_cast<std::uint64_t>(value) >> (8 * i));
-    }
-    text_.append(raw, sizeof value);
+    append(text_, packed(value));
     return *this;
   }
   Bytes& text(std::string_view value) {
@@ -60,9 +76,8 @@ class Bytes {
 };
 
 void add_record(std::string& to, Op op, std::string_view content) {
-  Bytes head;
-  head.number(static_cast<std::uint8_t>(op)).number(static_cast<std::uint64_t>(content.size()));
-  to.append(head.get()).append(content);
+  append(to, packed(static_cast<std::uint8_t>(op), std::uint64_t{content.size()}));
+  to.append(content);
 }
 
 std::string record(Op op, std::string_view content) {
@@ -237,41 +252,6 @@ std::string read_records(std::string_view bytes, Known& known,
 
 }  // namespace
 
-std::uint32_t crc32(std::string_view bytes) {
-  // eight tables: eight bytes a step (Kounavis, Berry 2005)
-  static const auto kTables = [] {
-    std::array<std::array<std::uint32_t, 256>, 8> tables{};
-    for (std::uint32_t i = 0; i < 256; ++i) {
-      std::uint32_t value = i;
-      for (int bit = 0; bit < 8; ++bit)
-        value = (value >> 1U) ^ ((value & 1U) != 0 ? 0xEDB88320U : 0);
-      tables[0][i] = value;
-    }
-    for (std::size_t k = 1; k < 8; ++k) {
-      for (std::size_t i = 0; i < 256; ++i) {
-        const std::uint32_t before = tables[k - 1][i];
-        tables[k][i] = (before >> 8U) ^ tables[0][before & 0xFFU];
-      }
-    }
-    return tables;
-  }();
-  std::uint32_t crc = 0xFFFFFFFFU;
-  const auto* at = reinterpret_cast<const unsigned char*>(bytes.data());
-  std::size_t left = bytes.size();
-  for (; left >= 8; left -= 8, at += 8) {
-    std::uint32_t low = 0, high = 0;
-    std::memcpy(&low, at, 4);
-    std::memcpy(&high, at + 4, 4);
-    low ^= crc;
-    crc = kTables[7][low & 0xFFU] ^ kTables[6][(low >> 8U) & 0xFFU] ^
-          kTables[5][(low >> 16U) & 0xFFU] ^ kTables[4][low >> 24U] ^ kTables[3][high & 0xFFU] ^
-          kTables[2][(high >> 8U) & 0xFFU] ^ kTables[1][(high >> 16U) & 0xFFU] ^
-          kTables[0][high >> 24U];
-  }
-  for (; left > 0; --left, ++at) crc = (crc >> 8U) ^ kTables[0][(crc ^ *at) & 0xFFU];
-  return ~crc;
-}
-
 McapWriter::McapWriter(const std::string& path, std::size_t chunk_size)
     : path_(path), chunk_size_(chunk_size), file_(std::fopen(path.c_str(), "wb")) {
   if (!file_) throw Error(path_ + ": " + std::strerror(errno));
@@ -290,14 +270,18 @@ McapWriter::McapWriter(const std::string& path, McapWriterState state, std::size
   }
   std::filesystem::resize_file(path, state_.written, failed);
   if (failed) throw Error(path_ + ": " + failed.message());
+  has_messages_ = std::any_of(state_.index.begin(), state_.index.end(),
+                              [](const auto& one) { return !one.empty(); });
   file_.reset(std::fopen(path.c_str(), "ab"));
   if (!file_) throw Error(path_ + ": " + std::strerror(errno));
 }
 
 void McapWriter::put(std::string_view bytes) {
-  if (!file_) throw Error(path_ + ": the log is closed");
+  if (!file_) throw Error(path_ + kClosed);
   if (std::fwrite(bytes.data(), 1, bytes.size(), file_.get()) != bytes.size()) {
-    throw Error(path_ + ": " + std::strerror(errno));
+    const std::string reason = path_ + ": " + std::strerror(errno);
+    file_.reset();  // what is in the file is no longer what the state says: no save from here on
+    throw Error(reason);
   }
   state_.written += bytes.size();
 }
@@ -324,15 +308,14 @@ void McapWriter::write(std::uint16_t channel, std::uint64_t time, std::string_vi
   if (row >= state_.channels.size()) {
     throw_argument("channel", "one that was added", std::to_string(channel));
   }
-  const bool first = std::all_of(state_.index.begin(), state_.index.end(),
-                                 [](const auto& one) { return one.empty(); });
+  const bool first = !has_messages_;
+  has_messages_ = true;
   state_.first = first ? time : std::min(state_.first, time);
   state_.last = first ? time : std::max(state_.last, time);
   state_.index[row].emplace_back(time, state_.pending.size());
-  Bytes head;
-  head.number(static_cast<std::uint8_t>(kMessage)).number(std::uint64_t{22} + data.size());
-  head.number(channel).number(state_.sequence[row]++).number(time).number(time);
-  state_.pending.append(head.get()).append(data);
+  append(state_.pending, packed(std::uint8_t{kMessage}, kMessageHead + data.size(), channel,
+                                state_.sequence[row]++, time, time));
+  state_.pending.append(data);
   const bool none = state_.earliest == 0 && state_.latest == 0 && state_.counts[row] == 0;
   state_.earliest = none ? time : std::min(state_.earliest, time);
   state_.latest = std::max(state_.latest, time);
@@ -356,19 +339,19 @@ void McapWriter::finish_chunk() {
   put(frame.get());
   put(state_.pending);
   chunk.length = state_.written - chunk.start;
+  std::string index;
   for (std::size_t i = 0; i < state_.index.size(); ++i) {
     if (state_.index[i].empty()) continue;
     const auto id = static_cast<std::uint16_t>(i + 1);
-    chunk.index_offsets.emplace_back(id, state_.written);
-    Bytes entries;
-    for (const auto& [time, offset] : state_.index[i]) entries.number(time).number(offset);
-    Bytes bytes;
-    bytes.number(id).text(entries.get());
-    const std::string index = record(kMessageIndex, bytes.get());
-    put(index);
-    chunk.index_length += index.size();
+    chunk.index_offsets.emplace_back(id, state_.written + index.size());
+    const auto size = static_cast<std::uint32_t>(16 * state_.index[i].size());
+    append(index, packed(std::uint8_t{kMessageIndex}, std::uint64_t{6} + size, id, size));
+    for (const auto& [time, offset] : state_.index[i]) append(index, packed(time, offset));
     state_.index[i].clear();
   }
+  put(index);
+  chunk.index_length = index.size();
+  has_messages_ = false;
   state_.chunks.push_back(std::move(chunk));
   state_.pending.clear();
 }
@@ -379,7 +362,8 @@ void McapWriter::flush() {
 }
 
 void McapWriter::sync() {
-  if (file_ && std::fflush(file_.get()) != 0) throw Error(path_ + ": " + std::strerror(errno));
+  if (!file_) throw Error(path_ + kClosed);
+  if (std::fflush(file_.get()) != 0) throw Error(path_ + ": " + std::strerror(errno));
 }
 
 void McapWriter::close() {

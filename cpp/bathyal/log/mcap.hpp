@@ -56,13 +56,14 @@ class McapWriter {
   std::uint16_t add_schema(const McapSchema& schema);     ///< \return its id
   std::uint16_t add_channel(const McapChannel& channel);  ///< \return its id, from 1
 
-  /// \param time [ns], of channels of an id that was given
+  /// \param time [ns], of channels of an id that was given \throw Error where the disk is full
   void write(std::uint16_t channel, std::uint64_t time, std::string_view data);
 
   /// Closes the chunk that is open, so that a crash loses nothing before this moment.
   void flush();
 
-  /// What is written is in the file; the chunk that is open stays so.
+  /// What is written is in the file; the chunk that is open stays so. \throw Error where the disk
+  /// is full, or the log is closed or was not written to its end: its state is no file's then
   void sync();
 
   /// The last chunk, the summary and the end. \throw Error where the disk is full
@@ -81,6 +82,7 @@ class McapWriter {
   std::size_t chunk_size_;
   std::unique_ptr<std::FILE, Closer> file_;
   McapWriterState state_;
+  bool has_messages_ = false;  ///< the chunk that is open
 };
 
 /// A message as it is in a file.
@@ -95,8 +97,5 @@ struct McapMessage {
 /// empty for a whole file \throw Error for bytes that are no MCAP, or chunks that are compressed
 std::string read_mcap(std::string_view bytes,
                       const std::function<void(const McapMessage&)>& message);
-
-/// CRC-32 (ISO 3309), as zlib's.
-std::uint32_t crc32(std::string_view bytes);
 
 }  // namespace bathyal

@@ -60,7 +60,14 @@ class ByteReader {
 template <class Archive, class Value>
 requires(std::is_arithmetic_v<Value> || std::is_enum_v<Value>) void archive(Archive& a,
                                                                             Value& value) {
-  a.raw(&value, sizeof value);
+  if constexpr (std::is_same_v<Value, bool>) {  // no byte but 0 and 1 is one
+    auto byte = static_cast<std::uint8_t>(value);
+    a.raw(&byte, sizeof byte);
+    if (byte > 1) throw Error("a saved run that was changed");
+    value = byte == 1;
+  } else {
+    a.raw(&value, sizeof value);
+  }
 }
 
 template <class Archive, class Scalar, int Rows, int Cols, int Options>

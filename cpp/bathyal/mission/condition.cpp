@@ -19,19 +19,21 @@ constexpr int kMostBrackets = 50;
 struct Unit {
   std::string_view name;
   double factor;
+  std::string_view quantity;  ///< the unit that it is a multiple of
 };
-constexpr std::array<Unit, 12> kUnits{{{"m", 1.0},
-                                       {"cm", 0.01},
-                                       {"km", 1000.0},
-                                       {"s", 1.0},
-                                       {"min", 60.0},
-                                       {"h", 3600.0},
-                                       {"%", 0.01},
-                                       {"V", 1.0},
-                                       {"deg", M_PI / 180.0},
-                                       {"rad", 1.0},
-                                       {"m/s", 1.0},
-                                       {"A", 1.0}}};
+constexpr std::array<Unit, 13> kUnits{{{"m", 1.0, "m"},
+                                       {"cm", 0.01, "m"},
+                                       {"km", 1000.0, "m"},
+                                       {"s", 1.0, "s"},
+                                       {"min", 60.0, "s"},
+                                       {"h", 3600.0, "s"},
+                                       {"%", 0.01, "1"},
+                                       {"V", 1.0, "V"},
+                                       {"deg", M_PI / 180.0, "rad"},
+                                       {"rad", 1.0, "rad"},
+                                       {"m/s", 1.0, "m/s"},
+                                       {"A", 1.0, "A"},
+                                       {"kg", 1.0, "kg"}}};
 
 bool begins_word(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
 bool digit(char c) { return c >= '0' && c <= '9'; }
@@ -41,8 +43,9 @@ bool in_word(char c) { return begins_word(c) || digit(c) || c == '.'; }
 
 class Condition::Parser {
  public:
-  Parser(std::string_view text, std::span<const std::string> signals, std::vector<Step>& steps)
-      : text_(text), signals_(signals), steps_(steps) {}
+  Parser(std::string_view text, std::span<const std::string> signals,
+         std::span<const std::string> units, std::vector<Step>& steps)
+      : text_(text), signals_(signals), units_(units), steps_(steps) {}
 
   void parse() {
     any_of();
@@ -116,7 +119,7 @@ class Condition::Parser {
       if (!take(")")) fail("a closing bracket");
       return;
     }
-    value();
+    const std::string_view left = value();
     constexpr std::array<std::pair<std::string_view, Code>, 6> kSigns{{{"<=", Code::kLessEqual},
                                                                        {">=", Code::kGreaterEqual},
                                                                        {"==", Code::kEqual},
@@ -125,7 +128,13 @@ class Condition::Parser {
                                                                        {">", Code::kGreater}}};
     for (const auto& [sign, code] : kSigns) {
       if (!take(sign)) continue;
-      value();
+      skip();
+      const std::size_t from = at_;
+      const std::string_view right = value();
+      if (!left.empty() && !right.empty() && left != right) {
+        at_ = from;
+        fail(std::string("a quantity in ").append(left));
+      }
       steps_.push_back({code});
       return;
     }
@@ -134,55 +143,60 @@ class Condition::Parser {
     steps_.push_back({Code::kNotEqual});
   }
 
-  void value() {
+  /// \return the unit of its quantity; "" where that is not known
+  std::string_view value() {
     skip();
     const std::string_view name = word();
     if (name.empty()) return number();
     const auto found = std::find(signals_.begin(), signals_.end(), name);
     if (found == signals_.end()) fail("a signal that is known");
     at_ += name.size();
-    steps_.push_back({Code::kSignal, 0.0, static_cast<int>(found - signals_.begin())});
+    const auto row = found - signals_.begin();
+    steps_.push_back({Code::kSignal, 0.0, static_cast<int>(row)});
+    return units_.empty() ? std::string_view() : units_[static_cast<std::size_t>(row)];
   }
 
-  void number() {
+  std::string_view number() {
     double parsed = 0.0;
     const char* const begin = text_.data() + at_;
     const auto [end, error] = std::from_chars(begin, text_.data() + text_.size(), parsed);
     if (error != std::errc{} || !std::isfinite(parsed)) fail("a signal or a number");
     at_ += static_cast<std::size_t>(end - begin);
-    steps_.push_back({Code::kNumber, parsed * unit()});
+    const Unit of = unit();
+    steps_.push_back({Code::kNumber, parsed * of.factor});
+    return of.quantity;
   }
 
-  double unit() {
+  Unit unit() {
     skip();
-    const auto longest = [this]() -> const Unit* {
-      const Unit* best = nullptr;
-      for (const Unit& unit : kUnits) {
-        const std::size_t end = at_ + unit.name.size();
-        const bool whole = unit.name == "%" || end >= text_.size() || !in_word(text_[end]);
-        if (text_.substr(at_, unit.name.size()) != unit.name || !whole) continue;
-        if (best == nullptr || unit.name.size() > best->name.size()) best = &unit;
-      }
-      return best;
-    }();
-    if (longest == nullptr) return 1.0;
-    at_ += longest->name.size();
-    return longest->factor;
+    Unit longest{"", 1.0, ""};
+    for (const Unit& unit : kUnits) {
+      const std::size_t end = at_ + unit.name.size();
+      const bool whole = unit.name == "%" || end >= text_.size() || !in_word(text_[end]);
+      if (text_.substr(at_, unit.name.size()) != unit.name || !whole) continue;
+      if (unit.name.size() > longest.name.size()) longest = unit;
+    }
+    at_ += longest.name.size();
+    return longest;
   }
 
   std::string_view text_;
-  std::span<const std::string> signals_;
+  std::span<const std::string> signals_, units_;
   std::vector<Step>& steps_;
   std::size_t at_ = 0;
   int depth_ = 0;
 };
 
-Condition::Condition(std::string_view text, std::span<const std::string> signals)
+Condition::Condition(std::string_view text, std::span<const std::string> signals,
+                     std::span<const std::string> units)
     : text_(text), signal_count_(signals.size()) {
   if (text.size() > kLongest) {
     throw_argument("condition", "at most 1000 characters", std::to_string(text.size()));
   }
-  Parser(text_, signals, steps_).parse();
+  if (!units.empty() && units.size() != signals.size()) {
+    throw_argument("units", "one a signal", std::to_string(units.size()));
+  }
+  Parser(text_, signals, units, steps_).parse();
 }
 
 bool Condition::holds(std::span<const double> values) const {

@@ -13,9 +13,14 @@ namespace bathyal {
 class Condition {
  public:
   /// \param signals names that it may use, each its row
+  /// \param units of the signals: m, s, rad, m/s, V, A, kg, or 1 for a share or a count; with them
+  ///        a signal is compared with its own quantity, or with a number without a unit. None: not
+  ///        checked.
   /// \throw std::invalid_argument with the column (from 1) of what is not understood, for a signal
-  ///        that is not known, and for more than 1 000 characters.
-  Condition(std::string_view text, std::span<const std::string> signals);
+  ///        that is not known or compared with another quantity, and for more than 1 000
+  ///        characters.
+  Condition(std::string_view text, std::span<const std::string> signals,
+            std::span<const std::string> units = {});
 
   /// \param values of the signals; one that is NaN makes a comparison false
   bool holds(std::span<const double> values) const;

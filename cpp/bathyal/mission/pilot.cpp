@@ -9,6 +9,9 @@
 namespace bathyal {
 namespace {
 
+constexpr double kSteepest = 0.2;  ///< climb over way of a cruise that changes its depth
+constexpr double kRamp = 0.5;      ///< further off its height it is on a way of its own [m]
+
 double wrapped(double angle) { return std::remainder(angle, 2.0 * M_PI); }
 
 double heading_of(const Pose& pose) { return std::atan2(pose.linear()(1, 0), pose.linear()(0, 0)); }
@@ -123,10 +126,17 @@ void Pilot::step_cruise(PilotState& state, const VehicleState& estimated, const 
     aim.heading = ahead.norm() > options_.lookahead ? std::atan2(ahead.y(), ahead.x())
                                                     : heading_of(estimated.world_from_vehicle);
   }
-  state.z = moved_towards(state.z, target.z, options_.climb_speed * time);
-  aim.z = state.z;
   Vec6 relative = estimated.velocity;
   relative.head<3>() -= estimated.world_from_vehicle.linear().transpose() * current;
+  // Asked for more than its way allows, a slow vehicle noses down until its planes stall.
+  const double ahead_speed = std::max(0.1, relative.x());
+  const double slope = std::min(kSteepest, options_.climb_speed / ahead_speed);
+  const double z = estimated.world_from_vehicle.translation().z();
+  state.z = std::clamp(moved_towards(state.z, target.z, slope * ahead_speed * time),
+                       z - options_.most_ahead, z + options_.most_ahead);
+  aim.z = state.z;
+  const double off = target.z - state.z;
+  aim.climb = std::abs(off) > kRamp ? std::copysign(slope, off) : target.climb;
   const CruiseOutput output = cruise_->step(state.cruise, estimated, relative, aim, time);
   commands.fins[static_cast<std::size_t>(options.rudder)] = output.rudder;
   commands.fins[static_cast<std::size_t>(options.stern_plane)] = output.stern_plane;

@@ -34,6 +34,7 @@ struct PilotTarget {
   Eigen::Vector2d from = Eigen::Vector2d::Zero();
   Eigen::Vector2d to = Eigen::Vector2d::Zero();
   double z = 0.0;                      ///< of the vehicle's origin [m]
+  double climb = 0.0;                  ///< of the path at z, height over way; of a cruise
   std::optional<double> heading = {};  ///< [rad]; unset: along the line
   double speed = 0.5;                  ///< [m/s]
   bool moves = false;                  ///< along the line; else at `to`

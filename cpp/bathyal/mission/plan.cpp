@@ -180,4 +180,11 @@ std::vector<std::string> mission_signals(const VehicleSystemOptions& vehicle,
   return names;
 }
 
+std::vector<std::string> mission_units(const std::vector<std::string>& signals) {
+  std::vector<std::string> units{"s",   "m",   "m", "m", "m", "m",  "rad", "rad",
+                                 "rad", "m/s", "1", "V", "A", "kg", "m",   "s"};
+  units.resize(signals.size(), "1");  // faults
+  return units;
+}
+
 }  // namespace bathyal

@@ -122,6 +122,9 @@ struct MissionPlan {
 std::vector<std::string> mission_signals(const VehicleSystemOptions& vehicle,
                                          const std::vector<SensorOptions>& sensors);
 
+/// Units of these signals, as Condition takes them.
+std::vector<std::string> mission_units(const std::vector<std::string>& signals);
+
 /// The first signals, in the order of mission_signals.
 enum class Signal : std::uint8_t {
   kTime,         ///< [s]

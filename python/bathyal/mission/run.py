@@ -299,8 +299,8 @@ def run(
         Where the folder cannot be written.
     Error
         For a mission that cannot be read, a motion that runs away, a saved state of another run, a
-        port that is taken, a program that does not answer, a full disk, or a folder in which
-        another program runs a mission.
+        port that is taken, a program that does not answer, a folder in which another program runs
+        a mission, or a full disk: with `resume` and more room it ends with the same bytes.
     ValueError
         For a speed that is not above 0, or `inputs` with `replay`.
 
@@ -463,5 +463,10 @@ def _saved(folder: Path) -> bytes | None:
 
 
 def _write(path: Path, content: bytes) -> None:
-    with replacing(path) as temporary:
-        Path(temporary).write_bytes(content)
+    try:
+        with replacing(path) as temporary:
+            Path(temporary).write_bytes(content)
+    except OSError as error:
+        if error.filename is not None:
+            raise
+        raise Error(f"{shown(path)}: {error.strerror}") from error  # a full disk names no file

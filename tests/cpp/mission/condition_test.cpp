@@ -28,6 +28,27 @@ TEST(Condition, ComparesSignalsWithNumbersAndUnits) {
   EXPECT_TRUE(holds("depth == 41 and depth != 40", values));
 }
 
+TEST(Condition, ASignalIsComparedWithItsOwnQuantity) {
+  const std::vector<std::string> units{"m", "1", "kg", "1", "rad"};
+  for (const char* text : {"depth > 40 m", "depth > 40 cm", "depth > 40", "40 km > depth",
+                           "battery < 20 %", "leak > 1 kg", "fault.thruster_1 == battery"}) {
+    EXPECT_NO_THROW(Condition(text, kNames, units)) << text;
+  }
+  for (const char* text : {"depth > 40 s", "depth > 40 deg", "40 s < depth", "battery < 20 V",
+                           "depth > battery", "heading > 1 m and leak", "40 m > 40 s"}) {
+    EXPECT_THROW(Condition(text, kNames, units), std::invalid_argument) << text;
+  }
+  try {
+    const Condition condition("leak or depth > 3 s", kNames, units);
+    FAIL();
+  } catch (const std::invalid_argument& error) {
+    EXPECT_STREQ(
+        error.what(),
+        "`condition`: expected a quantity in m, got '3 s' at column 17 of 'leak or depth > "
+        "3 s'");
+  }
+}
+
 TEST(Condition, AndBindsMoreTightlyThanOr) {
   const std::vector<double> values{1.0, 0.0, 0.0, 1.0, 0.0};
   EXPECT_TRUE(holds("depth == 1 or leak == 1 and battery == 1", values));
@@ -51,7 +72,7 @@ TEST(Condition, MistakesAreReportedByColumn) {
       {"depth > 3 or", "column 13"},
       {"(depth > 3", "column 11"},
       {"depth > 3)", "column 10"},
-      {"depth > 3 kg", "column 11"},
+      {"depth > 3 lb", "column 11"},
       {"depth > nan", "column 9"},
       {"depth > inf", "column 9"},
       {"3", "column 2"},

@@ -185,6 +185,26 @@ def test_remus_runs_a_survey_near_the_bottom(tmp_path):
     assert run.metrics["distance"] > 400.0
 
 
+@pytest.mark.parametrize("seed", [1, 2, 3])
+def test_remus_keeps_three_metres_over_an_uneven_bottom(tmp_path, seed):
+    path = tmp_path / "mission.yaml"
+    path.write_text(
+        "world: {water: {surface: 0},"
+        " terrain: {seabed: {size: [500, 200], spacing: 2, depth: 25, relief_rms: 0.5}}}\n"
+        "vehicle: {preset: remus100}\n"
+        "start: {position: [-200, 0, -2]}\n"
+        "mission:\n"
+        "  - leg: {to: [-110, 0], depth: 10 m, speed: 1.5 m/s, tolerance: 5 m}\n"
+        "  - follow: {points: [[150, 0], [150, 40], [-110, 40]], altitude: 3 m, speed: 1.5 m/s,"
+        " tolerance: 8 m}\n"
+    )
+    run = bathyal.run(path, seed=seed)
+    assert run.status == "done"
+    assert run.metrics["least_altitude"] > 2.0
+    altitude = run.log.messages("/state")["altitude"]
+    assert np.median(altitude[len(altitude) // 3 :]) < 4.5
+
+
 @pytest.mark.parametrize(
     ("old", "new", "message"),
     [
@@ -254,6 +274,69 @@ def test_a_full_disk_is_an_error(short, tmp_path):
     (tmp_path / "run" / "log.mcap").symlink_to("/dev/full")
     with pytest.raises(bathyal.Error, match=r"log\.mcap: No space left on device"):
         bathyal.run(short, seed=1, out=tmp_path / "run")
+
+
+LIMITED = """\
+import resource, sys, bathyal
+if sys.argv[3]:
+    resource.setrlimit(resource.RLIMIT_FSIZE, (int(sys.argv[3]),) * 2)
+bathyal.run(sys.argv[1], seed=3, out=sys.argv[2], resume=True, save_every=2.0)
+"""
+
+
+def limited(mission, out, size):
+    """What a program says that may write files of `size` bytes, None: of any."""
+    command = [sys.executable, "-c", LIMITED, str(mission), str(out), str(size or "")]
+    return subprocess.run(command, capture_output=True, text=True).stderr
+
+
+def test_a_run_whose_disk_was_full_is_resumed_to_the_same_bytes(short, tmp_path):
+    bathyal.run(short, seed=3, out=tmp_path / "whole")
+    end = (tmp_path / "whole" / "log.mcap").stat().st_size
+    for size in (end // 5, end // 2, end - 1):
+        assert "bathyal._core.Error: " + str(tmp_path / "full" / "log.mcap") in limited(
+            short, tmp_path / "full", size
+        )
+        assert not (tmp_path / "full" / "run.json").exists()
+    assert limited(short, tmp_path / "full", None) == ""
+    assert files_of(tmp_path / "whole") == files_of(tmp_path / "full")
+
+
+def test_a_disk_that_is_full_when_the_state_is_saved_is_named(tmp_path):
+    path = tmp_path / "mission.yaml"
+    path.write_text(
+        "world: {water: {surface: 0}, terrain: {seabed: {size: [60, 60], spacing: 1, depth: 10}}}\n"
+        "vehicle: {preset: bluerov2_heavy}\n"
+        "sensors: [{kind: depth, rate: 1}, {kind: imu, rate: 10}, {kind: dvl, rate: 1},"
+        " {kind: compass, rate: 1}]\nmission: [wait: {time: 15 s}]\n"
+    )
+    assert "bathyal._core.Error: " + str(tmp_path / "full" / "state.bin") in limited(
+        path, tmp_path / "full", 30_000
+    )
+
+
+def test_a_log_that_was_not_written_is_not_gone_on_with(short, tmp_path):
+    (tmp_path / "log.mcap").symlink_to("/dev/full")
+    going = bathyal.Run(short, seed=1, log=tmp_path / "log.mcap")
+    with pytest.raises(bathyal.Error, match="No space left"):
+        going.step(count=10_000)
+    with pytest.raises(bathyal.Error, match=r"log\.mcap: the log is closed"):
+        going.save()
+
+
+def test_of_two_programs_that_resume_a_run_one_is_refused(short, tmp_path):
+    out, said = tmp_path / "run", []
+
+    def another(_time):
+        said.append(limited(short, out, None))
+
+    result = bathyal.run(short, seed=3, out=out, save_every=5.0, progress=another)
+    assert result.status == "done"
+    assert said
+    assert all(f"Error: {out}: another program runs a mission in it" in text for text in said)
+    whole = bathyal.run(short, seed=3, out=tmp_path / "whole")
+    assert whole.status == "done"
+    assert files_of(out) == files_of(tmp_path / "whole")
 
 
 def with_sampler(tmp_path, fault):

@@ -89,9 +89,6 @@ def test_a_heavy_body_sinks_by_its_weight_in_water():
     assert body.acceleration(STILL, np.zeros(6))[2] == pytest.approx(wanted, rel=1e-9)
 
 
-@pytest.mark.xfail(
-    strict=True, reason="a current given as a function speeds up and its acceleration counts as 0"
-)
 def test_a_neutral_ball_in_water_that_speeds_up_goes_with_it():
     neutral = 1025 * 4 / 3 * np.pi * 0.3**3
     body = ball(mass=neutral, volume=neutral / 1025)
@@ -100,6 +97,17 @@ def test_a_neutral_ball_in_water_that_speeds_up_goes_with_it():
     )
     # Taylor 1928: (m + m_A) dv/dt = (ρV + m_A) du/dt: a neutral body goes with the water.
     assert motion.velocity[-1, 0] == pytest.approx(0.4, abs=2e-3)
+
+
+@pytest.mark.parametrize("jump", [0.503, 0.5061])
+def test_a_neutral_ball_in_water_that_starts_at_once_goes_with_it(jump):
+    neutral = 1025 * 4 / 3 * np.pi * 0.3**3
+    body = ball(mass=neutral, volume=neutral / 1025)
+    motion = body.simulate(
+        STILL, np.zeros(6), 1.0, current=lambda point, time: np.array([0, 0.3 * (time > jump), 0])
+    )
+    assert motion.velocity[-1, 1] == pytest.approx(0.3, rel=1e-6)
+    assert np.ptp(motion.velocity[60:, 1]) < 1e-9
 
 
 @pytest.mark.parametrize("force", [3.86, 0.5, 30.0])

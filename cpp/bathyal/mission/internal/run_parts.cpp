@@ -12,7 +12,8 @@
 namespace bathyal {
 namespace {
 
-constexpr double kArmBehind = 1.0;  ///< that an arm is behind its plan, to be reported [s]
+constexpr double kChartSteepest = 0.15;  ///< of the path over the bottom ahead, height over way
+constexpr double kArmBehind = 1.0;       ///< that an arm is behind its plan, to be reported [s]
 constexpr double kSilence = 0.5;    // of a velocity log or compass, before it is done without [s]
 constexpr double kModelWalk = 0.5;  // of the position, reckoned by the vehicle's model [m/√s]
 constexpr double kTelemetryNoise = 0.005;  // share of a propeller's speed as its motor reports it
@@ -446,16 +447,42 @@ void MissionRun::Parts::stop(int leaf) {
   emit("command", plan->commands[static_cast<std::size_t>(leaf)].name + " is interrupted");
 }
 
-double MissionRun::Parts::height_of(const MissionCommand& command) const {
+void MissionRun::Parts::aim_at_height(const MissionCommand& command) {
   const double surface = plan->water.surface().value_or(0.0);
-  if (command.depth) return surface - *command.depth;
-  if (command.altitude) {
-    const double measured = state.signals[static_cast<std::size_t>(Signal::kAltitude)];
-    const double z = estimated().world_from_vehicle.translation().z();
-    if (!std::isnan(measured)) return std::min(z - measured + *command.altitude, surface);
-    return z;
+  state.target.climb = 0.0;
+  if (command.depth) state.target.z = surface - *command.depth;
+  if (!command.altitude) return;
+  const double measured = state.signals[static_cast<std::size_t>(Signal::kAltitude)];
+  const Vec3 place = estimated().world_from_vehicle.translation();
+  if (std::isnan(measured)) {
+    state.target.z = place.z();
+    return;
   }
-  return state.target.z;
+  const double bottom = place.z() - measured;
+  const std::optional<BottomFollowOutput> path = path_ahead(*command.altitude, place, bottom);
+  state.target.z = std::min(path ? path->z : bottom + *command.altitude, surface);
+  if (path) state.target.climb = path->climb;
+}
+
+/// A vehicle with planes cannot climb at once: it follows the chart ahead, which is the world's
+/// terrain at the start, raised to the bottom that the altimeter has found below.
+std::optional<BottomFollowOutput> MissionRun::Parts::path_ahead(double altitude, const Vec3& place,
+                                                                double bottom) const {
+  const Eigen::Vector2d line = state.target.to - state.target.from;
+  if (!pilot.cruises() || !state.target.moves || line.isZero()) return std::nullopt;
+  const double top = plan->water.surface().value_or(place.z());
+  const auto chart = [&](double x, double y) { return top - altitude_at({x, y, top}); };
+  const double here = chart(place.x(), place.y());
+  if (std::isnan(here)) return std::nullopt;
+  BottomFollowOptions options;
+  options.altitude = altitude;
+  options.steepest = std::min(kChartSteepest, pilot.options().climb_speed / state.target.speed);
+  options.spacing = 1.0;
+  const double heading = std::atan2(line.y(), line.x());
+  return follow_bottom(options, place, heading, [&](double x, double y) {
+    const double height = chart(x, y);
+    return std::isnan(height) ? bottom : height + bottom - here;
+  });
 }
 
 bool MissionRun::Parts::held_for(LeafState& leaf, bool within, double seconds) const {
@@ -539,7 +566,7 @@ NodeStatus MissionRun::Parts::update(int leaf) {
   const MissionCommand& command = plan->commands[static_cast<std::size_t>(leaf)];
   LeafState& own = state.leaves[static_cast<std::size_t>(leaf)];
   NodeStatus found = NodeStatus::kSuccess;
-  state.target.z = height_of(command);
+  aim_at_height(command);
   switch (command.kind) {
     case CommandKind::kWait:
     case CommandKind::kHold:

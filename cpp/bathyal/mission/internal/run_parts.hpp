@@ -74,7 +74,9 @@ struct MissionRun::Parts final : TreeLeaves {
   void record();
   double altitude_at(const Vec3& point) const;
   SensorTruth truth(double at, const Vec6& acceleration) const;
-  double height_of(const MissionCommand& command) const;
+  void aim_at_height(const MissionCommand& command);
+  std::optional<BottomFollowOutput> path_ahead(double altitude, const Vec3& place,
+                                               double bottom) const;
   NodeStatus follow(const MissionCommand& command, LeafState& leaf);
   NodeStatus reach_height(const MissionCommand& command, LeafState& leaf);
   bool has_fault(std::string_view device, FaultKind kind) const;

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "bathyal/log/mcap.hpp"
+#include "bathyal/log/crc32.hpp"
 #include "bathyal/mission/archive.hpp"
 #include "bathyal/navigation/navigation_state_bytes.hpp"
 
@@ -70,7 +70,7 @@ void archive(A& a, std::optional<double>& value) {
 }
 template <class A>
 void archive(A& a, PilotTarget& s) {
-  a(s.from, s.to, s.z, s.heading, s.speed, s.moves);
+  a(s.from, s.to, s.z, s.climb, s.heading, s.speed, s.moves);
 }
 template <class A>
 void archive(A& a, TreeState& s) {
