@@ -35,9 +35,9 @@ constexpr double kOrderStep = 1e-4;     ///< relative
 void ArmModel::fit(const std::vector<int>& terms) {
   for (int round = 0; round < kOrderRounds; ++round) {
     fit_at_settings(terms);
-    // Orders are those of the last fit: an order that moved after it would be another effect.
-    if (round + 1 == kOrderRounds || !update_orders()) break;
+    if (!update_orders()) return;
   }
+  fit_at_settings(terms);  // at the orders that moved last
 }
 
 /// A Gauss–Newton step for the orders of active waves, given all else that is fitted.
