@@ -8289,16 +8289,19 @@ class Effect:
     name : str
         As diagnosis will name it.
     function : callable
-        ``function(data, joint)`` of site "joint", else ``function(data)``; `data` is an EffectRows.
-        Gives what a unit of each parameter does in each row: (N, k) of the sites "joint" [rad or m]
-        and "lengths" [share], (N, k, 6) of "base" and "tool" (shift x, y, z [m], then turn x, y, z
-        [rad] in that frame). Of one parameter (N,) and (N, 6) do as well.
+        ``function(data, joint)`` of the sites "joint" and "link", else ``function(data)``; `data` is an
+        EffectRows. Gives what a unit of each parameter does in each row: (N, k) of the sites "joint"
+        [rad or m] and "lengths" [share], (N, k, 6) of "link", "base" and "tool" (shift x, y, z [m],
+        then turn x, y, z [rad], in that frame; all that lies beyond moves along). Of one parameter (N,)
+        and (N, 6) do as well.
     parameters : dict of str to str
         Name to unit of each.
     joints : "each" or list of int, optional
-        Of site "joint": which it may sit in, counted from 0.
+        Of the sites "joint" and "link": which it may sit in, counted from 0.
     site : str
-        What it moves: "joint", "base", "tool" or "lengths" (all a and d of the arm).
+        What it moves: "joint", "link" (the frame of the link that the joint moves, which is also that
+        of ``forward(q, links=True)``; small turns), "base", "tool" or "lengths" (all a and d of the
+        arm).
     needs : list of str
         Covariates without which it is not observable.
     words, formula, source : str
@@ -8532,8 +8535,9 @@ class CorrectedArm:
     An effect that needs a missing one is omitted with the warning where no covariates are given at all,
     and refused where some are. `payload` defaults to 0 kg and `gravity` to (0, 0, −9.80665) m/s² in the
     base frame of the arm. A base that moved and a tool that was changed follow `session`; a tool that
-    slipped follows `time`, and without it has slipped; a clock shift follows the speeds between rows by
-    `time`, and without it joints are at rest.
+    slipped follows `time`, without it `row` (the place in the record of the training data, counted from
+    0), and without either has slipped; a clock shift follows the speeds between rows by `time`, and
+    without it joints are at rest.
     
     Parameters
     ----------
@@ -8547,7 +8551,7 @@ class CorrectedArm:
     ------
     ValueError
         For an effect whose values or settings do not fit the arm, or that needs a covariate that `data`
-        does not have.
+        does not have; for one that acts by weight on an arm without masses that carried nothing.
     
     Examples
     --------
@@ -9681,6 +9685,11 @@ class Diagnosis:
         Standard deviation per axis [m].
         """
     @property
+    def noise_is_measured(self) -> bool:
+        """
+        Whether repeats of poses give the noise; otherwise it is what the model itself leaves.
+        """
+    @property
     def noise_source(self) -> str:
         """
         What the noise was estimated from.
@@ -10099,6 +10108,9 @@ def diagnose(arm: Arm, data: Touches | Tracked, *, effects: collections.abc.Iter
         Of the geometry, as in `identify_arm`.
     fixed : list of str
         Names of geometric parameters to hold at nominal.
+    length_prior : float, optional
+        The maker's tolerance: standard deviation of every a and d about nominal [m], as of
+        `identify_arm`. None: no prior.
     blocks : int
         Number of folds of the cross-validation, 3 to 50.
     groups : (N,) array of int or str, optional

@@ -135,7 +135,7 @@ LIBRARY: dict[str, tuple[float, list[str], Callable[[np.random.Generator, Poses]
     "joint_compliance": (1.5, ["masses"], _joint_compliance),
     "link_compliance": (1.0, ["masses"], _link_compliance),
     "base_compliance": (0.7, ["masses"], _base_compliance),
-    "payload": (0.7, ["masses", "payload"], _payload),
+    "payload": (0.7, [], _payload),
     "base_shift": (1.0, ["session"], _base_shift),
     "tool_change": (1.0, ["session"], _tool_change),
     "tool_slip": (1.0, [], _tool_slip),

@@ -174,8 +174,7 @@ class UnknownPayload final : public Effect {
   EffectInfo info() const override {
     return {
         "payload",
-        "a mass at the tool that was not recorded, in addition to a recorded payload that changes, "
-        "on joints that yield",
+        "joints that give way under load, as by a mass at the tool that was not recorded",
         "q'_j = q_j + mass_compliance_j · τ_j(1 kg at the tool centre point), all turning joints",
         "Khalil, Besnard: Geometric calibration of robots with flexible joints and links, 2002",
         {},
@@ -186,12 +185,6 @@ class UnknownPayload final : public Effect {
   }
 
   std::vector<EffectVariant> variants(const EffectData& data) const override {
-    // While the load stays the same, its torques are part of what makes joints give way: an unknown
-    // mass of the links explains them as well. One that changes separates compliance and load, and
-    // known masses what is missing from the load.
-    const bool separable =
-        masses_known(*data.arm) && data.has("payload") && varies(data.covariate("payload").col(0));
-    if (!separable) return {};
     const GravityLoads loads = of_one_kilogram(data);
     EffectVariant variant{"payload", -1, {}, {}, "payload"};
     for (int j = 0; j < static_cast<int>(data.q.cols()); ++j) {

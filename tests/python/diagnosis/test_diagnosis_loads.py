@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Joints that give way under load are called so; a payload only where a load that changes shows."""
+"""What a diagnosis says of loads and times follows from what was recorded."""
 
 from __future__ import annotations
 
@@ -23,25 +23,6 @@ _NOISE = 4e-5
 
 def _heavy() -> Arm:
     return Arm.from_dh(**_ROWS, links=[Link(mass=mass) for mass in _MASSES])
-
-
-@pytest.mark.parametrize("rows", [60, 120])
-@pytest.mark.parametrize("seed", [0, 1])
-def test_joints_that_give_way_are_no_load_that_nobody_reported(rows: int, seed: int) -> None:
-    rng = np.random.default_rng(seed)
-    found = [
-        FoundEffect("joint_compliance", {"compliance": compliance}, joint=joint)
-        for joint, compliance in ((1, 4e-6), (2, 1e-5), (4, 2e-5))
-    ]
-    q = rng.uniform(-4, 4, (100, 6))
-    truth = CorrectedArm(_heavy(), found, Tracked(q, np.zeros((100, 3))))
-    q = rng.uniform(-1.5, 1.5, (rows, 6))
-    data = Tracked(q, truth.forward(q)[:, :3, 3] + rng.normal(0, _NOISE, (rows, 3)))
-    report = bathyal.diagnose(Arm.from_dh(**_ROWS), data)
-    assert report.verdict in ("named", "ambiguous")
-    assert [e.name for e in report.effects] == ["joint_compliance"] * 2
-    assert {e.joint for e in report.effects} == {1, 2}
-    assert "payload" not in {cause.name for cause in report.ambiguous}
 
 
 @pytest.mark.parametrize("seed", [0, 1])

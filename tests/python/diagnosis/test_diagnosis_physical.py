@@ -46,22 +46,6 @@ def test_columns_that_are_nothing_get_no_values(seed: int) -> None:
     assert report.held_out.rms_after <= report.held_out.rms_before
 
 
-@pytest.mark.parametrize("seed", [0, 1])
-def test_directions_that_the_data_do_not_determine_stay_near_nominal(seed: int) -> None:
-    """A wrist that moves by a milliradian says next to nothing of lengths and tool."""
-    rng = np.random.default_rng(seed)
-    q = rng.uniform(-1.5, 1.5, (100, 6))
-    q[:, 3:] = 0.3 + rng.uniform(-1e-3, 1e-3, (100, 3))
-    turned = q.copy()
-    turned[:, 1] += 1e-3 * np.cos(2 * q[:, 1])
-    tips = _ARM.forward(turned)[:, :3, 3] + rng.normal(0, 5e-4, (100, 3))
-    report = bathyal.diagnose(_ARM, bathyal.Tracked(q, tips))
-    found, drawn = report.model.arm.to_dh(), _ARM.to_dh()
-    assert np.abs(found.a - drawn.a).max() < 0.1  # 0.41 where nothing holds them
-    assert np.abs(found.d - drawn.d).max() < 0.1
-    assert np.linalg.norm(report.model.arm.tool[:3, 3]) < 0.15
-
-
 def test_a_tool_that_left_the_room_is_reported() -> None:
     rng = np.random.default_rng(0)
     q = rng.uniform(-1.5, 1.5, (100, 6))

@@ -208,7 +208,7 @@ def test_an_interrupt_inside_a_function_is_no_error_of_the_effect() -> None:
         ({"joints": "all"}, '"each" or a list'),
         ({"joints": [-1]}, "joints from 0"),
         ({"site": "base"}, "`joints` where its site"),
-        ({"site": "wrist"}, '"joint" or "base" or "tool" or "lengths"'),
+        ({"site": "wrist"}, '"joint" or "link" or "base" or "tool" or "lengths"'),
         ({"scales": {"size": 0.0}}, "above 0"),
     ],
 )

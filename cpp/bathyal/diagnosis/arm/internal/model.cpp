@@ -24,8 +24,6 @@ constexpr double kMinSingularValue = 1e-5;  ///< of the largest singular value, 
 constexpr double kOrdinaryMove = 1e-3;      ///< [m]
 constexpr double kRounding = 1e-7;
 constexpr int kMomentsNear = 8;       ///< on either side
-constexpr double kRowMiss = 0.03;     ///< [m] or [rad] of a row: farther off than any maker is
-constexpr double kToolMiss = 1.0;     ///< [m] of a tool, from where the search starts
 constexpr double kNothing = 1e-10;    ///< of an effect's largest perturbation: rounding
 constexpr double kPlausible = 100.0;  ///< of a parameter's scale, where the effect gives none
 /// Of the residual degrees of freedom, that one effect may use: beyond a third, the penalty of
@@ -98,21 +96,6 @@ void ArmModel::free_observable_directions() {
   const RankReport rank =
       numerical_rank(qr_factor(derivatives(x_), system.num_threads()), kMinSingularValue);
   observable_ = rank.directions.leftCols(rank.rank);
-  hold_weak_directions();
-}
-
-/// Directions that the data hardly determine would run off, by lengths of metres that cancel. No
-/// maker misses by so much: weak priors about nominal, which matter in no other direction.
-void ArmModel::hold_weak_directions() {
-  for (const int c : base_free_) {
-    Parameter& parameter = problem_.parameters.parameters[static_cast<std::size_t>(c)];
-    const ParameterSlot& place = problem_.parameters.slots[static_cast<std::size_t>(c)];
-    const bool tool = place.kind == ParameterKind::kToolShift;
-    if (parameter.prior_std != Parameter::kNoPrior || !(tool || is_row(place))) continue;
-    parameter.prior_std = tool ? kToolMiss : kRowMiss;
-    ++weak_priors_;
-  }
-  problem_.system->set_free(base_free_);
 }
 
 void ArmModel::gather_data(const Covariates& covariates) {

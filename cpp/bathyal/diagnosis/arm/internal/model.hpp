@@ -113,7 +113,6 @@ class ArmModel final : public selection::Model {
   using Family = std::pair<std::string, int>;  ///< an effect in a joint: one prior scale
   Family family_of(int term) const { return {terms_[term].effect, terms_[term].joint}; }
   void free_observable_directions();
-  void hold_weak_directions();
   void find_largest(const Effect& effect, const std::vector<EffectVariant>& variants);
   void silence(const Effect& effect, const EffectVariant& variant,
                std::vector<std::vector<Perturbation>>& perturbations) const;
@@ -184,8 +183,7 @@ class ArmModel final : public selection::Model {
   std::size_t geometry_ = 0;    ///< number of parameters that are not effects'
   std::vector<int> base_free_;  ///< of them, those that are fitted
   Eigen::MatrixXd observable_;  ///< (free, k) orthonormal: directions that data or priors determine
-  Index weak_priors_ = 0;       ///< rows of priors that hold what these data hardly determine
-  /// Of effects without a plausible size: the largest rms of a perturbation, by unit.
+  /// Of effects without a plausible size: the norm of the largest perturbation, by unit.
   std::map<const Effect*, std::map<std::string, double>> largest_;
   std::vector<int> active_;                ///< active set of the last `fit`
   std::map<Family, double> prior_scales_;  ///< of large families, estimated by the evidence

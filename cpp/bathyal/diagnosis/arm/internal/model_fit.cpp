@@ -35,9 +35,9 @@ constexpr double kOrderStep = 1e-4;     ///< relative
 void ArmModel::fit(const std::vector<int>& terms) {
   for (int round = 0; round < kOrderRounds; ++round) {
     fit_at_settings(terms);
-    // Orders are those of the last fit: an order that moved after it would be another effect.
-    if (round + 1 == kOrderRounds || !update_orders()) break;
+    if (!update_orders()) return;
   }
+  fit_at_settings(terms);  // at the orders that moved last
 }
 
 /// A Gauss–Newton step for the orders of active waves, given all else that is fitted.
@@ -319,8 +319,8 @@ void ArmModel::linearize_at(const Eigen::VectorXd& x) {
   linearization_.jacobian.leftCols(seen) =
       product(jacobian.leftCols(wide), observable_, system.num_threads());
   linearization_.observation.assign(static_cast<std::size_t>(rows), -1);
-  // Prior rows of effects, and those of weak priors, measure nothing.
-  linearization_.constrained_dof = static_cast<double>(system.columns() - wide + weak_priors_);
+  // Prior rows of effects measure nothing.
+  linearization_.constrained_dof = static_cast<double>(system.columns() - wide);
   linearization_.noise_rows = system.position_rows();
   for (Index i = 0; i < m_.rows(); ++i) {
     const bool plane = !m_.tracked && m_.plane[i] >= 0;
