@@ -40,7 +40,8 @@ const EnumNames<Dependence::Kind>& kind_names() {
   static const EnumNames<Kind> names{{"none", Kind::kNone},       {"position", Kind::kPosition},
                                      {"joints", Kind::kJoints},   {"time", Kind::kTime},
                                      {"order", Kind::kOrder},     {"approach", Kind::kApproach},
-                                     {"session", Kind::kSession}, {"covariate", Kind::kCovariate}};
+                                     {"session", Kind::kSession}, {"covariate", Kind::kCovariate},
+                                     {"range", Kind::kRange}};
   return names;
 }
 
@@ -52,7 +53,7 @@ void bind_structure(py::module_& module) {
           kKindDoc)
       .def_property_readonly(
           "coordinates", [](const Structure& s) { return s.dependence.coordinates; },
-          "Of kind \"joints\" (one or two) and \"approach\" (one): the joints' coordinates, from "
+          "Of kind \"joints\" (one, two or all) and \"approach\" (one): the joints' coordinates, from "
           "0.")
       .def_property_readonly(
           "period", [](const Structure& s) { return s.dependence.period; },

@@ -14,7 +14,7 @@ inline constexpr const char* kStructureDoc =
     R"(A lack-of-fit test: a dependence of the residuals, significant or not.)";
 
 inline constexpr const char* kKindDoc =
-    R"(What the residuals depend on: "position" of the tip, "joints" (one, or two together), "time",
+    R"(What the residuals depend on: "position" of the tip, its "range" from the instrument, "joints" (one, two or all), "time",
 "order" of the rows (where no times are recorded), "approach" (the direction of a joint's last
 move), "session" or "covariate"; "none" where nothing was found.)";
 

@@ -21,6 +21,8 @@ std::string to_text(const Dependence& dependence) {
       return "";
     case Kind::kPosition:
       return "position";
+    case Kind::kRange:
+      return "the range from the instrument";
     case Kind::kJoints:
       if (dependence.coordinates.size() == 1) return "joint " + joint(0);
       if (dependence.coordinates.size() == 2) return "joints " + joint(0) + " and " + joint(1);

@@ -58,6 +58,7 @@ struct Dependence {
   enum class Kind {
     kNone,
     kPosition,  ///< of the tip
+    kRange,     ///< of the tip from the instrument, the origin of measured positions
     kJoints,    ///< values of one joint, of two together, or of all
     kTime,      ///< a drift, or a vibration where `period` is given
     kOrder,     ///< of the rows, where no times are recorded

@@ -114,6 +114,51 @@ std::vector<int> TermSelector::refined(std::vector<int> terms) {
   return terms;
 }
 
+/// Of several ways to describe one cause, the narrowest that scores nearly as well: a whole curve
+/// is no better a name for a wave because chance bends it a little.
+std::vector<int> TermSelector::simplified(std::vector<int> terms) {
+  for (std::size_t i = 0; i < terms.size(); ++i) {
+    check_stop_();
+    const std::string alias_group = working_point_.term(terms[i]).alias_group;
+    std::vector<int> rest = terms;
+    rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(i));
+    const bool alone = std::none_of(rest.begin(), rest.end(), [&](int other) {
+      return working_point_.term(other).alias_group == alias_group;
+    });
+    if (!alone) continue;
+    std::vector<int> others;
+    for (const std::vector<int>& family : working_point_.model().scans()) {
+      const Term& first = working_point_.term(family.front());
+      if (first.lack_of_fit || first.alias_group != alias_group) continue;
+      const NuisanceBasis& nuisance = working_point_.nuisance(rest);
+      const std::vector<ScannedTerm> scanned = scan(
+          working_point_.model(), family, nuisance.basis,
+          working_point_.model().linearization().residual, nuisance.dof, working_point_.num_threads());
+      for (const int term : peaks(scanned, kPeaks)) others.push_back(term);
+    }
+    if (others.empty()) continue;
+    std::vector<int> asked = terms;
+    asked.insert(asked.end(), others.begin(), others.end());
+    const CandidateSet candidates = working_point_.candidate_set(asked);
+    const auto now = candidates.evaluate(members_of(candidates, terms));
+    const std::vector<int> own = members_of(candidates, {terms[i]});
+    if (!now || own.empty()) continue;
+    double best = now->score - kPreferredBonus;
+    int simpler = terms[i];
+    for (const int member : members_of(candidates, others)) {
+      if (candidates.width(member) >= candidates.width(own.front())) continue;
+      std::vector<int> with = rest;
+      with.push_back(candidates.term_index(member));
+      const auto fit = candidates.evaluate(members_of(candidates, with));
+      if (!fit || !(fit->score > best)) continue;
+      best = fit->score;
+      simpler = candidates.term_index(member);
+    }
+    terms[i] = simpler;
+  }
+  return terms;
+}
+
 std::vector<int> TermSelector::best_terms(std::vector<int> start, int scans) {
   std::vector<int> terms = std::move(start);
   for (int round = 0; round < std::max(scans, 1); ++round) {
@@ -130,7 +175,7 @@ std::vector<int> TermSelector::best_terms(std::vector<int> start, int scans) {
     add_peaks(working_point_.nuisance(terms));
     if (candidates_.size() == known) break;
   }
-  return refined(std::move(terms));
+  return refined(simplified(std::move(terms)));
 }
 
 /// Terms, then outliers: one step on from `now`, with which the model is fitted.

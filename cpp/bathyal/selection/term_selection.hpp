@@ -51,6 +51,7 @@ class TermSelector {
     std::shared_ptr<const Model::Checkpoint> checkpoint;
   };
   void add_peaks(const NuisanceBasis& nuisance);
+  std::vector<int> simplified(std::vector<int> terms);
   std::vector<int> refined(std::vector<int> terms);
   /// The best set at the working point, from `start` on, with at most `scans` further scans given
   /// it.

@@ -37,6 +37,12 @@ class LinearModel final : public Model {
     terms_.back().lack_of_fit = lack_of_fit;
     columns_.push_back(columns);
   }
+  /// One of four ways to describe a cause.
+  void add_alias(const std::string& alias_group, const Eigen::MatrixXd& columns) {
+    add(alias_group, columns);
+    terms_.back().multiplicity = 4.0;
+  }
+  void add_scan(const std::vector<int>& family) { scans_.push_back(family); }
   Eigen::VectorXd& data() { return at_.residual; }
   std::vector<int>& replicates() { return observations_.replicate; }
   void add_context(const Eigen::MatrixXd& coordinates) { contexts_.push_back(coordinates); }

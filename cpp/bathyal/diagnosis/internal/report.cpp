@@ -8,6 +8,7 @@
 
 #include "bathyal/base/error.hpp"
 #include "bathyal/base/text.hpp"
+#include "bathyal/diagnosis/arm/internal/descriptions.hpp"
 #include "bathyal/estimation/f_distribution.hpp"
 
 namespace bathyal::diagnosis {
@@ -215,7 +216,9 @@ class Reporter {
     const HeldOut& held = out_.held_out;
     const double above =
         std::max(held.rms_before * held.rms_before - held.noise * held.noise, 1e-300);
-    Index at = 0;
+    Index at = 0, order = 0;
+    for (const FoundEffect& effect : out_.found)
+      order += static_cast<Index>(effect.variant.parameters.size());
     for (const FoundEffect& effect : out_.found) {
       const auto chosen = std::find_if(
           found_.terms.begin(), found_.terms.end(), [&](const selection::SelectedTerm& c) {
@@ -228,7 +231,11 @@ class Reporter {
       named.joint = effect.variant.joint;
       named.description = term_at(chosen->term).description;
       for (const auto& [name, value] : effect.variant.settings) {
-        named.parameters.push_back({name, "", value, 0.0, value, value});
+        const bool fitted = name == "order" && !has_whole_order(effect.variant);
+        const double std =
+            fitted ? std::sqrt(std::max(covariance(order, order), 0.0)) : 0.0;
+        order += fitted ? 1 : 0;
+        named.parameters.push_back({name, "", value, std, value - t * std, value + t * std});
       }
       for (std::size_t p = 0; p < effect.variant.parameters.size(); ++p, ++at) {
         const EffectParameter& parameter = effect.variant.parameters[p];

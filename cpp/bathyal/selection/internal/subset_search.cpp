@@ -188,12 +188,22 @@ std::vector<int> beam_search(const CandidateSet& candidates, const SetSearchOpti
   return stepwise_search(candidates, best.members, options);
 }
 
+/// Log likelihood, less one for each column (Akaike 1974), of a fit to `rows` degrees of freedom of
+/// the base model. An alternative is judged by how well it fits: a parameter more makes it less
+/// probable beforehand, and does not exclude it.
+double fit_quality(const SetFit& fit, double rows) {
+  double out = -0.5 * rows * std::log(fit.residual_sum);
+  for (const int width : fit.width) out -= width;
+  return out;
+}
+
 std::vector<Alternative> find_alternatives(const CandidateSet& candidates,
                                            const std::vector<int>& set) {
   std::vector<Alternative> out;
   const auto all = candidates.evaluate(set);
   const Eigen::MatrixXd quick = candidates.exchange_scores(set);
   const auto multiplicity = [&](int m) { return std::log(candidates.term(m).multiplicity); };
+  const auto quality = [&](const SetFit& fit) { return fit_quality(fit, candidates.dof()); };
   for (std::size_t i = 0; i < set.size(); ++i) {
     const std::vector<int> rest = without(set, i);
     const double own = all->score + multiplicity(set[i]);
@@ -210,10 +220,9 @@ std::vector<Alternative> find_alternatives(const CandidateSet& candidates,
       if (!fit) continue;
       // What helps as much in addition to the member as in its place explains something else.
       const auto both = candidates.evaluate(with(set, m));
-      const double best =
-          std::max(own, both ? both->score + multiplicity(m) + multiplicity(set[i]) : own);
-      const Alternative alternative{set[i], m,
-                                    std::exp(std::min(fit->score + multiplicity(m) - best, 0.0))};
+      double best = quality(*all);
+      if (both) best = std::max(best, quality(*both));
+      const Alternative alternative{set[i], m, std::exp(std::min(quality(*fit) - best, 0.0))};
       const auto [place, fresh] = best_of_alias_group.emplace(alias_group, alternative);
       if (!fresh && alternative.odds > place->second.odds) place->second = alternative;
     }

@@ -118,6 +118,10 @@ _BY_KIND = {
         "The residuals depend on the position: check the instrument's own field with a body of "
         "known size, or measure the same positions from another station."
     ),
+    "range": (
+        "The residuals depend on the range from the instrument: check its ranging against a known "
+        "length, or measure the same positions from another station."
+    ),
     "session": (
         "The residuals depend on the session: find what was changed between sessions, and repeat "
         "one pose."

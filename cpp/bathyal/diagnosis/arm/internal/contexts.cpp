@@ -25,7 +25,8 @@ Eigen::MatrixXd standardized(const Eigen::MatrixXd& columns) {
 
 }  // namespace
 
-Contexts make_contexts(const EffectData& data, const Eigen::Matrix3Xd& position) {
+Contexts make_contexts(const EffectData& data, const Eigen::Matrix3Xd& position,
+                       const Eigen::VectorXd& range) {
   Contexts out;
   const auto add = [&out](Dependence dependence, const Eigen::MatrixXd& columns) {
     Eigen::MatrixXd coordinates = standardized(columns);
@@ -45,6 +46,7 @@ Contexts make_contexts(const EffectData& data, const Eigen::Matrix3Xd& position)
     }
   }
   if (position.cols() > 0) add({Kind::kPosition}, position.transpose());
+  if (range.size() > 0) add({Kind::kRange}, range);
   Eigen::VectorXd rank(data.rows());
   Eigen::MatrixXd last_move = Eigen::MatrixXd::Zero(data.rows(), n);
   for (Eigen::Index k = 0; k < data.rows(); ++k) {
@@ -70,6 +72,7 @@ std::string describe(int direction, const Dependence& context) {
   const std::string name = to_text(context);
   if (direction == kBaseAxes) return "what shifts the tip in the base's axes with " + name;
   if (direction == kToolAxes) return "what shifts the tip in the tool's axes with " + name;
+  if (direction == kSight) return "what is measured too long or short with " + name;
   return "what moves joint " + std::to_string(direction - kFirstJoint + 1) + " with " + name;
 }
 

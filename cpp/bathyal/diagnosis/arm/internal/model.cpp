@@ -166,7 +166,8 @@ void ArmModel::gather_terms(const Effects& effects) {
   }
   lack_of_fit_terms_ =
       make_lack_of_fit_terms(data_, m_.tracked ? tips_from_base() : Eigen::Matrix3Xd());
-  contexts_ = make_contexts(data_, m_.tracked ? tips_from_base() : Eigen::Matrix3Xd());
+  contexts_ = make_contexts(data_, m_.tracked ? tips_from_base() : Eigen::Matrix3Xd(),
+                            m_.tracked ? ranges() : Eigen::VectorXd());
   std::map<int, std::vector<int>> families;
   for (int p = 0; p < static_cast<int>(lack_of_fit_terms_.size()); ++p) {
     const LackOfFitTerm& about = lack_of_fit_terms_[p];
@@ -333,6 +334,14 @@ std::vector<Eigen::MatrixXd> ArmModel::directions() const {
     }
     acting.push_back(acting_on(std::move(shifts)));
   }
+  const std::vector<Vec3> world = tips();
+  Perturbation sight{PerturbationSite::kFrame, 0, RowMatrix::Zero(rows, 6)};
+  for (Index i = 0; i < rows; ++i) {
+    const Vec3& tip = world[static_cast<std::size_t>(i)];
+    sight.values.row(i).head<3>() =
+        (fit_.bases[m_.station[i]].linear().transpose() * tip.normalized()).transpose();
+  }
+  acting.push_back(acting_on({std::move(sight)}));
   for (int j = 0; j < static_cast<int>(data_.q.cols()); ++j)
     acting.push_back(acting_on({{PerturbationSite::kJoint, j, RowMatrix::Ones(rows, 1)}}));
   std::vector<Eigen::MatrixXd> out;
@@ -391,6 +400,13 @@ std::vector<Vec3> ArmModel::tips() const {
             .translation());
   }
   return tips;
+}
+
+Eigen::VectorXd ArmModel::ranges() const {
+  const std::vector<Vec3> world = tips();
+  Eigen::VectorXd out(m_.rows());
+  for (Index i = 0; i < m_.rows(); ++i) out[i] = world[static_cast<std::size_t>(i)].norm();
+  return out;
 }
 
 Eigen::Matrix3Xd ArmModel::tips_from_base() const {

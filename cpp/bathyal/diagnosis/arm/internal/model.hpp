@@ -44,7 +44,7 @@ class ArmModel final : public selection::Model {
   std::vector<Eigen::MatrixXd> columns(std::span<const int> terms) const override;
   const selection::Linearization& linearization() const override { return linearization_; }
   const std::vector<Eigen::MatrixXd>& contexts() const override { return contexts_.coordinates; }
-  /// The base's axes, the tool's axes, each joint.
+  /// The base's axes, the tool's axes, the line from the instrument, each joint.
   std::vector<Eigen::MatrixXd> directions() const override;
   const Dependence& context(int index) const { return contexts_.dependence[index]; }
   void fit(const std::vector<int>& terms) override;
@@ -71,8 +71,8 @@ class ArmModel final : public selection::Model {
   const std::vector<std::string>& untried() const { return untried_; }
   /// The active effects, with their values.
   std::vector<FoundEffect> found() const;
-  /// Covariance of all values of the active effects, in their units and order, and the residual
-  /// degrees of freedom.
+  /// Covariance of all values of the active effects, in their units and order, then of the orders
+  /// that were fitted, in theirs; and the residual degrees of freedom.
   Eigen::MatrixXd covariance() const;
   double dof() const;
   /// The rigid part of the estimate, base and tool set.
@@ -154,6 +154,8 @@ class ArmModel final : public selection::Model {
   bool update_noise();
   /// (N,) of the model, in the world.
   std::vector<Vec3> tips() const;
+  /// (N,) their distances from the instrument.
+  Eigen::VectorXd ranges() const;
   /// (3, N) the same in the base frame. (A field over measured positions would fit their errors.)
   Eigen::Matrix3Xd tips_from_base() const;
 

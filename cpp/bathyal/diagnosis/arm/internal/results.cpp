@@ -45,7 +45,7 @@ Eigen::MatrixXd ArmModel::covariance() const {
       numerical_rank(qr_factor(all, system.num_threads()), kCollinearityTolerance);
   const Eigen::MatrixXd root = scale.asDiagonal() * rank.directions.leftCols(rank.rank) *
                                rank.singular_values.head(rank.rank).cwiseInverse().asDiagonal();
-  Eigen::MatrixXd own = root.middleRows(observable_.cols(), effects);
+  Eigen::MatrixXd own = root.bottomRows(effects + scanned.cols());
   for (Index i = 0; i < effects; ++i) {
     own.row(i) *= problem_.parameters.parameters[geometry_ + static_cast<std::size_t>(i)].scale;
   }
