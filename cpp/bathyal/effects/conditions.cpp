@@ -108,9 +108,10 @@ class ClockShift final : public Effect {
   }
 
  private:
-  /// (N, n) by differences of the previous and next rows in time, of one session; at its ends, and
-  /// next to rows of the same time, of the only neighbour.
+  /// (N, n) of the polynomial through each row and its nearest neighbours in time, of one session
+  /// and of other times: two on either side, at an end four on one.
   static RowMatrix speeds(const EffectData& data) {
+    constexpr int kNeighbours = 4;
     const RowMatrix& time = data.covariate("time");
     const bool sessions = data.has("session");
     RowMatrix out = RowMatrix::Zero(data.rows(), data.q.cols());
@@ -122,20 +123,42 @@ class ClockShift final : public Effect {
                        [&session](int a, int b) { return session(a, 0) < session(b, 0); });
     }
     for (int i = 0; i < count; ++i) {
-      const auto neighbour = [&](int step) {
-        int at = i;
-        while (at + step >= 0 && at + step < count) {
-          at += step;
-          const bool other = sessions && data.covariate("session")(order[at], 0) !=
-                                             data.covariate("session")(order[i], 0);
-          if (other) break;
-          if (time(order[at], 0) != time(order[i], 0)) return order[at];
+      const int row = order[i];
+      // Up to four on each side, the nearest first; one a time.
+      const auto neighbours = [&](int step) {
+        std::vector<int> found;
+        double last = time(row, 0);
+        for (int at = i + step; at >= 0 && at < count; at += step) {
+          const int other = order[at];
+          if (static_cast<int>(found.size()) == kNeighbours ||
+              (sessions && data.covariate("session")(other, 0) != data.covariate("session")(row, 0)))
+            break;
+          if (time(other, 0) == last) continue;
+          last = time(other, 0);
+          found.push_back(other);
         }
-        return order[i];
+        return found;
       };
-      const int before = neighbour(-1), after = neighbour(1);
-      const double apart = time(after, 0) - time(before, 0);
-      if (apart > 0.0) out.row(order[i]) = (data.q.row(after) - data.q.row(before)) / apart;
+      std::vector<int> before = neighbours(-1), after = neighbours(1);
+      while (before.size() + after.size() > kNeighbours) {
+        (before.size() > after.size() ? before : after).pop_back();
+      }
+      before.insert(before.end(), after.begin(), after.end());
+      out.row(row) = slope(time, data.q, row, before);
+    }
+    return out;
+  }
+
+  /// Derivative at `row` of the polynomial through it and `others`, by Lagrange's formula.
+  static Eigen::RowVectorXd slope(const RowMatrix& time, const RowMatrix& q, int row,
+                                  const std::vector<int>& others) {
+    Eigen::RowVectorXd out = Eigen::RowVectorXd::Zero(q.cols());
+    for (const int a : others) {
+      double weight = 1.0 / (time(a, 0) - time(row, 0));
+      for (const int b : others) {
+        if (b != a) weight *= (time(row, 0) - time(b, 0)) / (time(a, 0) - time(b, 0));
+      }
+      out += weight * (q.row(a) - q.row(row));
     }
     return out;
   }

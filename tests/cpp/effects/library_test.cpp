@@ -148,6 +148,15 @@ TEST(Effects, TemperatureGrowsLinksAndTimeMovesTheBase) {
       1e-4);
 }
 
+/// Slope at `at` of the polynomial through values at times, by its coefficients.
+Eigen::RowVectorXd slope_at(double at, const Eigen::VectorXd& times, const RowMatrix& values) {
+  Eigen::MatrixXd powers(times.size(), times.size());
+  for (Index k = 0; k < times.size(); ++k) {
+    powers.col(k) = (times.array() - at).pow(static_cast<double>(k));
+  }
+  return powers.colPivHouseholderQr().solve(Eigen::MatrixXd(values)).row(1);
+}
+
 TEST(Effects, ClockShiftMovesJointsByTheirSpeed) {
   Scene scene = odd_scene();
   scene.covariates.erase("session");
@@ -156,11 +165,15 @@ TEST(Effects, ClockShiftMovesJointsByTheirSpeed) {
   expect_means(scene, variants_of("clock_shift", scene.data()).at(0),
                [&](Index i, const Eigen::VectorXd& p) {
                  const Index place = i * 17 % 40;
-                 const Index before = std::max<Index>(place - 1, 0);
-                 const Index after = std::min<Index>(place + 1, 39);
+                 const Index first = std::clamp<Index>(place - 2, 0, 35);
+                 Eigen::VectorXd times(5);
+                 RowMatrix values(5, scene.q.cols());
+                 for (Index k = 0; k < 5; ++k) {
+                   times[k] = 7.0 * static_cast<double>(first + k);
+                   values.row(k) = scene.q.row(row_at[static_cast<std::size_t>(first + k)]);
+                 }
                  Wrong wrong;
-                 wrong.joints = p[0] * (scene.q.row(row_at[after]) - scene.q.row(row_at[before])) /
-                                (7.0 * static_cast<double>(after - before));
+                 wrong.joints = p[0] * slope_at(7.0 * static_cast<double>(place), times, values);
                  return wrong;
                });
 }
@@ -172,8 +185,9 @@ TEST(Effects, ClockShiftKeepsToItsSession) {
   const EffectData data = scene.data();
   const EffectVariant v = variants_of("clock_shift", data).at(0);
   const auto perturbations = perturbations_of(*effect_named("clock_shift"), v, data);
-  EXPECT_NEAR(perturbations[0][0].values(3, 0), scene.q(3, 0) - scene.q(2, 0), 1e-15);
-  EXPECT_NEAR(perturbations[0][0].values(4, 0), scene.q(5, 0) - scene.q(4, 0), 1e-15);
+  const Eigen::Vector4d times(0, 1, 2, 3);
+  EXPECT_NEAR(perturbations[0][0].values(3, 0), slope_at(3, times, scene.q.topRows(4))[0], 1e-12);
+  EXPECT_NEAR(perturbations[0][0].values(4, 0), slope_at(0, times, scene.q.bottomRows(4))[0], 1e-12);
 }
 
 }  // namespace

@@ -59,7 +59,7 @@ TEST(TermSelector, DescribesACauseByTheNarrowestTermThatDoesAsWell) {
   LinearModel model;
   const Eigen::VectorXd wave = swing(1, 20.0);
   Eigen::MatrixXd curve(kRows, 2);
-  curve << wave, model.data() + swing(5, 4.0);
+  curve << wave, model.data() + swing(5, 8.0);
   model.add("curve", curve);
   for (const std::uint64_t seed : {2, 1, 3}) model.add_alias("curve", swing(seed, 20.0));
   model.add_scan({1, 2, 3});
