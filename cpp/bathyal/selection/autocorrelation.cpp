@@ -13,6 +13,9 @@ namespace {
 
 constexpr Index kMaxObservations = 2000;
 constexpr Index kMinObservations = 30;
+constexpr double kDoubtful = 0.01, kBeyondDoubt = 1e-12;  ///< p-values between are computed exactly
+constexpr int kMaxExact = 12;                             ///< so many of them
+constexpr Index kMaxExactSize = 900;                      ///< of the matrix
 
 /// Neighbours of an observation: in few dimensions many are near.
 Index neighbours(Index observations, Index dimensions) {
@@ -157,6 +160,53 @@ double tail_beyond_zero(double mean, double variance, double third) {
   return skewness > 0.0 ? normal_tail(as_normal) : normal_tail(-as_normal);
 }
 
+/// Probability that Σ λᵢ χ²ᵢ exceeds 0, each of one degree of freedom, with `zeros` more of λ = 0, all
+/// less `q`: the saddlepoint approximation (Kuonen 1999), exact to a few per cent far out.
+double saddlepoint_tail(const Eigen::VectorXd& eigenvalues, double zeros, double q) {
+  const Eigen::ArrayXd lambda = eigenvalues.array() - q;
+  double low = 0.5 / std::min(lambda.minCoeff(), -q), high = 0.5 / lambda.maxCoeff();
+  low *= 1.0 - 1e-9;
+  high *= 1.0 - 1e-9;
+  const auto slope = [&](double at) {
+    return (lambda / (1.0 - 2.0 * at * lambda)).sum() - zeros * q / (1.0 + 2.0 * at * q);
+  };
+  for (int step = 0; step < 200; ++step) {
+    const double middle = 0.5 * (low + high);
+    (slope(middle) > 0.0 ? high : low) = middle;
+  }
+  const double at = 0.5 * (low + high);
+  const double cumulant = -0.5 * (1.0 - 2.0 * at * lambda).log().sum() -
+                          0.5 * zeros * std::log(1.0 + 2.0 * at * q);
+  const double curvature = 2.0 * (lambda / (1.0 - 2.0 * at * lambda)).square().sum() +
+                           2.0 * zeros * std::pow(q / (1.0 + 2.0 * at * q), 2);
+  const double w = std::copysign(std::sqrt(std::max(-2.0 * cumulant, 0.0)), at);
+  const double v = at * std::sqrt(curvature);
+  return 0.5 * std::erfc((w + std::log(v / w) / w) / std::sqrt(2.0));
+}
+
+/// The tail of `moran` by the whole spectrum: those of D'MD S, M the projection off the basis.
+/// `alike`: Moran's I.
+double exact_p(const Graph& graph, const Resolved& along, double alike, double dof) {
+  const auto n = static_cast<Index>(graph.size());
+  const auto components = static_cast<Index>(along.basis.size());
+  Eigen::MatrixXd near = Eigen::MatrixXd::Zero(n * components, n * components);
+  Eigen::MatrixXd basis(n * components, along.basis.front().cols());
+  for (Index c = 0; c < components; ++c) {
+    basis.middleRows(c * n, n) = along.basis[static_cast<std::size_t>(c)];
+    for (Index i = 0; i < n; ++i) {
+      for (const auto& [k, weight] : graph[static_cast<std::size_t>(i)])
+        near(c * n + i, c * n + k) = weight;
+    }
+  }
+  constexpr double kJitter = 1e-12;
+  Eigen::MatrixXd free = -basis * basis.transpose();
+  free.diagonal().array() += 1.0 + kJitter;
+  const Eigen::MatrixXd root = free.llt().matrixL();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(root.transpose() * near * root,
+                                                             Eigen::EigenvaluesOnly);
+  return saddlepoint_tail(eigen.eigenvalues(), dof - static_cast<double>(n * components), alike);
+}
+
 Autocorrelation moran(const Graph& graph, const GraphSums& sums, const Resolved& along,
                       double total, double dof) {
   const Index wide = along.basis.front().cols();
@@ -179,6 +229,7 @@ Autocorrelation moran(const Graph& graph, const GraphSums& sums, const Resolved&
                          (once * once).cwiseProduct(once).sum();
   const double q = alike / total;
   Autocorrelation out;
+  out.moran = q;
   out.p = tail_beyond_zero(
       trace - q * dof, 2.0 * (trace_2 - 2.0 * q * trace + q * q * dof),
       8.0 * (trace_3 - 3.0 * q * trace_2 + 3.0 * q * q * trace - q * q * q * dof));
@@ -236,9 +287,23 @@ std::vector<Autocorrelation> test_autocorrelation(const Model& model, const Eige
       }
     }
   });
-  std::stable_sort(out.begin(), out.end(), [](const Autocorrelation& a, const Autocorrelation& b) {
+  const auto more_significant = [](const Autocorrelation& a, const Autocorrelation& b) {
     return std::pair(a.p, -a.explained) < std::pair(b.p, -b.explained);
-  });
+  };
+  std::stable_sort(out.begin(), out.end(), more_significant);
+  // Three cumulants understate tails far out, up to tenfold where observations are few.
+  int left = kMaxExact;
+  for (Autocorrelation& one : out) {
+    const Resolved& along = resolved[static_cast<std::size_t>(one.direction)];
+    const Index size = static_cast<Index>(kept.size() * along.basis.size());
+    if (one.p > kDoubtful || left == 0) break;
+    if (one.p < kBeyondDoubt || size > kMaxExactSize) continue;
+    const Graph graph =
+        neighbourhood(contexts[static_cast<std::size_t>(one.context)](kept, Eigen::all));
+    one.p = std::min(1.0, static_cast<double>(out.size()) * exact_p(graph, along, one.moran, dof));
+    --left;
+  }
+  std::stable_sort(out.begin(), out.end(), more_significant);
   return out;
 }
 

@@ -40,7 +40,7 @@ Autocorrelation tested(const Eigen::VectorXd& u, const Eigen::VectorXd& residual
 
 TEST(Autocorrelation, OfNoiseHasUniformPValuesWhateverWasFitted) {
   constexpr int kSeeds = 400;
-  int below_tenth = 0, below_hundredth = 0;
+  int below_tenth = 0, below_hundredth = 0;  // those below one in a hundred by the whole spectrum
   for (int seed = 0; seed < kSeeds; ++seed) {
     const Eigen::VectorXd u = scattered(static_cast<std::uint64_t>(seed));
     const double p = tested(u, swing(1000 + static_cast<std::uint64_t>(seed), 1.0), cubic_basis(u)).p;
