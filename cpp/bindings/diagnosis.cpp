@@ -37,11 +37,10 @@ std::string on_joint(int joint) { return joint < 0 ? "" : ", joint=" + std::to_s
 
 const EnumNames<Dependence::Kind>& kind_names() {
   using Kind = Dependence::Kind;
-  static const EnumNames<Kind> names{{"none", Kind::kNone},       {"position", Kind::kPosition},
-                                     {"joints", Kind::kJoints},   {"time", Kind::kTime},
-                                     {"order", Kind::kOrder},     {"approach", Kind::kApproach},
-                                     {"session", Kind::kSession}, {"covariate", Kind::kCovariate},
-                                     {"range", Kind::kRange}};
+  static const EnumNames<Kind> names{
+      {"none", Kind::kNone},       {"position", Kind::kPosition},   {"joints", Kind::kJoints},
+      {"time", Kind::kTime},       {"order", Kind::kOrder},         {"approach", Kind::kApproach},
+      {"session", Kind::kSession}, {"covariate", Kind::kCovariate}, {"range", Kind::kRange}};
   return names;
 }
 
@@ -53,7 +52,8 @@ void bind_structure(py::module_& module) {
           kKindDoc)
       .def_property_readonly(
           "coordinates", [](const Structure& s) { return s.dependence.coordinates; },
-          "Of kind \"joints\" (one, two or all) and \"approach\" (one): the joints' coordinates, from "
+          "Of kind \"joints\" (one, two or all) and \"approach\" (one): the joints' coordinates, "
+          "from "
           "0.")
       .def_property_readonly(
           "period", [](const Structure& s) { return s.dependence.period; },
@@ -326,10 +326,9 @@ void bind_diagnose(py::module_& module) {
       py::arg("parametrization") = enum_name(defaults.parametrization, parametrization_names()),
       py::arg("fixed") = defaults.fixed, py::arg("length_prior") = defaults.length_prior,
       py::arg("blocks") = defaults.blocks, py::arg("groups") = py::none(),
-      py::arg("rival_odds") = defaults.rival_odds,
-      py::arg("leftover") = defaults.leftover, py::arg("num_next_poses") = defaults.num_next_poses,
-      py::arg("progress") = py::none(), py::arg("num_threads") = defaults.num_threads,
-      kDiagnoseDoc);
+      py::arg("rival_odds") = defaults.rival_odds, py::arg("leftover") = defaults.leftover,
+      py::arg("num_next_poses") = defaults.num_next_poses, py::arg("progress") = py::none(),
+      py::arg("num_threads") = defaults.num_threads, kDiagnoseDoc);
 }
 
 }  // namespace

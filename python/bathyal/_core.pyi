@@ -5783,7 +5783,7 @@ class Vehicle:
             [s]
         current : (3,) array or function, optional
             Of the water in the world [m/s]; or a function of point and time that gives it, called twelve
-        times a step: its change over a step is the water's acceleration, which pushes the vehicle.
+            times a step: its change over a step is the water's acceleration, which pushes the vehicle.
         free : six bools, optional
             Surge, sway, heave, roll, pitch, yaw: velocities that are not free stay as they are at the start.
         world : World, optional
@@ -9478,7 +9478,7 @@ class Structure:
     @property
     def coordinates(self) -> list[int]:
         """
-        Of kind "joints" (one or two) and "approach" (one): the joints' coordinates, from 0.
+        Of kind "joints" (one, two or all) and "approach" (one): the joints' coordinates, from 0.
         """
     @property
     def covariate(self) -> str | None:
@@ -9498,7 +9498,7 @@ class Structure:
     @property
     def kind(self) -> str:
         """
-        What the residuals depend on: "position" of the tip, "joints" (one, or two together), "time",
+        What the residuals depend on: "position" of the tip, its "range" from the instrument, "joints" (one, two or all), "time",
         "order" of the rows (where no times are recorded), "approach" (the direction of a joint's last
         move), "session" or "covariate"; "none" where nothing was found.
         """

@@ -62,8 +62,8 @@ struct CorrectedInverse {
 /// Covariates, each (N, k) or one row for all: an effect that requires a missing one is omitted
 /// when no covariates are given at all, and is an error when some are. `payload` defaults to 0 kg,
 /// `gravity` to standard gravity. A base that moved and a tool that was changed follow `session`; a
-/// tool that slipped follows `time`, without it `row` (the place in the record, counted from 0), and
-/// without either has slipped.
+/// tool that slipped follows `time`, without it `row` (the place in the record, counted from 0),
+/// and without either has slipped.
 class CorrectedArm {
  public:
   /// \throw std::invalid_argument for an effect without values, a joint that the arm does not have,

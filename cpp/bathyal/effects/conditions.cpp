@@ -131,7 +131,8 @@ class ClockShift final : public Effect {
         for (int at = i + step; at >= 0 && at < count; at += step) {
           const int other = order[at];
           if (static_cast<int>(found.size()) == kNeighbours ||
-              (sessions && data.covariate("session")(other, 0) != data.covariate("session")(row, 0)))
+              (sessions &&
+               data.covariate("session")(other, 0) != data.covariate("session")(row, 0)))
             break;
           if (time(other, 0) == last) continue;
           last = time(other, 0);

@@ -130,11 +130,10 @@ Resolved resolve(const Eigen::MatrixXd& direction, const std::vector<std::vector
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(loads.transpose() * loads);
     const double largest = eigen.eigenvalues().maxCoeff();
     if (!(largest > 0.0)) continue;
-    const Eigen::VectorXd inverse_root = eigen.eigenvalues().unaryExpr([&](double value) {
-      return value > 1e-9 * largest ? 1.0 / std::sqrt(value) : 0.0;
-    });
-    const Eigen::MatrixXd unit = loads * eigen.eigenvectors() * inverse_root.asDiagonal() *
-                                 eigen.eigenvectors().transpose();
+    const Eigen::VectorXd inverse_root = eigen.eigenvalues().unaryExpr(
+        [&](double value) { return value > 1e-9 * largest ? 1.0 / std::sqrt(value) : 0.0; });
+    const Eigen::MatrixXd unit =
+        loads * eigen.eigenvectors() * inverse_root.asDiagonal() * eigen.eigenvectors().transpose();
     const Eigen::MatrixXd along = unit.transpose() * basis(own, Eigen::all);
     const Eigen::VectorXd value = unit.transpose() * residual(own);
     for (Index c = 0; c < components; ++c) {
@@ -160,8 +159,8 @@ double tail_beyond_zero(double mean, double variance, double third) {
   return skewness > 0.0 ? normal_tail(as_normal) : normal_tail(-as_normal);
 }
 
-/// Probability that Σ λᵢ χ²ᵢ exceeds 0, each of one degree of freedom, with `zeros` more of λ = 0, all
-/// less `q`: the saddlepoint approximation (Kuonen 1999), exact to a few per cent far out.
+/// Probability that Σ λᵢ χ²ᵢ exceeds 0, each of one degree of freedom, with `zeros` more of λ = 0,
+/// all less `q`: the saddlepoint approximation (Kuonen 1999), exact to a few per cent far out.
 double saddlepoint_tail(const Eigen::VectorXd& eigenvalues, double zeros, double q) {
   const Eigen::ArrayXd lambda = eigenvalues.array() - q;
   double low = 0.5 / std::min(lambda.minCoeff(), -q), high = 0.5 / lambda.maxCoeff();
@@ -175,8 +174,8 @@ double saddlepoint_tail(const Eigen::VectorXd& eigenvalues, double zeros, double
     (slope(middle) > 0.0 ? high : low) = middle;
   }
   const double at = 0.5 * (low + high);
-  const double cumulant = -0.5 * (1.0 - 2.0 * at * lambda).log().sum() -
-                          0.5 * zeros * std::log(1.0 + 2.0 * at * q);
+  const double cumulant =
+      -0.5 * (1.0 - 2.0 * at * lambda).log().sum() - 0.5 * zeros * std::log(1.0 + 2.0 * at * q);
   const double curvature = 2.0 * (lambda / (1.0 - 2.0 * at * lambda)).square().sum() +
                            2.0 * zeros * std::pow(q / (1.0 + 2.0 * at * q), 2);
   const double w = std::copysign(std::sqrt(std::max(-2.0 * cumulant, 0.0)), at);
@@ -230,9 +229,9 @@ Autocorrelation moran(const Graph& graph, const GraphSums& sums, const Resolved&
   const double q = alike / total;
   Autocorrelation out;
   out.moran = q;
-  out.p = tail_beyond_zero(
-      trace - q * dof, 2.0 * (trace_2 - 2.0 * q * trace + q * q * dof),
-      8.0 * (trace_3 - 3.0 * q * trace_2 + 3.0 * q * q * trace - q * q * q * dof));
+  out.p =
+      tail_beyond_zero(trace - q * dof, 2.0 * (trace_2 - 2.0 * q * trace + q * q * dof),
+                       8.0 * (trace_3 - 3.0 * q * trace_2 + 3.0 * q * q * trace - q * q * q * dof));
   const double shared = (alike - total * trace / dof) / sums.weights;
   out.explained = std::max(shared, 0.0) * static_cast<double>(graph.size());
   return out;
@@ -250,8 +249,7 @@ std::vector<Autocorrelation> test_autocorrelation(const Model& model, const Eige
   for (Index i = 0; i < weights.size(); ++i) {
     if (weights[i] > 0.0) tested.push_back(i);
   }
-  const auto every =
-      (static_cast<Index>(tested.size()) + kMaxObservations - 1) / kMaxObservations;
+  const auto every = (static_cast<Index>(tested.size()) + kMaxObservations - 1) / kMaxObservations;
   std::vector<Index> kept;
   for (std::size_t i = 0; i < tested.size(); i += static_cast<std::size_t>(every))
     kept.push_back(tested[i]);

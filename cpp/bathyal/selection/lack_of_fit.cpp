@@ -110,10 +110,9 @@ std::vector<Replacement> LackOfFitCheck::replacements(const ActiveSet& active) c
     const auto fit = candidates.evaluate(members_of(candidates, others));
     if (!fit) continue;
     const NuisanceBasis& basis = working_point_.nuisance(others);
-    for (const ScannedTerm& scanned :
-         scan(working_point_.model(), asked, basis.basis,
-              working_point_.model().linearization().residual, basis.dof,
-              working_point_.num_threads())) {
+    for (const ScannedTerm& scanned : scan(working_point_.model(), asked, basis.basis,
+                                           working_point_.model().linearization().residual,
+                                           basis.dof, working_point_.num_threads())) {
       const double gain = fit->score + scanned.gain -
                           std::log(working_point_.term(scanned.term).multiplicity) - whole->score;
       if (!(gain > kReplacementGain)) continue;

@@ -50,7 +50,7 @@ struct SelectionResult {
   bool held_out = false;  ///< there were data enough for cross-validation
   Folds folds;
   std::vector<SelectedTerm> terms;
-  std::vector<SelectedTerm> lack_of_fit;      ///< structure that the terms do not explain
+  std::vector<SelectedTerm> lack_of_fit;  ///< structure that the terms do not explain
   /// Likeness of near residuals given the terms and `lack_of_fit`, beyond noise, most significant
   /// first.
   std::vector<Autocorrelation> autocorrelation;

@@ -131,9 +131,9 @@ std::vector<int> TermSelector::simplified(std::vector<int> terms) {
       const Term& first = working_point_.term(family.front());
       if (first.lack_of_fit || first.alias_group != alias_group) continue;
       const NuisanceBasis& nuisance = working_point_.nuisance(rest);
-      const std::vector<ScannedTerm> scanned = scan(
-          working_point_.model(), family, nuisance.basis,
-          working_point_.model().linearization().residual, nuisance.dof, working_point_.num_threads());
+      const std::vector<ScannedTerm> scanned = scan(working_point_.model(), family, nuisance.basis,
+                                                    working_point_.model().linearization().residual,
+                                                    nuisance.dof, working_point_.num_threads());
       for (const int term : peaks(scanned, kPeaks)) others.push_back(term);
     }
     if (others.empty()) continue;

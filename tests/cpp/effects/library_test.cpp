@@ -187,7 +187,8 @@ TEST(Effects, ClockShiftKeepsToItsSession) {
   const auto perturbations = perturbations_of(*effect_named("clock_shift"), v, data);
   const Eigen::Vector4d times(0, 1, 2, 3);
   EXPECT_NEAR(perturbations[0][0].values(3, 0), slope_at(3, times, scene.q.topRows(4))[0], 1e-12);
-  EXPECT_NEAR(perturbations[0][0].values(4, 0), slope_at(0, times, scene.q.bottomRows(4))[0], 1e-12);
+  EXPECT_NEAR(perturbations[0][0].values(4, 0), slope_at(0, times, scene.q.bottomRows(4))[0],
+              1e-12);
 }
 
 }  // namespace

@@ -43,7 +43,8 @@ TEST(Autocorrelation, OfNoiseHasUniformPValuesWhateverWasFitted) {
   int below_tenth = 0, below_hundredth = 0;  // those below one in a hundred by the whole spectrum
   for (int seed = 0; seed < kSeeds; ++seed) {
     const Eigen::VectorXd u = scattered(static_cast<std::uint64_t>(seed));
-    const double p = tested(u, swing(1000 + static_cast<std::uint64_t>(seed), 1.0), cubic_basis(u)).p;
+    const double p =
+        tested(u, swing(1000 + static_cast<std::uint64_t>(seed), 1.0), cubic_basis(u)).p;
     below_tenth += p < 0.1;
     below_hundredth += p < 0.01;
   }

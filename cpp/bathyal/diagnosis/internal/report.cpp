@@ -232,8 +232,7 @@ class Reporter {
       named.description = term_at(chosen->term).description;
       for (const auto& [name, value] : effect.variant.settings) {
         const bool fitted = name == "order" && !has_whole_order(effect.variant);
-        const double std =
-            fitted ? std::sqrt(std::max(covariance(order, order), 0.0)) : 0.0;
+        const double std = fitted ? std::sqrt(std::max(covariance(order, order), 0.0)) : 0.0;
         order += fitted ? 1 : 0;
         named.parameters.push_back({name, "", value, std, value - t * std, value + t * std});
       }
@@ -302,18 +301,21 @@ class Reporter {
   void fill_unexplained() {
     const auto rows = static_cast<double>(3 * m_.rows());
     const double size = std::sqrt(found_.unexplained / rows) * model_.mean_unit();
-    const double share =
-        found_.base_squares > 0.0 ? found_.unexplained / found_.base_squares : 0.0;
+    const double share = found_.base_squares > 0.0 ? found_.unexplained / found_.base_squares : 0.0;
     if (found_.lack_of_fit.empty()) {
       if (found_.pure_error.p <= selection::kBeyondNoise) {
-        out_.unexplained = {{}, -1, "more than repeats of a pose differ", size, share,
-                            found_.pure_error.p};
+        out_.unexplained = {{},   -1,    "more than repeats of a pose differ",
+                            size, share, found_.pure_error.p};
       }
       if (found_.autocorrelation.empty()) return;
       const selection::Autocorrelation& alike = found_.autocorrelation.front();
       const Dependence& context = model_.context(alike.context);
-      out_.unexplained = {context, std::max(alike.direction - kFirstJoint, -1),
-                          describe(alike.direction, context), size, share, alike.p};
+      out_.unexplained = {context,
+                          std::max(alike.direction - kFirstJoint, -1),
+                          describe(alike.direction, context),
+                          size,
+                          share,
+                          alike.p};
       return;
     }
     const auto most =
@@ -325,10 +327,9 @@ class Reporter {
   }
 
   void decide() {
-    const bool unexplained =
-        (!found_.lack_of_fit.empty() || !found_.autocorrelation.empty() ||
-         found_.pure_error.p <= selection::kBeyondNoise) &&
-        found_.unexplained > options_.leftover * found_.explained;
+    const bool unexplained = (!found_.lack_of_fit.empty() || !found_.autocorrelation.empty() ||
+                              found_.pure_error.p <= selection::kBeyondNoise) &&
+                             found_.unexplained > options_.leftover * found_.explained;
     if (unexplained) {
       out_.verdict = Verdict::kUnknown;
       return;

@@ -53,7 +53,8 @@ Contexts make_contexts(const EffectData& data, const Eigen::Matrix3Xd& position,
     const int row = data.order[static_cast<std::size_t>(k)];
     rank[row] = static_cast<double>(k);
     if (k > 0)
-      last_move.row(row) = data.q.row(row) - data.q.row(data.order[static_cast<std::size_t>(k - 1)]);
+      last_move.row(row) =
+          data.q.row(row) - data.q.row(data.order[static_cast<std::size_t>(k - 1)]);
   }
   add({data.has("time") ? Kind::kTime : Kind::kOrder}, rank);
   for (int i = 0; i < n; ++i) add({Kind::kApproach, {i}}, last_move.col(i));

@@ -19,7 +19,8 @@ struct Contexts {
 };
 
 /// All joints together, each, and each two; the tip's `position` (3, N) in the base frame, and its
-/// `range` (N,) from the instrument, where they have columns; the order of the rows, the last move of each joint; each covariate.
+/// `range` (N,) from the instrument, where they have columns; the order of the rows, the last move
+/// of each joint; each covariate.
 Contexts make_contexts(const EffectData& data, const Eigen::Matrix3Xd& position,
                        const Eigen::VectorXd& range);
 
