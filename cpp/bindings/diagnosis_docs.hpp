@@ -14,9 +14,9 @@ inline constexpr const char* kStructureDoc =
     R"(A lack-of-fit test: a dependence of the residuals, significant or not.)";
 
 inline constexpr const char* kKindDoc =
-    R"(What the residuals depend on: "position" of the tip, its "range" from the instrument, "joints" (one, two or all), "time",
-"order" of the rows (where no times are recorded), "approach" (the direction of a joint's last
-move), "session" or "covariate"; "none" where nothing was found.)";
+    R"(What the residuals depend on: "position" of the tip, its "range" from the instrument,
+"joints" (one, two or all), "time", "order" of the rows (where no times are recorded),
+"approach" (the direction of a joint's last move), "session" or "covariate"; "none" where nothing was found.)";
 
 inline constexpr const char* kDiagnosisDoc =
     R"(Errors of an arm's model, by its measurements; see `diagnose`.)";

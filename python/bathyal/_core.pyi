@@ -9498,9 +9498,9 @@ class Structure:
     @property
     def kind(self) -> str:
         """
-        What the residuals depend on: "position" of the tip, its "range" from the instrument, "joints" (one, two or all), "time",
-        "order" of the rows (where no times are recorded), "approach" (the direction of a joint's last
-        move), "session" or "covariate"; "none" where nothing was found.
+        What the residuals depend on: "position" of the tip, its "range" from the instrument,
+        "joints" (one, two or all), "time", "order" of the rows (where no times are recorded),
+        "approach" (the direction of a joint's last move), "session" or "covariate"; "none" where nothing was found.
         """
     @property
     def p_value(self) -> float:

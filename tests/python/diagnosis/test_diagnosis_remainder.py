@@ -1,0 +1,73 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What is left after the causes are named, in whatever form: such data are never clean or named."""
+
+import numpy as np
+import pytest
+
+import bathyal
+
+NOISE = 5e-5
+
+
+def poses(rows: int, seed: int) -> np.ndarray:
+    return np.random.default_rng(seed).uniform(-1.5, 1.5, (rows, 6))
+
+
+def diagnosed(q: np.ndarray, error: np.ndarray, seed: int) -> bathyal.Diagnosis:
+    arm = bathyal.arms.ur10()
+    arm.base = np.array(
+        [[0.0, -1.0, 0.0, 2.5], [1.0, 0.0, 0.0, 0.4], [0.0, 0.0, 1.0, -0.3], [0.0, 0.0, 0.0, 1.0]]
+    )
+    noise = np.random.default_rng([seed, 1]).normal(0.0, NOISE, (len(q), 3))
+    position = arm.forward(q)[:, :3, 3] + error + noise
+    return bathyal.diagnose(arm, bathyal.Tracked(q, position))
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_more_than_repeats_of_a_pose_differ_is_never_clean(seed):
+    """An error of each pose of its own, which no smooth function is: pure error shows it."""
+    each = poses(60, seed)
+    of_pose = np.random.default_rng([seed, 2]).normal(0.0, 1.7 * NOISE, (60, 3))
+    report = diagnosed(np.repeat(each, 4, axis=0), np.repeat(of_pose, 4, axis=0), seed)
+    assert report.verdict == "unknown"
+    assert report.noise == pytest.approx(NOISE, rel=0.15)
+    assert report.leftover.is_beyond_noise
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_repeats_without_more_are_clean(seed):
+    q = np.repeat(poses(60, seed), 4, axis=0)
+    assert diagnosed(q, np.zeros((len(q), 3)), seed).verdict == "clean"
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_an_error_that_repeats_itself_along_the_range_is_seen(seed):
+    """The cyclic error of an instrument that measures distances by phase."""
+    q = poses(250, seed)
+    arm = bathyal.arms.ur10()
+    arm.base = np.array(
+        [[0.0, -1.0, 0.0, 2.5], [1.0, 0.0, 0.0, 0.4], [0.0, 0.0, 1.0, -0.3], [0.0, 0.0, 0.0, 1.0]]
+    )
+    tip = arm.forward(q)[:, :3, 3]
+    distance = np.linalg.norm(tip, axis=1)
+    along = tip / distance[:, None]
+    error = 4 * NOISE * np.sin(2.0 * np.pi * distance / 0.3)[:, None] * along
+    report = diagnosed(q, error, seed)
+    assert report.verdict == "unknown"
+    assert (report.leftover.kind, report.leftover.against) == (
+        "range",
+        "the range from the instrument",
+    )
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_names_that_crowd_around_something_else_are_not_named(seed):
+    """A joint that is turned by the product of two others: each name takes a little of it."""
+    q = poses(250, seed)
+    arm = bathyal.arms.ur10()
+    wrong = q.copy()
+    wrong[:, 1] += 4e-4 * np.sin(2.0 * q[:, 2]) * np.sin(1.5 * q[:, 3] + 1.0)
+    error = arm.forward(wrong)[:, :3, 3] - arm.forward(q)[:, :3, 3]
+    turned = np.array([[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
+    report = diagnosed(q, error @ turned.T, seed)
+    assert report.verdict == "unknown"
