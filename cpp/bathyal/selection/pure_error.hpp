@@ -18,8 +18,8 @@ struct PureErrorTest {
   double explained = 0.0;  ///< sum of squares by the lack of fit, less pure error
 };
 
-/// The lack-of-fit F test (Fisher 1922; Draper and Smith 1998, section 2.1): whatever the form of
-/// what is left, it makes the residuals larger than replicates differ. `basis`: (M, b) orthonormal
+/// The lack-of-fit F test (Fisher 1922; Draper and Smith 1998, section 2.1): lack of fit of any form
+/// makes the residuals larger than replicates differ. `basis`: (M, b) orthonormal
 /// columns of all that was fitted, `dof` its residual degrees of freedom; `weights`: (N,), 0 of
 /// excluded observations.
 PureErrorTest test_pure_error(const Model& model, const Eigen::MatrixXd& basis, double dof,

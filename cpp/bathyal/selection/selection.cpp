@@ -255,7 +255,7 @@ void StructureSelection::add_lack_of_fit(const std::vector<LackOfFit>& forward) 
   }
 }
 
-/// What is left beside all of these, in whatever form.
+/// Unexplained structure of any form, in addition to the terms that were found.
 void StructureSelection::test_remainder() {
   std::vector<int> terms = active_.terms;
   for (const SelectedTerm& selected : out_.lack_of_fit) terms.push_back(selected.term);

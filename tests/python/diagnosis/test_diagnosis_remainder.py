@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What is left after the causes are named, in whatever form: such data are never clean or named."""
+"""Unexplained structure of any form: data that have it are never clean or named."""
 
 import numpy as np
 import pytest

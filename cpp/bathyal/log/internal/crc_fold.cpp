@@ -24,7 +24,7 @@ __m128i folded_into(__m128i to, __m128i from, __m128i by) {
 bool can_fold() { return __builtin_cpu_supports("pclmul"); }
 
 // Gopal and others (2009), Fast CRC computation for generic polynomials using PCLMULQDQ: steps 1
-// and 2 with the constants of ISO 3309, bits reflected; what is left of it is the tables' work.
+// and 2 with the constants of ISO 3309, bits reflected; the rest of it is the tables' work.
 void fold(const unsigned char* bytes, std::size_t size, std::uint32_t crc, unsigned char* folded) {
   const __m128i by_512 = _mm_set_epi64x(0x01c6e41596, 0x0154442bd4);
   const __m128i by_128 = _mm_set_epi64x(0x00ccaa009e, 0x01751997d0);

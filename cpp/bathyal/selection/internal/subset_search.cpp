@@ -189,7 +189,7 @@ std::vector<int> beam_search(const CandidateSet& candidates, const SetSearchOpti
 }
 
 /// Log likelihood, less one for each column (Akaike 1974), of a fit to `rows` degrees of freedom of
-/// the base model. An alternative is judged by how well it fits: a parameter more makes it less
+/// the base model. An alternative is assessed by how well it fits: a parameter more makes it less
 /// probable beforehand, and does not exclude it.
 double fit_quality(const SetFit& fit, double rows) {
   double out = -0.5 * rows * std::log(fit.residual_sum);
