@@ -11,7 +11,7 @@
 namespace bathyal::selection {
 namespace {
 
-constexpr Index kMaxObservations = 2000;
+constexpr Index kMaxObservations = 1000;
 constexpr Index kMinObservations = 30;
 constexpr double kDoubtful = 0.01, kBeyondDoubt = 1e-12;  ///< p-values between are computed exactly
 constexpr int kMaxExact = 12;                             ///< so many of them
