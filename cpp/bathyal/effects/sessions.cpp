@@ -43,8 +43,8 @@ std::vector<EffectParameter> shift_and_turn(bool turns, std::size_t session = 0)
 }
 
 /// A frame that is elsewhere in some sessions. Settings give either "from", the label of the
-/// session from which on all sessions moved, or a label for each session that moved by itself:
-/// "session_2" of the second one.
+/// session from which on all sessions moved ("turns" is 0 where it moved without a turn), or a
+/// label for each session that moved by itself: "session_2" of the second one.
 class FrameBySession : public Effect {
  public:
   std::vector<EffectVariant> variants(const EffectData& data) const override {
@@ -53,6 +53,7 @@ class FrameBySession : public Effect {
     const auto add_from_each = [&](bool turned) {
       for (std::size_t s = 1; s < sessions.size(); ++s) {
         out.push_back({name(), -1, {{"from", sessions[s]}}, shift_and_turn(turned, s + 1), name()});
+        if (turns(data) && !turned) out.back().settings["turns"] = 0.0;
       }
     };
     add_from_each(turns(data));
