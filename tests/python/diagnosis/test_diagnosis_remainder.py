@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 
 import bathyal
+from bathyal.identify.simulate import simulate_touches
 
 NOISE = 5e-5
 
@@ -38,6 +39,13 @@ def test_more_than_repeats_of_a_pose_differ_is_never_clean(seed):
 def test_repeats_without_more_are_clean(seed):
     q = np.repeat(poses(60, seed), 4, axis=0)
     assert diagnosed(q, np.zeros((len(q), 3)), seed).verdict == "clean"
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_touches_with_noise_alone_are_clean(seed):
+    made = simulate_touches(bathyal.arms.ur10e(), seed=seed)
+    report = bathyal.diagnose(bathyal.arms.ur10e(), made.touches)
+    assert report.verdict == "clean"
 
 
 @pytest.mark.parametrize("seed", range(3))

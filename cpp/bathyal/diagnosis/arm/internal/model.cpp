@@ -336,7 +336,8 @@ std::vector<Eigen::MatrixXd> ArmModel::directions() const {
   }
   const std::vector<Vec3> world = tips();
   Perturbation sight{PerturbationSite::kFrame, 0, RowMatrix::Zero(rows, 6)};
-  for (Index i = 0; i < rows; ++i) {
+  // Of touches no instrument measures a distance; tips less their point's mean would be residuals.
+  for (Index i = 0; m_.tracked && i < rows; ++i) {
     const Vec3& tip = world[static_cast<std::size_t>(i)];
     sight.values.row(i).head<3>() =
         (fit_.bases[m_.station[i]].linear().transpose() * tip.normalized()).transpose();
