@@ -175,7 +175,9 @@ std::vector<int> TermSelector::best_terms(std::vector<int> start, int scans) {
     add_peaks(working_point_.nuisance(terms));
     if (candidates_.size() == known) break;
   }
-  return refined(simplified(std::move(terms)));
+  // A shortlist is simple already: no other terms are tried.
+  if (scans > 0) terms = simplified(std::move(terms));
+  return refined(std::move(terms));
 }
 
 /// Terms, then outliers: one step on from `now`, with which the model is fitted.
