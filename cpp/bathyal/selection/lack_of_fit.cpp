@@ -2,7 +2,6 @@
 #include "bathyal/selection/lack_of_fit.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <map>
 #include <utility>
@@ -17,7 +16,6 @@ namespace {
 constexpr int kMaxRounds = 4;
 constexpr std::size_t kMaxLackOfFitTerms = 6;  ///< tested at once
 constexpr std::size_t kManyTerms = 6;
-constexpr int kFewestReplaced = 1;
 constexpr std::size_t kMaxReplacements = 4;  ///< from which a search begins
 constexpr double kReplacementGain = 2.0;     ///< log evidence
 
@@ -100,7 +98,6 @@ std::vector<Replacement> LackOfFitCheck::replacements(const ActiveSet& active) c
   std::map<int, Replacement> best;
   const auto count = static_cast<unsigned>(active.terms.size());
   for (unsigned removed = 1; removed < (1u << count); ++removed) {
-    if (std::popcount(removed) < kFewestReplaced) continue;
     check_stop_();
     std::vector<int> rest;
     for (unsigned i = 0; i < count; ++i) {
@@ -137,8 +134,10 @@ std::optional<ActiveSet> LackOfFitCheck::replaced(const ActiveSet& active) {
   for (const Replacement& start : starts) tested.push_back(start.lack_of_fit);
   const CandidateSet candidates =
       working_point_.candidate_set(joined(joined(candidates_, active.lack_of_fit), tested));
+  const auto now = candidates.evaluate(members_of(candidates, active.all()));
+  if (!now) return std::nullopt;
   std::vector<int> best_set;
-  double best = candidates.evaluate(members_of(candidates, active.all()))->score;
+  double best = now->score;
   for (const Replacement& start : starts) {
     check_stop_();
     const std::vector<int> set = stepwise_search(
