@@ -174,6 +174,19 @@ TEST_F(CandidateSetTest, CollinearTermsAreAlternatives) {
   EXPECT_TRUE(found);
 }
 
+/// A column more makes it less probable, by e^-1, and excludes nothing.
+TEST_F(CandidateSetTest, AWiderTermThatFitsAsWellIsAnAlternative) {
+  const Eigen::MatrixXd same = columns_[1];
+  columns_[2].resize(same.rows(), same.cols() + 1);
+  columns_[2] << same, random_columns(97, 1);
+  const CandidateSet p = candidates();
+  double odds = 0.0;
+  for (const Alternative& alternative : find_alternatives(p, std::vector<int>{1, 4})) {
+    if (alternative.member == 1 && alternative.replacement == 2) odds = alternative.odds;
+  }
+  EXPECT_GT(odds, 0.3);
+}
+
 TEST_F(CandidateSetTest, ATermThatAddsToAMemberIsNoAlternative) {
   const CandidateSet p = candidates();
   const std::vector<int> incomplete{1};

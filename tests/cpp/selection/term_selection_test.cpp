@@ -86,6 +86,23 @@ TEST(LackOfFitCheck, FindsStructureThatTheTermsDoNotExplain) {
   EXPECT_TRUE(check.remaining(active, false).empty());
 }
 
+/// Two terms that span the structure leave nothing of it to find.
+TEST(LackOfFitCheck, OneStructureTakesThePlaceOfTermsThatCrowdAroundIt) {
+  LinearModel model;
+  const Eigen::VectorXd structure = swing(4, 20.0), other = swing(5, 20.0);
+  model.add("sum", structure + other);
+  model.add("difference", structure - other);
+  model.add("structure", structure, true);
+  model.data() += 0.1 * structure;
+  WorkingPoint point(model, 1);
+  const std::vector<int> candidates{0, 1};
+  const Folds folds = make_folds(model.observations());
+  const Eigen::VectorXd weights = Eigen::VectorXd::Ones(kRows);
+  const ActiveSet active = LackOfFitCheck(point, candidates, folds, weights, [] {}).select({0, 1});
+  EXPECT_TRUE(active.terms.empty());
+  EXPECT_EQ(active.lack_of_fit, std::vector<int>{2});
+}
+
 TEST(LackOfFitCheck, FindsNothingWhereTheTermsExplainAll) {
   LinearModel model = truth();
   WorkingPoint point(model, 1);

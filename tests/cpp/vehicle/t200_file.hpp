@@ -13,7 +13,7 @@ namespace bathyal {
 
 /// Blue Robotics' bollard tests, where they are.
 inline std::optional<ThrusterTable> t200_table() {
-  std::ifstream file("/work/shared/data/thruster/t200_data.csv");
+  std::ifstream file(BATHYAL_SHARED_DATA "/thruster/t200_data.csv");
   std::string line;
   if (!std::getline(file, line)) return {};
   ThrusterTable table;

@@ -20,7 +20,7 @@ class T200 : public testing::Test {
  protected:
   void SetUp() override {
     const auto found = t200_table();
-    if (!found) GTEST_SKIP() << "no /work/shared/data/thruster/t200_data.csv";
+    if (!found) GTEST_SKIP() << "no ../shared/data/thruster/t200_data.csv";
     table_ = *found;
   }
   ThrusterTable table_;

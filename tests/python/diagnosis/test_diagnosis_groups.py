@@ -13,6 +13,7 @@ import bathyal
 from bathyal import Arm, CorrectedArm, Link, Tracked
 from bathyal.effects import FoundEffect
 from tests.support.diagnosis_record import ARM, N, P, Q, diagnosed, is_right
+from tests.support.elbow_table import ELBOW
 from tests.support.real_arms import placements, sockets
 
 Array = NDArray[np.float64]
@@ -74,14 +75,7 @@ def test_sockets_are_held_out_by_placement() -> None:
 
 def test_weight_of_known_masses_is_predicted_at_another_placement() -> None:
     """Held as in the nearest row it left 0.7 mm of 1.8."""
-    h = np.pi / 2
-    dh = {
-        "a": [0.08, 0.42, 0, 0, 0, 0],
-        "alpha": [-h, 0, h, -h, h, 0],
-        "d": [0.4, 0, 0.06, 0.48, 0, 0.09],
-        "theta": [0, -h, h, 0, 0, 0],
-    }
-    arm = Arm.from_dh(**dh, links=[Link(mass=m) for m in (30, 28, 22, 8, 9, 2, 1)])
+    arm = Arm.from_dh(**ELBOW, links=[Link(mass=m) for m in (30, 28, 22, 8, 9, 2, 1)])
     rng = np.random.default_rng(5)
     low, high = np.full(6, -1.5), np.full(6, 1.5)
     high[1], high[2] = 0.1, 0.1

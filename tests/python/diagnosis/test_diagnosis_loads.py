@@ -9,20 +9,14 @@ import pytest
 import bathyal
 from bathyal import Arm, CorrectedArm, Link, Tracked
 from bathyal.effects import FoundEffect
+from tests.support.elbow_table import ELBOW
 
-_RIGHT = np.pi / 2
-_ROWS = {
-    "a": [0.08, 0.42, 0, 0, 0, 0],
-    "alpha": [-_RIGHT, 0, _RIGHT, -_RIGHT, _RIGHT, 0],
-    "d": [0.4, 0, 0.06, 0.48, 0, 0.09],
-    "theta": [0, -_RIGHT, _RIGHT, 0, 0, 0],
-}
 _MASSES = (30, 10, 4, 3, 3, 3, 6)
 _NOISE = 4e-5
 
 
 def _heavy() -> Arm:
-    return Arm.from_dh(**_ROWS, links=[Link(mass=mass) for mass in _MASSES])
+    return Arm.from_dh(**ELBOW, links=[Link(mass=mass) for mass in _MASSES])
 
 
 @pytest.mark.parametrize("seed", [0, 1])

@@ -12,24 +12,18 @@ from numpy.typing import NDArray
 import bathyal
 from bathyal import Arm, CorrectedArm, Link, Touches, Tracked
 from bathyal.effects import Effect, FoundEffect, library_effects
+from tests.support.elbow_table import ELBOW
 from tests.support.model_agreement import difference
 
 Array = NDArray[np.float64]
 
-_RIGHT = np.pi / 2
-_ROWS = {
-    "a": [0.08, 0.42, 0, 0, 0, 0],
-    "alpha": [-_RIGHT, 0, _RIGHT, -_RIGHT, _RIGHT, 0],
-    "d": [0.4, 0, 0.06, 0.48, 0, 0.09],
-    "theta": [0, -_RIGHT, _RIGHT, 0, 0, 0],
-}
 _MASSES = (30, 28, 22, 8, 9, 2, 1)
 _NOISE = 2e-5
 
 
 def _elastic(rng: np.random.Generator) -> CorrectedArm:
     """An arm of which two joints give way under its weight."""
-    heavy = Arm.from_dh(**_ROWS, links=[Link(mass=mass) for mass in _MASSES])
+    heavy = Arm.from_dh(**ELBOW, links=[Link(mass=mass) for mass in _MASSES])
     found = [
         FoundEffect("joint_compliance", {"compliance": 4e-6}, joint=1),
         FoundEffect("joint_compliance", {"compliance": 1e-5}, joint=2),
@@ -47,7 +41,7 @@ def test_joints_that_give_way_on_an_arm_of_unknown_masses(seed: int) -> None:
     truth = _elastic(rng)
     q = rng.uniform(-1.5, 1.5, (200, 6))
     data = Tracked(q, truth.forward(q)[:, :3, 3] + rng.normal(0, _NOISE, (200, 3)))
-    report = bathyal.diagnose(Arm.from_dh(**_ROWS), data)
+    report = bathyal.diagnose(Arm.from_dh(**ELBOW), data)
     assert report.verdict == "named"
     assert {effect.joint for effect in report.effects} == {1, 2}
     assert difference(report, data) < 1e-9
@@ -64,7 +58,7 @@ def test_moments_that_the_drawing_has_at_nothing_are_no_numbers() -> None:
     q = rng.uniform(-1.5, 1.5, (200, 6))
 
     def numbers(off: float) -> list[list[str]]:
-        rows = {k: np.array(v) + off * rng.uniform(-1, 1, 6) for k, v in _ROWS.items()}
+        rows = {k: np.array(v) + off * rng.uniform(-1, 1, 6) for k, v in ELBOW.items()}
         truth = _elastic(rng)
         data = Tracked(q, truth.forward(q)[:, :3, 3] + rng.normal(0, _NOISE, (200, 3)))
         report = bathyal.diagnose(Arm.from_dh(**rows), data)

@@ -11,7 +11,7 @@ import pytest
 
 import bathyal
 
-T200 = Path("/work/shared/data/thruster/t200_data.csv")
+T200 = Path(__file__).parents[3] / "../shared/data/thruster/t200_data.csv"
 
 
 @pytest.fixture(scope="module")
