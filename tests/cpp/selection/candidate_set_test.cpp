@@ -178,7 +178,7 @@ TEST_F(CandidateSetTest, CollinearTermsAreAlternatives) {
 TEST_F(CandidateSetTest, AWiderTermThatFitsAsWellIsAnAlternative) {
   const Eigen::MatrixXd same = columns_[1];
   columns_[2].resize(same.rows(), same.cols() + 1);
-  columns_[2] << same, random_columns(97, 1);
+  columns_[2] << same, kPlausible * random_columns(97, 1);
   const CandidateSet p = candidates();
   double odds = 0.0;
   for (const Alternative& alternative : find_alternatives(p, std::vector<int>{1, 4})) {
