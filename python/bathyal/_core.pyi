@@ -10586,7 +10586,8 @@ def identify_arm(arm: Arm | CorrectedArm, data: Touches | Tracked, *, parametriz
     pair_weights : bool
         Weigh a point by the number of its touches, as "pairs" always does.
     solver : {"levenberg_marquardt", "paper"}
-        Ceres' TinySolver, or the paper's eq 17 with its sign mended. They reach the same cost.
+        Damped relative to each parameter's curvature, or as the paper's eq 17 with its sign mended.
+        They reach the same cost.
     max_iterations : int
     tool_start : {"auto", "arm", "estimate"}
         Start from the arm's tool, or estimate it (eq 12-16). "auto": the arm's where it has one.

@@ -145,9 +145,8 @@ class ArmModel final : public selection::Model {
   double prior_std(int term, std::size_t parameter, double scale) const;
   std::vector<ParameterColumns> columns_of(std::vector<ActingVariant> acting) const;
   Eigen::MatrixXd setting_derivatives() const;
-  Eigen::VectorXd minimize(Eigen::VectorXd x) const;
+  LeastSquaresOptions fit_options() const;
   Eigen::VectorXd remove_scale_bias(Eigen::VectorXd x);
-  Eigen::VectorXd damped_step(const Eigen::MatrixXd& square, double damping) const;
   Eigen::MatrixXd derivatives(const Eigen::VectorXd& x) const;
   Eigen::MatrixXd admissible_changes() const;
   void linearize_at(const Eigen::VectorXd& x);

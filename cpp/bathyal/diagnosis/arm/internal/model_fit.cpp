@@ -19,10 +19,8 @@ namespace {
 constexpr int kMaxEvaluations = 6;       ///< of effects, each at the arm of the last fit
 constexpr double kSameResiduals = 3e-3;  ///< rms change after a new evaluation [noise]
 constexpr int kMaxRounds = 12;           ///< of values, noise and prior scales
-constexpr int kMaxSteps = 20;
+constexpr int kMaxSteps = 30;
 constexpr double kFirstDamping = 1e-2;  ///< 1 / (10 mm or mrad)²
-constexpr double kMinDamping = 1e-6;
-constexpr double kMaxDamping = 1e8;
 constexpr double kSettledStep = 1e-6;  ///< in units of the columns' scale: nm and nrad
 constexpr double kSettledCost = 1e-2;  ///< of the mean square of a row
 constexpr int kOrderRounds = 4;
@@ -105,11 +103,12 @@ void ArmModel::fit_at_settings(const std::vector<int>& terms) {
     x.tail(wide).setZero();
     if (known.contains(term)) x.tail(wide) = known[term];
   }
+  const ArmResiduals& system = *problem_.system;
   for (int evaluation = 0; evaluation < kMaxEvaluations; ++evaluation) {
     bool other_noise = true;
     for (int round = 0; round < kMaxRounds; ++round) {
       if (!learn_prior_scales(x) && !other_noise) break;
-      x = minimize(std::move(x));
+      x = system.values(solve_least_squares(system, system.scaled(x), fit_options()).y);
       if (!m_.tracked) x = remove_scale_bias(std::move(x));
       x_ = x;
       other_noise = update_noise();
@@ -233,6 +232,7 @@ Eigen::VectorXd ArmModel::remove_scale_bias(Eigen::VectorXd x) {
   const ArmResiduals& system = *problem_.system;
   const Eigen::VectorXd least = x;
   Eigen::VectorXd residuals(system.rows());
+  const LeastSquaresOptions options = fit_options();
   double last = std::numeric_limits<double>::infinity();
   for (int step = 0; step < kMaxSteps; ++step) {
     exact_ = consistent_joints(system, x);
@@ -240,7 +240,7 @@ Eigen::VectorXd ArmModel::remove_scale_bias(Eigen::VectorXd x) {
     system.evaluate(y.data(), residuals.data(), nullptr);
     Eigen::MatrixXd both(system.rows(), system.columns() + 1);
     both << derivatives(x), residuals;
-    const Eigen::VectorXd move = damped_step(inner_products(both, system.num_threads()), 0.0);
+    const Eigen::VectorXd move = damped_step(inner_products(both, system.num_threads()), 0.0, options);
     if (!(move.norm() < last)) return step < 2 ? least : x;
     last = move.norm();
     x = system.values(y + move);
@@ -249,45 +249,17 @@ Eigen::VectorXd ArmModel::remove_scale_bias(Eigen::VectorXd x) {
   return x;
 }
 
-/// The Gauss–Newton step from [J r]ᵀ[J r], with `damping` of all parameters, and of nearly
-/// collinear ones at least kCollinearityTolerance.
-Eigen::VectorXd ArmModel::damped_step(const Eigen::MatrixXd& square, double damping) const {
-  const Index wide = square.cols() - 1;
-  const Eigen::MatrixXd to_free = admissible_changes();
-  Eigen::MatrixXd own =
-      inner_products(to_free, product(square.topLeftCorner(wide, wide), to_free, 1), 1);
-  own.diagonal().array() += damping;
-  const Eigen::VectorXd scale = own.diagonal().unaryExpr(
-      [](double value) { return value > 0.0 ? 1.0 / std::sqrt(value) : 0.0; });
-  own = scale.asDiagonal() * own * scale.asDiagonal();
-  own.diagonal().array() += kCollinearityTolerance * kCollinearityTolerance;
-  const Eigen::VectorXd gradient =
-      scale.asDiagonal() * (to_free.transpose() * square.col(wide).head(wide));
-  return to_free * (scale.asDiagonal() * own.ldlt().solve(-gradient));
-}
-
-/// Levenberg's method: damping is the same for all parameters in units of their scales, so that
-/// steps along a curved valley stay within plausible changes, and all others are Gauss–Newton's.
-Eigen::VectorXd ArmModel::minimize(Eigen::VectorXd x) const {
-  const ArmResiduals& system = *problem_.system;
-  Eigen::VectorXd y = system.scaled(x);
-  double damping = kFirstDamping;
-  for (int step = 0; step < kMaxSteps; ++step) {
-    const Eigen::MatrixXd square = system.normal_equations(y.data());
-    const double before = square(square.rows() - 1, square.cols() - 1);
-    Eigen::VectorXd next;
-    double after = std::numeric_limits<double>::infinity();
-    for (; damping < kMaxDamping; damping *= 10.0) {
-      next = y + damped_step(square, damping);
-      after = system.cost(next.data());
-      if (after <= before) break;
-    }
-    if (!(after <= before)) break;
-    y = next;
-    if (before - after < kSettledCost * before / static_cast<double>(system.data_rows())) break;
-    damping = std::max(damping / 10.0, kMinDamping);
-  }
-  return system.values(y);
+/// Damping is the same for all parameters in units of their scales, so that steps along a curved
+/// valley stay within plausible changes.
+LeastSquaresOptions ArmModel::fit_options() const {
+  return {.solver = Solver::kLevenberg,
+          .max_iterations = kMaxSteps,
+          .damping = kFirstDamping,
+          .cost_change = 0.0,
+          .relative_cost_change =
+              kSettledCost / static_cast<double>(problem_.system->data_rows()),
+          .ridge = kCollinearityTolerance * kCollinearityTolerance,
+          .subspace = admissible_changes()};
 }
 
 /// (free, k): admissible changes of the free parameters. Those of the base model change along the
