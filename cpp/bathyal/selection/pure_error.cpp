@@ -9,6 +9,25 @@
 
 namespace bathyal::selection {
 
+PureError pure_error(const std::vector<Eigen::VectorXd>& values,
+                     const std::vector<int>& replicate) {
+  std::map<int, std::vector<std::size_t>> replicates;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (values[i].size() > 0) replicates[replicate[i]].push_back(i);
+  }
+  PureError out;
+  for (const auto& [number, members] : replicates) {
+    if (members.size() < 2) continue;
+    Eigen::MatrixXd same(values[members.front()].size(), static_cast<Index>(members.size()));
+    for (std::size_t i = 0; i < members.size(); ++i)
+      same.col(static_cast<Index>(i)) = values[members[i]];
+    out.squares += (same.colwise() - same.rowwise().mean()).squaredNorm();
+    out.dof += static_cast<double>(same.rows()) * static_cast<double>(members.size() - 1);
+    ++out.sets;
+  }
+  return out;
+}
+
 PureErrorTest test_pure_error(const Model& model, const Eigen::MatrixXd& basis, double dof,
                               const Eigen::VectorXd& weights) {
   const Linearization& at = model.linearization();
@@ -19,25 +38,15 @@ PureErrorTest test_pure_error(const Model& model, const Eigen::MatrixXd& basis, 
     if (observation >= 0 && weights[observation] > 0.0)
       rows[static_cast<std::size_t>(observation)].push_back(m);
   }
-  std::map<int, std::vector<std::size_t>> replicates;
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    if (!rows[i].empty()) replicates[model.observations().replicate[i]].push_back(i);
-  }
+  std::vector<Eigen::VectorXd> values(rows.size());
+  for (std::size_t i = 0; i < rows.size(); ++i) values[i] = residual(rows[i]);
+  const PureError pure = pure_error(values, model.observations().replicate);
   PureErrorTest out;
-  double squares = 0.0;
-  for (const auto& [number, members] : replicates) {
-    if (members.size() < 2) continue;
-    Eigen::MatrixXd values(static_cast<Index>(rows[members.front()].size()),
-                           static_cast<Index>(members.size()));
-    for (std::size_t i = 0; i < members.size(); ++i)
-      values.col(static_cast<Index>(i)) = residual(rows[members[i]]);
-    squares += (values.colwise() - values.rowwise().mean()).squaredNorm();
-    out.dof += static_cast<double>(values.rows()) * static_cast<double>(members.size() - 1);
-  }
+  out.dof = pure.dof;
   const double left = dof - out.dof;
-  if (out.dof < kMinPureErrorDof || !(squares > 0.0) || !(left > 0.0)) return out;
-  out.variance = squares / out.dof;
-  const double lack_of_fit = std::max(residual.squaredNorm() - squares, 0.0);
+  if (!pure.is_measured() || !(left > 0.0)) return out;
+  out.variance = pure.squares / pure.dof;
+  const double lack_of_fit = std::max(residual.squaredNorm() - pure.squares, 0.0);
   out.p = f_tail(lack_of_fit / left / out.variance, left, out.dof);
   out.explained = std::max(lack_of_fit - left * out.variance, 0.0);
   return out;

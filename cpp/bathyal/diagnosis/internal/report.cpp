@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <set>
 
 #include "bathyal/base/error.hpp"
@@ -58,25 +57,15 @@ class Reporter {
 
   /// Pure error from replicates of a pose; else the residuals of the model.
   void fill_noise() {
-    std::map<int, std::vector<Index>> replicates;
-    std::set<int> excluded(found_.outliers.begin(), found_.outliers.end());
-    for (Index i = 0; i < m_.rows(); ++i) {
-      if (!excluded.contains(static_cast<int>(i)))
-        replicates[model_.observations().replicate[i]].push_back(i);
-    }
-    double squares = 0.0, dof = 0.0;
-    int poses = 0;
-    for (const auto& [replicate, rows] : replicates) {
-      if (rows.size() < 2) continue;
-      const Eigen::Matrix3Xd same = out_.residuals_after(Eigen::all, rows);
-      squares += (same.colwise() - same.rowwise().mean()).squaredNorm();
-      dof += 3.0 * (static_cast<double>(rows.size()) - 1.0);
-      ++poses;
-    }
-    if (dof >= selection::kMinPureErrorDof && squares > 0.0) {
+    std::vector<Eigen::VectorXd> values(static_cast<std::size_t>(m_.rows()));
+    for (Index i = 0; i < m_.rows(); ++i) values[i] = out_.residuals_after.col(i);
+    for (const int row : found_.outliers) values[row].resize(0);
+    const selection::PureError pure =
+        selection::pure_error(values, model_.observations().replicate);
+    if (pure.is_measured()) {
       out_.noise_is_measured = true;
-      out_.noise = std::sqrt(squares / dof);
-      out_.noise_source = "repeats of " + counted(poses, "pose");
+      out_.noise = std::sqrt(pure.squares / pure.dof);
+      out_.noise_source = "repeats of " + counted(pure.sets, "pose");
     } else {
       out_.noise = model_.mean_noise();
       out_.noise_source = "what the model leaves";

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "bathyal/identify/fit/residual_noise.hpp"
+#include "bathyal/identify/fit/scale_bias.hpp"
 
 namespace bathyal {
 namespace {
@@ -12,7 +14,6 @@ constexpr int kMaxRounds = 12;
 constexpr int kMaxReweightings = 60;
 constexpr double kNoiseConverged = 1e-4;  ///< relative
 constexpr double kWeightsConverged = 1e-4;
-constexpr double kScaleConverged = 1e-6;  ///< in units of the parameter scales: nm and nrad
 constexpr double kWidthByNoise = 3.0;
 
 class CalibrationSearch {
@@ -33,7 +34,6 @@ class CalibrationSearch {
   void solve_with_noise();
   void solve_reweighted();
   void prune();
-  void remove_scale_bias();
   bool noise_is_given() const;
   bool noise_matters() const;
   bool update_noise();
@@ -64,7 +64,7 @@ CalibrationResult CalibrationSearch::run() {
   }
   if (options_.loss != Loss::kSquare) solve_reweighted();
   if (options_.prune_sigma) prune();
-  if (!m_.tracked && problem_.scale_observed) remove_scale_bias();
+  if (!m_.tracked && problem_.scale_observed) result_.x = remove_scale_bias(system_, result_.x);
   return std::move(result_);
 }
 
@@ -107,11 +107,10 @@ bool CalibrationSearch::update_noise() {
   const Noise old = system_.noise();
   const Noise noise = estimate_noise();
   system_.set_noise(noise, result_.x);
-  return noise_matters() && (std::abs(noise.position / old.position - 1.0) > kNoiseConverged ||
-                             std::abs(noise.rotation / old.rotation - 1.0) > kNoiseConverged);
+  return noise_matters() && relative_change(noise, old) > kNoiseConverged;
 }
 
-/// Each kind of row by its own residuals: σ² = Σ r² / (rows - trace of their hat matrix).
+/// The parameters use up the trace of the hat matrix of each kind of row.
 Noise CalibrationSearch::estimate_noise() const {
   const Eigen::MatrixXd jacobian = system_.jacobian(result_.x);
   const Index wide = jacobian.cols();
@@ -125,26 +124,23 @@ Noise CalibrationSearch::estimate_noise() const {
   Eigen::MatrixXd together(2 * wide + others, wide);
   together << of_positions, of_rotations, jacobian.bottomRows(others);
   const Eigen::MatrixXd all = qr_factor(together);
-  const auto estimate = [&](const Eigen::Matrix3Xd& residuals, const Eigen::MatrixXd& part,
-                            double rows, double old) {
-    double sum = 0.0;
-    for (Index i = 0; i < m_.rows(); ++i) sum += system_.weight(i) * residuals.col(i).squaredNorm();
-    // Every direction is determined by some row, so that the R factor is invertible.
-    const Eigen::MatrixXd projected =
-        all.triangularView<Eigen::Upper>().transpose().solve(part.transpose());
-    const double dof = rows - projected.squaredNorm();
-    return dof > 0.5 ? std::max(std::sqrt(sum / dof), kLeastNoise) : old;
+  // Every direction is determined by some row, so that the R factor is invertible.
+  const auto trace = [&](const Eigen::MatrixXd& part) {
+    return all.triangularView<Eigen::Upper>().transpose().solve(part.transpose()).squaredNorm();
   };
-  Noise noise = system_.noise();
-  if (!options_.noise) {
-    noise.position = estimate(system_.deviations(result_.x), of_positions, free_position_rows(m_),
-                              noise.position);
-  }
-  if (m_.has_rotation() && !options_.rotation_noise) {
-    noise.rotation = estimate(system_.rotation_deviations(result_.x), of_rotations,
-                              static_cast<double>(3 * m_.rows()), noise.rotation);
-  }
-  return noise;
+  // Not of the rows, which are pairs of touches with the paper's criterion.
+  const auto squares = [&](const Eigen::Matrix3Xd& deviations, double unit) {
+    double sum = 0.0;
+    for (Index i = 0; i < deviations.cols(); ++i) {
+      sum += system_.weight(i) * deviations.col(i).squaredNorm();
+    }
+    return sum / (unit * unit);
+  };
+  const Noise& noise = system_.noise();
+  return residual_noise(system_,
+                        {squares(system_.deviations(result_.x), noise.position),
+                         squares(system_.rotation_deviations(result_.x), noise.rotation)},
+                        {trace(of_positions), trace(of_rotations)}, options_);
 }
 
 /// Iteratively reweighted least squares.
@@ -208,30 +204,6 @@ Index CalibrationSearch::least_significant() const {
     }
   }
   return least;
-}
-
-/// Scatter is recorded in joint values, and a smaller arm maps it to a smaller one: least squares
-/// underestimates the scale by (degrees of freedom) · (relative std of the scale)², many std where
-/// hundreds of touches rely on a short known distance. The derivatives of consistent touches do not
-/// depend on the scatter, so that steps along them converge to the observed scale. For data that no
-/// arm fits the steps may grow: the least-squares solution is then kept.
-void CalibrationSearch::remove_scale_bias() {
-  const Eigen::VectorXd minimum = result_.x;
-  Eigen::VectorXd residuals(system_.rows());
-  double last = std::numeric_limits<double>::infinity();
-  while (last > kScaleConverged) {
-    ArmResiduals consistent = system_;
-    consistent.set_joints(consistent_joints(system_, result_.x));
-    const Eigen::VectorXd y = system_.scaled(result_.x);
-    system_.evaluate(y.data(), residuals.data(), nullptr);
-    const Eigen::VectorXd step = consistent.jacobian(result_.x).householderQr().solve(-residuals);
-    if (!(step.norm() < last)) {
-      result_.x = minimum;
-      return;
-    }
-    last = step.norm();
-    result_.x = system_.values(y + step);
-  }
 }
 
 }  // namespace

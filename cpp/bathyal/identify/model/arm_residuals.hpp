@@ -50,12 +50,19 @@ class ArmResiduals final : public ResidualModel {
   void set_use_priors(bool use) { use_priors_ = use; }
   void set_criterion(Criterion criterion, bool pair_weights);
 
-  /// Factors on the weights of the measurement, (N,): 0 excludes a row.
+  /// Factors on the weights of the measurement, (N,).
   void set_observation_weights(std::vector<double> observation_weights) {
     observation_weights_ = std::move(observation_weights);
   }
   const std::vector<double>& observation_weights() const { return observation_weights_; }
   double weight(Index row) const { return m_.weights[row] * observation_weights_[row]; }
+  /// By a factor of no more than selection::kExcludedWeight: with 0, a point whose touches are all
+  /// excluded would have no centroid.
+  bool is_excluded(Index row) const;
+  /// Rows of a position that measure something: one of a touch of a plane.
+  int axes(Index row) const { return !m_.tracked && m_.plane[row] >= 0 ? 1 : 3; }
+  /// Position and orientation rows that are not excluded, less those that free points use up.
+  Eigen::Array2d free_rows() const;
 
   /// (N,) symmetric factors on position rows in addition to their weights, which whiten errors that
   /// are larger along one direction than another; null: none. Centroid criterion only.

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "bathyal/identify/model/arm_residuals.hpp"
+#include "bathyal/selection/model.hpp"
 
 // Rows other than measurements: known distances and points, priors, linear constraints; and the
 // noise that weights them.
@@ -89,6 +90,18 @@ void ArmResiduals::set_noise(const Noise& noise, const Eigen::VectorXd& x) {
 void ArmResiduals::set_equal_noise(double unit) {
   noise_ = {unit, unit};
   whitening_ = Eigen::MatrixXd::Identity(known_rows(), known_rows()) / unit;
+}
+
+bool ArmResiduals::is_excluded(Index row) const {
+  return observation_weights_[row] < 2.0 * selection::kExcludedWeight;
+}
+
+Eigen::Array2d ArmResiduals::free_rows() const {
+  Eigen::Array2d rows(free_position_rows(m_), static_cast<double>(rotation_rows()));
+  for (Index i = 0; i < m_.rows(); ++i) {
+    if (is_excluded(i)) rows -= Eigen::Array2d(axes(i), m_.has_rotation() ? 3.0 : 0.0);
+  }
+  return rows;
 }
 
 double median_noise(const ArmResiduals& system, const Eigen::VectorXd& distances) {

@@ -123,9 +123,6 @@ class ArmModel final : public selection::Model {
   bool learn_prior_scales(const Eigen::VectorXd& x);
   Eigen::MatrixXd data_normal_equations(const Eigen::VectorXd& x,
                                         const Eigen::VectorXd& weight) const;
-  bool is_excluded(Index row) const;
-  /// Position and orientation rows that are not excluded, less those that free points use up.
-  Eigen::Array2d free_rows() const;
   /// Evaluates the effects, which depend on the geometry (torques, bending links), at the arm of
   /// `x`, as a user of the model does. \return rms change of the rows [noise]
   double evaluate_effects_at(const Eigen::VectorXd& x);
@@ -146,7 +143,6 @@ class ArmModel final : public selection::Model {
   std::vector<ParameterColumns> columns_of(std::vector<ActingVariant> acting) const;
   Eigen::MatrixXd setting_derivatives() const;
   LeastSquaresOptions fit_options() const;
-  Eigen::VectorXd remove_scale_bias(Eigen::VectorXd x);
   Eigen::MatrixXd derivatives(const Eigen::VectorXd& x) const;
   Eigen::MatrixXd admissible_changes() const;
   void linearize_at(const Eigen::VectorXd& x);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <utility>
 
@@ -9,6 +8,7 @@
 #include "bathyal/diagnosis/arm/internal/model.hpp"
 #include "bathyal/estimation/gram.hpp"
 #include "bathyal/estimation/orthogonal.hpp"
+#include "bathyal/identify/fit/scale_bias.hpp"
 #include "bathyal/identify/model/effect_parameters.hpp"
 
 // Joint fit of geometry and effects.
@@ -21,8 +21,7 @@ constexpr double kSameResiduals = 3e-3;  ///< rms change after a new evaluation 
 constexpr int kMaxRounds = 12;           ///< of values, noise and prior scales
 constexpr int kMaxSteps = 30;
 constexpr double kFirstDamping = 1e-2;  ///< 1 / (10 mm or mrad)²
-constexpr double kSettledStep = 1e-6;  ///< in units of the columns' scale: nm and nrad
-constexpr double kSettledCost = 1e-2;  ///< of the mean square of a row
+constexpr double kSettledCost = 1e-2;   ///< of the mean square of a row
 constexpr int kOrderRounds = 4;
 constexpr double kOrderSettled = 0.05;  ///< standard deviations
 constexpr double kFarOrder = 3.0;       ///< over the span: half a wave
@@ -108,8 +107,9 @@ void ArmModel::fit_at_settings(const std::vector<int>& terms) {
     bool other_noise = true;
     for (int round = 0; round < kMaxRounds; ++round) {
       if (!learn_prior_scales(x) && !other_noise) break;
-      x = system.values(solve_least_squares(system, system.scaled(x), fit_options()).y);
-      if (!m_.tracked) x = remove_scale_bias(std::move(x));
+      const LeastSquaresOptions options = fit_options();
+      x = system.values(solve_least_squares(system, system.scaled(x), options).y);
+      if (!m_.tracked) x = remove_scale_bias(system, x, options);
       x_ = x;
       other_noise = update_noise();
     }
@@ -219,34 +219,11 @@ void ArmModel::restore(const Checkpoint& checkpoint) {
 }
 
 /// Derivatives at consistent joint values: at the recorded ones, scatter would pass for information
-/// on the arm's scale (see identify/fit/calibration_search.cpp).
+/// on the arm's scale (see identify/fit/scale_bias.hpp).
 Eigen::MatrixXd ArmModel::derivatives(const Eigen::VectorXd& x) const {
   ArmResiduals exact = *problem_.system;
   exact.set_joints(exact_);
   return exact.jacobian(x);
-}
-
-/// Least squares of touches underestimates the arm's scale; steps along the derivatives at
-/// consistent joint values converge where the known lengths are met.
-Eigen::VectorXd ArmModel::remove_scale_bias(Eigen::VectorXd x) {
-  const ArmResiduals& system = *problem_.system;
-  const Eigen::VectorXd least = x;
-  Eigen::VectorXd residuals(system.rows());
-  const LeastSquaresOptions options = fit_options();
-  double last = std::numeric_limits<double>::infinity();
-  for (int step = 0; step < kMaxSteps; ++step) {
-    exact_ = consistent_joints(system, x);
-    const Eigen::VectorXd y = system.scaled(x);
-    system.evaluate(y.data(), residuals.data(), nullptr);
-    Eigen::MatrixXd both(system.rows(), system.columns() + 1);
-    both << derivatives(x), residuals;
-    const Eigen::VectorXd move = damped_step(inner_products(both, system.num_threads()), 0.0, options);
-    if (!(move.norm() < last)) return step < 2 ? least : x;
-    last = move.norm();
-    x = system.values(y + move);
-    if (last < kSettledStep) break;
-  }
-  return x;
 }
 
 /// Damping is the same for all parameters in units of their scales, so that steps along a curved
@@ -256,8 +233,7 @@ LeastSquaresOptions ArmModel::fit_options() const {
           .max_iterations = kMaxSteps,
           .damping = kFirstDamping,
           .cost_change = 0.0,
-          .relative_cost_change =
-              kSettledCost / static_cast<double>(problem_.system->data_rows()),
+          .relative_cost_change = kSettledCost / static_cast<double>(problem_.system->data_rows()),
           .ridge = kCollinearityTolerance * kCollinearityTolerance,
           .subspace = admissible_changes()};
 }
@@ -295,12 +271,10 @@ void ArmModel::linearize_at(const Eigen::VectorXd& x) {
   linearization_.constrained_dof = static_cast<double>(system.columns() - wide);
   linearization_.noise_rows = system.position_rows();
   for (Index i = 0; i < m_.rows(); ++i) {
-    const bool plane = !m_.tracked && m_.plane[i] >= 0;
-    const double kinds = m_.has_rotation() ? 2.0 : 1.0;
-    if (is_excluded(i)) {
-      linearization_.constrained_dof += plane ? 1.0 : 3.0 * kinds;
+    if (system.is_excluded(i)) {
+      linearization_.constrained_dof += system.axes(i) + (m_.has_rotation() ? 3.0 : 0.0);
     }
-    if (plane) linearization_.constrained_dof += 2.0;  // rows without information
+    linearization_.constrained_dof += 3.0 - system.axes(i);  // rows without information
     for (Index axis = 0; axis < 3; ++axis) {
       linearization_.observation[3 * i + axis] = static_cast<int>(i);
       if (m_.has_rotation()) {

@@ -127,7 +127,8 @@ bool ArmModel::learn_prior_scales(const Eigen::VectorXd& x) {
     weight[i] = std::pow(column.scale / column.prior_std, 2);
   }
   LinearEffects model(data_normal_equations(x, weight), weight);
-  const double dof = free_rows().sum() - static_cast<double>(observable_.cols() + weight.size());
+  const double dof =
+      problem_.system->free_rows().sum() - static_cast<double>(observable_.cols() + weight.size());
   const bool noise_is_free = !problem_.options.noise && dof > 0.5;
   std::map<Family, double> scales;
   for (const auto& [family, positions] : families) {

@@ -97,7 +97,7 @@ Eigen::Matrix3Xd ArmModel::in_metres(const Eigen::VectorXd& rows) const {
 double ArmModel::mean_noise() const {
   double variances = 0.0, rows = 0.0;
   for (Index i = 0; i < m_.rows(); ++i) {
-    if (is_excluded(i)) continue;
+    if (problem_.system->is_excluded(i)) continue;
     variances += m_.weights[i] * problem_.system->row_factor(i).inverse().squaredNorm();
     rows += 3.0;
   }
@@ -107,7 +107,7 @@ double ArmModel::mean_noise() const {
 double ArmModel::mean_unit() const {
   double precisions = 0.0, rows = 0.0;
   for (Index i = 0; i < m_.rows(); ++i) {
-    if (is_excluded(i)) continue;
+    if (problem_.system->is_excluded(i)) continue;
     precisions += problem_.system->row_factor(i).squaredNorm() / m_.weights[i];
     rows += 3.0;
   }
