@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bathyal/estimation/f_distribution.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace bathyal {
@@ -45,6 +46,16 @@ double f_tail(double f, double above, double below) {
   if (!(f > 0.0)) return 1.0;
   const double whole = below + above * f;
   return incomplete_beta(below / whole, above * f / whole, below / 2.0, above / 2.0);
+}
+
+FTest f_test(double explained, double width, double total, double dof) {
+  const double noise = (total - explained) / (dof - width);
+  FTest out;
+  if (!(noise > 0.0)) return out;
+  out.p = f_tail(explained / width / noise, width, dof - width);
+  out.explained = std::max(explained - width * noise, 0.0);
+  out.share = out.explained / total;
+  return out;
 }
 
 }  // namespace bathyal

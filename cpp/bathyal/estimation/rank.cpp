@@ -53,6 +53,23 @@ Eigen::MatrixXd qr_factor(const Eigen::MatrixXd& rows, int num_threads) {
   return qr_factor(factors);
 }
 
+Eigen::MatrixXd column_space(const Eigen::MatrixXd& jacobian, double tolerance, int num_threads) {
+  const Eigen::MatrixXd factor = qr_factor(jacobian, num_threads);
+  const Eigen::VectorXd scale = factor.colwise().norm().transpose().unaryExpr(
+      [](double length) { return length > 0.0 ? 1.0 / length : 0.0; });
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr;
+  qr.setThreshold(tolerance);
+  qr.compute(factor * scale.asDiagonal());
+  const Index rank = qr.rank();
+  Eigen::MatrixXd basis =
+      jacobian * (scale.asDiagonal() * Eigen::MatrixXd(qr.colsPermutation())).leftCols(rank);
+  qr.matrixR()
+      .topLeftCorner(rank, rank)
+      .triangularView<Eigen::Upper>()
+      .solveInPlace<Eigen::OnTheRight>(basis);
+  return basis;
+}
+
 Eigen::MatrixXd covariance_from_qr(const Eigen::MatrixXd& jacobian) {
   const Index columns = jacobian.cols();
   const Eigen::MatrixXd inverse = qr_factor(jacobian).triangularView<Eigen::Upper>().solve(

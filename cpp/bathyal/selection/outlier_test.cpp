@@ -152,20 +152,26 @@ std::vector<ObservationTest> test_observations(const Linearization& at,
     const Eigen::MatrixXd spread = Eigen::MatrixXd::Identity(k, k) - part * part.transpose();
     const Eigen::VectorXd own = unexplained_residual(rows[i]);
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(spread);
-    double distance = 0.0, width = 0.0;
+    const bool used = weights[static_cast<Index>(i)] > 0.0;
+    double distance = 0.0, width = 0.0, square = 0.0;
     for (Index c = 0; c < k; ++c) {
-      if (eigen.eigenvalues()[c] < 1e-6) continue;  // not predicted by any other row
+      const double left = eigen.eigenvalues()[c];
+      if (left < 1e-6) continue;  // not predicted by any other row
       const double along = eigen.eigenvectors().col(c).dot(own);
-      distance += along * along / eigen.eigenvalues()[c];
+      distance += along * along / left;
+      square += std::pow(used ? along / left : along, 2);
       width += 1.0;
     }
-    const bool used = weights[static_cast<Index>(i)] > 0.0;
-    if (!used) distance /= kExcludedWeight;
+    if (!used) {
+      distance /= kExcludedWeight;
+      square /= kExcludedWeight;
+    }
     const double others = used ? squares - distance : squares;
     const double free = used ? dof - width : dof;
     if (width == 0.0 || !(free > 0.0)) continue;
     const double variance = std::max({others, 1e-12 * squares, kRounding * free}) / free;
-    out[i] = {distance / width / variance, f_tail(distance / width / variance, width, free), width};
+    out[i] = {distance / width / variance, f_tail(distance / width / variance, width, free), width,
+              distance, std::sqrt(square)};
   }
   return out;
 }

@@ -15,6 +15,8 @@ struct ObservationTest {
   double distance = 0.0;  ///< squared deleted residual over its variance, per row
   double p = 1.0;         ///< by Fisher's F, of this observation alone
   double rows = 0.0;      ///< of it that the others predict
+  double square = 0.0;    ///< squared deleted residual in units of its spread, without noise
+  double error = 0.0;     ///< length of the deleted residual [noise], at weight 1
 };
 
 /// Each observation's rows against a fit to all others (externally studentized residuals).

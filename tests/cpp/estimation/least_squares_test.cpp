@@ -110,11 +110,38 @@ TEST_P(BothSolvers, NothingUnknownIsNothingToDo) {
 INSTANTIATE_TEST_SUITE_P(Solvers, BothSolvers,
                          testing::Values(Solver::kLevenbergMarquardt, Solver::kPaper));
 
+TEST(LeastSquares, MovesInTheSubspaceAlone) {
+  const MatrixXd along = Eigen::Vector2d(0.6, 0.8);
+  const VectorXd start = Eigen::Vector2d(-1.2, 1.0);
+  const LeastSquaresResult found = solve_least_squares(rosenbrock(), start, {.subspace = along});
+  EXPECT_TRUE(found.converged);
+  const VectorXd moved = found.y - start;
+  EXPECT_GT(moved.norm(), 1e-3);
+  EXPECT_LT((moved - along * (along.transpose() * moved)).norm(), 1e-14);
+  VectorXd r(2);
+  MatrixXd j(2, 2);
+  rosenbrock().evaluate(found.y.data(), r.data(), j.data());
+  EXPECT_LT((along.transpose() * j.transpose() * r).norm(), 1e-4);
+}
+
+TEST(LeastSquares, DampsByCurvatureOrByScale) {
+  MatrixXd normal(3, 3);
+  normal << 4.0, 0.0, 4.0, 0.0, 1.0, 1.0, 4.0, 1.0, 9.0;
+  const auto step = [&](double damping, Solver solver) {
+    return damped_step(normal, damping, {.solver = solver, .ridge = 0.0});
+  };
+  EXPECT_LT((step(0.0, Solver::kLevenbergMarquardt) - Eigen::Vector2d(-1, -1)).norm(), 1e-14);
+  EXPECT_LT((step(1.0, Solver::kLevenbergMarquardt) - Eigen::Vector2d(-0.5, -0.5)).norm(), 1e-14);
+  EXPECT_LT((step(1.0, Solver::kLevenberg) - Eigen::Vector2d(-0.8, -0.5)).norm(), 1e-14);
+}
+
 TEST(LeastSquaresOptions, AreChecked) {
   EXPECT_THROW((LeastSquaresOptions{.max_iterations = 0}.check()), std::invalid_argument);
   EXPECT_THROW((LeastSquaresOptions{.damping = 0.0}.check()), std::invalid_argument);
   EXPECT_THROW((LeastSquaresOptions{.factor = 1.0}.check()), std::invalid_argument);
   EXPECT_THROW((LeastSquaresOptions{.cost_change = -1.0}.check()), std::invalid_argument);
+  EXPECT_THROW((LeastSquaresOptions{.relative_cost_change = -1.0}.check()), std::invalid_argument);
+  EXPECT_THROW((LeastSquaresOptions{.ridge = -1.0}.check()), std::invalid_argument);
 }
 
 }  // namespace

@@ -30,6 +30,16 @@ TEST(TriangleOf, HasTheSquareOfAllRows) {
   }
 }
 
+TEST(ColumnSpace, IsOrthonormalAndWithoutDependentColumns) {
+  MatrixXd matrix = any_matrix(3000, 6, 4);
+  matrix.col(2) *= 1e-6;
+  matrix.col(4) = matrix.col(0) - matrix.col(5);
+  const MatrixXd basis = column_space(matrix, kRankTolerance);
+  ASSERT_EQ(basis.cols(), 5);
+  EXPECT_LT((basis.transpose() * basis - MatrixXd::Identity(5, 5)).norm(), 1e-12);
+  EXPECT_LT((matrix - basis * (basis.transpose() * matrix)).norm(), 1e-11 * matrix.norm());
+}
+
 /// A column of a millionth's difference is seen; the square of the Jacobian would lose it.
 TEST(RevealRank, SeesWhatNormalEquationsLose) {
   MatrixXd matrix = any_matrix(40, 5, 2);

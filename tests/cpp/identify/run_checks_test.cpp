@@ -73,6 +73,15 @@ TEST(FTail, Ends) {
   EXPECT_EQ(f_tail(1e300, 36.0, 3000.0), 0.0);
 }
 
+TEST(FTest, IsOfTheMeanSquareOverThatOfTheRest) {
+  const FTest test = f_test(30.0, 3.0, 50.0, 23.0);
+  EXPECT_DOUBLE_EQ(test.p, f_tail(10.0, 3.0, 20.0));
+  EXPECT_DOUBLE_EQ(test.explained, 27.0);
+  EXPECT_DOUBLE_EQ(test.share, 0.54);
+  EXPECT_EQ(f_test(1.0, 3.0, 50.0, 23.0).share, 0.0);
+  EXPECT_EQ(f_test(50.0, 3.0, 50.0, 23.0).p, 1.0);
+}
+
 TEST(Examine, CleanPosesAreNotDoubted) {
   const ArmFit fit = identify_arm(probing(), measured(80));
   EXPECT_TRUE(fit.warnings.empty()) << fit.warnings.front();

@@ -53,6 +53,18 @@ TEST(Outliers, AreExcludedAtOneInAThousand) {
   EXPECT_LT(least, 6.0);
 }
 
+TEST(Outliers, HaveTheErrorThatTheOthersPredictForThem) {
+  const Eigen::VectorXd all = Eigen::VectorXd::Ones(kObservations);
+  const Linearization at = with_outlier(30.0);
+  const Eigen::MatrixXd mean = all / std::sqrt(static_cast<double>(kObservations));
+  Linearization fitted = at;
+  fitted.residual -= mean * (mean.transpose() * at.residual);
+  const ObservationTest test = test_observations(fitted, mean, all, kObservations - 1)[kOutlier];
+  const double others = (at.residual.sum() - 30.0) / (kObservations - 1.0);
+  EXPECT_NEAR(test.error, 30.0 - others, 1e-9);
+  EXPECT_NEAR(test.square, std::pow(test.error, 2) * (1.0 - 1.0 / kObservations), 1e-8);
+}
+
 TEST(Outliers, AreTakenBackWhenTheyAreNoneAnyMore) {
   const Eigen::MatrixXd no_basis(kObservations, 0);
   const Eigen::VectorXd all = Eigen::VectorXd::Ones(kObservations);

@@ -43,6 +43,15 @@ TEST(PureError, LeavesOutExcludedObservations) {
   EXPECT_EQ(tested(residual, 0.0).dof, kRows - kRows / kReplicates - 1.0);
 }
 
+TEST(PureError, IsTheSpreadAboutTheMeanOfEachSet) {
+  const auto row = [](double value) { return Eigen::VectorXd::Constant(1, value); };
+  const PureError pure = pure_error({row(1.0), row(3.0), row(7.0), {}, row(5.0)}, {0, 0, 1, 1, 0});
+  EXPECT_DOUBLE_EQ(pure.squares, 8.0);
+  EXPECT_EQ(pure.dof, 2.0);
+  EXPECT_EQ(pure.sets, 1);
+  EXPECT_FALSE(pure.is_measured());
+}
+
 TEST(PureError, WithoutReplicatesIsNoTest) {
   LinearModel model;
   const PureErrorTest test =

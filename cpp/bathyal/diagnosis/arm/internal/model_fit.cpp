@@ -9,6 +9,7 @@
 #include "bathyal/estimation/gram.hpp"
 #include "bathyal/estimation/orthogonal.hpp"
 #include "bathyal/identify/fit/scale_bias.hpp"
+#include "bathyal/identify/model/arm_linearization.hpp"
 #include "bathyal/identify/model/effect_parameters.hpp"
 
 // Joint fit of geometry and effects.
@@ -259,33 +260,11 @@ void ArmModel::linearize_at(const Eigen::VectorXd& x) {
   system.evaluate(y.data(), residuals.data(), nullptr);
   const Eigen::MatrixXd jacobian = derivatives(x);
   effect_jacobian_ = jacobian.rightCols(system.columns() - wide);
-  linearization_.residual = effect_jacobian_ * y.tail(y.size() - wide);
-  linearization_.residual -= residuals;
-  const Index points = m_.tracked ? 0 : m_.points();
-  const Index seen = observable_.cols();
-  linearization_.jacobian = Eigen::MatrixXd::Zero(rows, seen + 3 * points);
-  linearization_.jacobian.leftCols(seen) =
-      product(jacobian.leftCols(wide), observable_, system.num_threads());
-  linearization_.observation.assign(static_cast<std::size_t>(rows), -1);
+  linearization_ =
+      to_linearization(system, effect_jacobian_ * y.tail(y.size() - wide) - residuals,
+                       product(jacobian.leftCols(wide), observable_, system.num_threads()));
   // Prior rows of effects measure nothing.
-  linearization_.constrained_dof = static_cast<double>(system.columns() - wide);
-  linearization_.noise_rows = system.position_rows();
-  for (Index i = 0; i < m_.rows(); ++i) {
-    if (system.is_excluded(i)) {
-      linearization_.constrained_dof += system.axes(i) + (m_.has_rotation() ? 3.0 : 0.0);
-    }
-    linearization_.constrained_dof += 3.0 - system.axes(i);  // rows without information
-    for (Index axis = 0; axis < 3; ++axis) {
-      linearization_.observation[3 * i + axis] = static_cast<int>(i);
-      if (m_.has_rotation()) {
-        linearization_.observation[3 * m_.rows() + 3 * i + axis] = static_cast<int>(i);
-      }
-    }
-    // A touched point's position is free: three columns in place of the centroid.
-    if (!m_.tracked && m_.point[i] >= 0) {
-      linearization_.jacobian.block<3, 3>(3 * i, seen + 3 * m_.point[i]) = system.row_factor(i);
-    }
-  }
+  linearization_.constrained_dof += static_cast<double>(system.columns() - wide);
 }
 
 /// (M, orders) d modelled / d order of active waves: the uncertainty of an order is part of that of

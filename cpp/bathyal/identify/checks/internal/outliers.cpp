@@ -6,128 +6,67 @@
 #include <optional>
 #include <utility>
 
-#include "bathyal/estimation/f_distribution.hpp"
+#include "bathyal/estimation/rank.hpp"
+#include "bathyal/identify/model/arm_linearization.hpp"
+#include "bathyal/selection/outlier_test.hpp"
 
 namespace bathyal::identify {
 namespace {
 
-constexpr double kFalseAlarm = 0.01;  ///< of a whole fit without outliers
-constexpr double kMinSigma = 6.0;     ///< below it a residual may be in the tail of the noise
-/// Weight of an excluded row. Not 0: its residual is obtained from the same evaluation, and a point
-/// whose touches are all excluded keeps a centroid.
-constexpr double kExcludedWeight = 1e-20;
+constexpr double kFalseAlarm = 0.01;   ///< of a whole fit without outliers
+constexpr double kMinSigma = 6.0;      ///< below it a residual may be in the tail of the noise
 constexpr double kMinDistance = 5e-5;  ///< [m] no touch is an outlier at less
 constexpr int kMaxSearchRounds = 10;
 
-/// Residuals of each row with the row excluded.
+/// Each row against its prediction from the others.
 struct DeletionResiduals {
-  Eigen::VectorXd square;    ///< (N,) squared, by its covariance
-  Eigen::VectorXd distance;  ///< (N,) from the position predicted by the others [m]
-  Eigen::VectorXd reach;     ///< (N,) std of that position, in units of the noise
-  double variance = 1.0;     ///< of the rows kept, in units of the system's noise
-  double dof = 0.0;          ///< of the rows kept
+  std::vector<selection::ObservationTest> tests;
+  double variance = 1.0;  ///< of the rows kept, in units of the system's noise
+  double dof = 0.0;       ///< of the rows kept
 };
 
-bool is_kept(double weight) { return weight > kExcludedWeight; }
-
-int dimensions(const Measurement& m, Index row) { return !m.tracked && m.plane[row] >= 0 ? 1 : 3; }
-
-/// Share of a row in the weight of the centroid of its point.
-std::vector<double> centroid_leverage(const ArmResiduals& system) {
-  const Measurement& m = system.measurement();
-  std::vector<double> total(static_cast<std::size_t>(m.points()), 0.0);
-  std::vector<double> share(static_cast<std::size_t>(m.rows()), 0.0);
-  for (Index i = 0; i < m.rows(); ++i) {
-    if (m.point[i] >= 0) total[m.point[i]] += system.weight(i);
-  }
-  for (Index i = 0; i < m.rows(); ++i) {
-    if (m.point[i] >= 0) share[i] = system.weight(i) / total[m.point[i]];
-  }
-  return share;
-}
-
-/// The inverse, without the directions that only the row itself determines.
-Eigen::Matrix3d pseudo_inverse(const Eigen::Matrix3d& spread) {
-  constexpr double kUndetermined = 1e-6;
-  const Eigen::Matrix3d inverse = spread.inverse();
-  if (inverse.norm() < 1.0 / kUndetermined && spread.determinant() > 0.0) return inverse;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(spread);
-  const Vec3 values = axes.eigenvalues();
-  const Vec3 inverses = (values.array() < kUndetermined).select(0.0, values.cwiseInverse());
-  return axes.eigenvectors() * inverses.asDiagonal() * axes.eigenvectors().transpose();
-}
-
 DeletionResiduals deletion_residuals(const ArmResiduals& system, const Eigen::VectorXd& x) {
-  const Measurement& m = system.measurement();
   Eigen::VectorXd residuals(system.rows());
   Eigen::MatrixXd jacobian(system.rows(), system.columns());
-  const Eigen::VectorXd y = system.scaled(x);
-  system.evaluate(y.data(), residuals.data(), jacobian.data());
-  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(jacobian);
-  // (P, 3 N): square root of the leverage of the position rows.
-  const Eigen::MatrixXd leverage_root = qr.matrixQR()
-                                            .topRows(jacobian.cols())
-                                            .triangularView<Eigen::Upper>()
-                                            .transpose()
-                                            .solve(jacobian.topRows(3 * m.rows()).transpose());
-  const std::vector<double> share = centroid_leverage(system);
-
+  system.evaluate(system.scaled(x).data(), residuals.data(), jacobian.data());
+  const selection::Linearization at = to_linearization(system, std::move(residuals), jacobian);
+  const Eigen::MatrixXd basis = column_space(at.jacobian, kRankTolerance);
+  Eigen::VectorXd weights(system.measurement().rows());
+  for (Index i = 0; i < weights.size(); ++i) weights[i] = system.is_excluded(i) ? 0.0 : 1.0;
   DeletionResiduals out;
-  out.square.setZero(m.rows());
-  out.distance.setZero(m.rows());
-  out.reach.setZero(m.rows());
-  double sum = 0.0;
-  for (Index i = 0; i < m.rows(); ++i) {
-    const double weight = system.observation_weights()[i];
-    const Vec3 residual = residuals.segment<3>(3 * i);
-    const auto row_root = leverage_root.middleCols<3>(3 * i);
-    const Eigen::Matrix3d leverage = row_root.transpose() * row_root;
-    if (is_kept(weight)) {
-      sum += residual.squaredNorm();
-      out.dof += dimensions(m, i) * (1.0 - share[i]) - leverage.trace();
-    }
-    // A row that was fitted is nearer to the fit than a new one would be.
-    const double sign = is_kept(weight) ? -1.0 : 1.0;
-    const Eigen::Matrix3d spread =
-        (1.0 + sign * share[i]) * Eigen::Matrix3d::Identity() + sign * leverage / weight;
-    const Vec3 error = residual / std::sqrt(weight);
-    const Eigen::Matrix3d by_spread = pseudo_inverse(spread);
-    out.square[i] = error.dot(by_spread * error);
-    const Vec3 from = by_spread * (is_kept(weight) ? error : Vec3(spread * error));
-    out.distance[i] = from.norm() * system.noise().position / std::sqrt(m.weights[i]);
-    out.reach[i] = std::sqrt(1.0 + share[i] + leverage.trace() / weight);
-  }
+  out.dof = static_cast<double>(system.rows() - basis.cols()) - at.constrained_dof;
+  out.tests = selection::test_observations(at, basis, weights, out.dof);
+  const double squares =
+      at.residual.squaredNorm() - (basis.transpose() * at.residual).squaredNorm();
   const double unit = kLeastNoise / system.noise().position;
-  out.variance = std::max(out.dof > 0.0 ? sum / out.dof : 0.0, unit * unit);
+  out.variance = std::max(out.dof > 0.0 ? squares / out.dof : 0.0, unit * unit);
   return out;
+}
+
+/// From the position predicted by the others [m].
+double distance(const DeletionResiduals& residuals, const ArmResiduals& system, Index i) {
+  return residuals.tests[i].error * system.noise().position /
+         std::sqrt(system.measurement().weights[i]);
 }
 
 /// Whether the residual of row i is beyond chance.
 bool is_outlier(const DeletionResiduals& residuals, const ArmResiduals& system, Index i) {
-  const int axes = dimensions(system.measurement(), i);
-  const bool kept = is_kept(system.observation_weights()[i]);
-  const double dof = residuals.dof - (kept ? axes : 0);
-  if (dof < 1.0) return false;
-  const double rest = residuals.variance * residuals.dof - (kept ? residuals.square[i] : 0.0);
-  const double floor = kLeastNoise / system.noise().position;
-  const double variance = std::max(rest / dof, floor * floor);
-  if (residuals.distance[i] < kMinDistance) return false;
-  if (residuals.square[i] < kMinSigma * kMinSigma * variance) return false;
-  const double f = residuals.square[i] / (axes * variance);
-  return f_tail(f, axes, dof) < kFalseAlarm / static_cast<double>(system.measurement().rows());
+  const selection::ObservationTest& test = residuals.tests[i];
+  return distance(residuals, system, i) >= kMinDistance &&
+         test.distance * test.rows >= kMinSigma * kMinSigma &&
+         test.p < kFalseAlarm / static_cast<double>(residuals.tests.size());
 }
 
 /// Residuals without outliers are normal: none is an outlier, and the median agrees with the mean.
 bool looks_normal(const DeletionResiduals& residuals, const ArmResiduals& system) {
   constexpr double kMaxMeanRatio = 1.5;
-  const Measurement& m = system.measurement();
   std::vector<double> scaled;
   double sum = 0.0;
-  for (Index i = 0; i < m.rows(); ++i) {
+  for (Index i = 0; i < system.measurement().rows(); ++i) {
     if (is_outlier(residuals, system, i)) return false;
-    if (dimensions(m, i) != 3) continue;
-    scaled.push_back(residuals.square[i]);
-    sum += residuals.square[i];
+    if (system.axes(i) != 3) continue;
+    scaled.push_back(residuals.tests[i].square);
+    sum += scaled.back();
   }
   if (scaled.empty()) return true;
   const auto middle = scaled.begin() + static_cast<std::ptrdiff_t>(scaled.size() / 2);
@@ -186,7 +125,7 @@ double huber(double ratio) {
 double tukey(double ratio) {
   constexpr double kWidth = 4.685;
   const double bell = 1.0 - ratio * ratio / (kWidth * kWidth);
-  return std::max(bell > 0.0 ? bell * bell : 0.0, kExcludedWeight);
+  return std::max(bell > 0.0 ? bell * bell : 0.0, selection::kExcludedWeight);
 }
 
 /// Iteratively reweighted least squares, with weights by the distance in units of the noise.
@@ -216,7 +155,7 @@ DeletionResiduals trimmed_fit(ArmResiduals& system, Eigen::VectorXd& x) {
   const double noise = std::max(median_noise(system, norms), kMinDistance / kMinSigma);
   std::vector<double> observation_weights(system.observation_weights().size(), 1.0);
   for (Index i = 0; i < norms.size(); ++i) {
-    if (norms[i] > kMinSigma * noise) observation_weights[i] = kExcludedWeight;
+    if (norms[i] > kMinSigma * noise) observation_weights[i] = selection::kExcludedWeight;
   }
   DeletionResiduals found;
   for (int round = 0; round < kMaxSearchRounds; ++round) {
@@ -228,7 +167,7 @@ DeletionResiduals trimmed_fit(ArmResiduals& system, Eigen::VectorXd& x) {
     found = deletion_residuals(system, x);
     std::vector<double> next(observation_weights.size(), 1.0);
     for (Index i = 0; i < norms.size(); ++i) {
-      if (is_outlier(found, system, i)) next[i] = kExcludedWeight;
+      if (is_outlier(found, system, i)) next[i] = selection::kExcludedWeight;
     }
     if (next == observation_weights) break;
     observation_weights = std::move(next);
@@ -241,12 +180,12 @@ std::optional<int> point_that_fits(const ArmResiduals& system, const DeletionRes
                                    Index i, const Vec3& tip, const Eigen::Matrix3Xd& centers) {
   constexpr double kDistanceRatio = 0.2;
   const Measurement& m = system.measurement();
-  const double noise =
-      system.noise().position * std::sqrt(residuals.variance / m.weights[i]) * residuals.reach[i];
+  const selection::ObservationTest& test = residuals.tests[i];
+  const double from = distance(residuals, system, i);
+  const double std = from / std::sqrt(test.distance * test.rows);
   for (int p = 0; p < m.points(); ++p) {
     const double away = (tip - centers.col(p)).norm();
-    if (p != m.point[i] && away < kMinSigma * noise &&
-        away < kDistanceRatio * residuals.distance[i]) {
+    if (p != m.point[i] && away < kMinSigma * std && away < kDistanceRatio * from) {
       return m.labels[p];
     }
   }
@@ -281,9 +220,9 @@ OutlierSearch find_outliers(const ArmResiduals& fitted, const Eigen::VectorXd& x
   const Eigen::Matrix3Xd deviations = system.deviations(found_x);
   Index unexplained = 0;
   for (Index i = 0; i < m.rows(); ++i) {
-    if (is_kept(system.observation_weights()[i])) continue;
+    if (!system.is_excluded(i)) continue;
     Outlier outlier{static_cast<int>(i), m.point[i] < 0 ? -1 : m.labels[m.point[i]],
-                    found.distance[i], std::nullopt};
+                    distance(found, system, i), std::nullopt};
     if (m.point[i] >= 0) {
       const Vec3 tip = out.points.col(m.point[i]) + deviations.col(i);
       outlier.fits = point_that_fits(system, found, i, tip, out.points);

@@ -115,20 +115,6 @@ Explained explain(Eigen::MatrixXd square, Eigen::VectorXd along) {
   return out;
 }
 
-/// Share of the variance that the functions explain.
-double share_of(const Explained& explained, double squares, double dof) {
-  const double unexplained = (squares - explained.squares) / (dof - explained.functions);
-  return squares > 0.0 ? std::clamp(1.0 - unexplained * dof / squares, 0.0, 1.0) : 0.0;
-}
-
-double rows_counted(const Measurement& m, const std::vector<double>& weights) {
-  double rows = free_position_rows(m);
-  for (Index i = 0; i < m.rows(); ++i) {
-    if (weights[i] < 1e-6) rows -= !m.tracked && m.plane[i] >= 0 ? 1.0 : 3.0;
-  }
-  return rows;
-}
-
 /// An orthonormal basis of the column space of the Jacobian of the positions. Deviations of touches
 /// from their centroids are themselves a change of scale: with the scale included, it would absorb
 /// all residuals, so it is fixed.
@@ -196,21 +182,20 @@ ResidualStructure test(ArmResiduals& system, const Eigen::VectorXd& x) {
   square.triangularView<Eigen::StrictlyUpper>() = square.transpose();
   const Eigen::VectorXd along = regressors.transpose() * projected;
 
-  const double dof =
-      rows_counted(m, system.observation_weights()) - static_cast<double>(basis.cols());
+  const double dof = system.free_rows()[0] - static_cast<double>(basis.cols());
   const double squares = projected.squaredNorm();
   const Explained all = explain(square, along);
-  const double below = dof - all.functions;
-  if (all.functions < 1.0 || below < kLeastDof) return out;
-  const double noise = std::max(squares - all.squares, 0.0) / below;
-  out.p = noise > 0.0 ? f_tail(all.squares / all.functions / noise, all.functions, below) : 1.0;
-  out.share = share_of(all, squares, dof);
+  if (all.functions < 1.0 || dof - all.functions < kLeastDof) return out;
+  const FTest together = f_test(all.squares, all.functions, squares, dof);
+  out.p = together.p;
+  out.share = together.share;
   if (out.p > kJointThreshold) return out;
   for (int j = 0; j < m.q.cols(); ++j) {
     const Index at = kRegressors * j;
     const Explained alone =
         explain(square.block(at, at, kRegressors, kRegressors), along.segment(at, kRegressors));
-    const double share = share_of(alone, squares, dof);
+    if (alone.functions < 1.0) continue;
+    const double share = f_test(alone.squares, alone.functions, squares, dof).share;
     if (share > out.joint_share) {
       out.coordinate = j;
       out.joint_share = share;
