@@ -63,18 +63,21 @@ class LinkCompliance final : public Effect {
   bool needs_weight(const EffectVariant&) const override { return true; }
 
   EffectInfo info() const override {
-    return {"link_compliance",
-            "a link, or a column, that bends under what it carries",
+    return {
+        .name = "link_compliance",
+        .description = "a link, or a column, that bends under what it carries",
+        .formula =
             "end of the link: turn flexibility · |l| (M⊥ + l×F / 2), shift flexibility · |l| "
             "(M⊥×l / 2 + (l×F)×l / 3); l from the joint's origin to the next one's (the flange), F "
             "and M force and moment there of all that lies beyond, flexibility 1 / (E I)",
+        .source =
             "cantilever of Euler and Bernoulli, as in Timoshenko: Strength of materials, 1930; "
             "Khalil, Besnard: Geometric calibration of robots with flexible joints and links, 2002",
-            {},
-            {{"flexibility", "1/(N m²)", 1e-8, 1e-2}},
-            false,
-            false,
-            true};
+        .ranges = {{.parameter = "flexibility", .unit = "1/(N m²)", .low = 1e-8, .high = 1e-2}},
+        .extrapolates = true};
+  }
+  std::string describe(const EffectVariant& variant, const Arm& arm) const override {
+    return "the link that " + describe_joint(variant.joint, arm) + " moves bending under its load";
   }
 
   std::vector<EffectVariant> variants(const EffectData& data) const override {
@@ -131,17 +134,21 @@ class BaseCompliance final : public Effect {
 
   EffectInfo info() const override {
     return {
-        "base_compliance",
-        "a support that tilts under the arm's weight as the arm reaches out",
-        "base turned by (compliance_x · M_x, compliance_y · M_y, 0), M the moment of the weight "
-        "of links and payload about the base",
-        "Khalil, Besnard: Geometric calibration of robots with flexible joints and links, 2002 "
-        "(an elastic joint before the first row)",
-        {},
-        {{"compliance_x", "rad/(N m)", 1e-9, 1e-4}, {"compliance_y", "rad/(N m)", 1e-9, 1e-4}},
-        false,
-        false,
-        true};
+        .name = "base_compliance",
+        .description = "a support that tilts under the arm's weight as the arm reaches out",
+        .formula =
+            "base turned by (compliance_x · M_x, compliance_y · M_y, 0), M the moment of the "
+            "weight "
+            "of links and payload about the base",
+        .source =
+            "Khalil, Besnard: Geometric calibration of robots with flexible joints and links, 2002 "
+            "(an elastic joint before the first row)",
+        .ranges = {{.parameter = "compliance_x", .unit = "rad/(N m)", .low = 1e-9, .high = 1e-4},
+                   {.parameter = "compliance_y", .unit = "rad/(N m)", .low = 1e-9, .high = 1e-4}},
+        .extrapolates = true};
+  }
+  std::string describe(const EffectVariant&, const Arm&) const override {
+    return "the base tilting under the arm's weight";
   }
 
   std::vector<EffectVariant> variants(const EffectData& data) const override {

@@ -12,16 +12,19 @@ namespace {
 class Thermal final : public Effect {
  public:
   EffectInfo info() const override {
-    return {"thermal",
-            "links that grow with temperature, all at one rate",
-            "a' = a (1 + expansion · (T - mean T)), d' = d (1 + expansion · (T - mean T))",
+    return {
+        .name = "thermal",
+        .description = "links that grow with temperature, all at one rate",
+        .formula = "a' = a (1 + expansion · (T - mean T)), d' = d (1 + expansion · (T - mean T))",
+        .source =
             "Gong, Yuan, Ni: Nongeometric error identification and compensation for robotic system "
             "by inverse calibration, 2000",
-            {"temperature"},
-            {{"expansion", "1/K", 1e-6, 1e-4}},
-            false,
-            false,
-            true};
+        .needs = {"temperature"},
+        .ranges = {{.parameter = "expansion", .unit = "1/K", .low = 1e-6, .high = 1e-4}},
+        .extrapolates = true};
+  }
+  std::string describe(const EffectVariant&, const Arm&) const override {
+    return "links growing with temperature";
   }
 
   std::vector<EffectVariant> variants(const EffectData& data) const override {
@@ -44,13 +47,20 @@ class Thermal final : public Effect {
 class Drift final : public Effect {
  public:
   EffectInfo info() const override {
-    return {"drift",
+    return {
+        .name = "drift",
+        .description =
             "the base, or the tracker's frame, creeps: it moves and turns evenly in time",
-            "base' = base · shift rate · (t - t0), turn rate · (t - t0)",
+        .formula = "base' = base · shift rate · (t - t0), turn rate · (t - t0)",
+        .source =
             "Gong, Yuan, Ni: Nongeometric error identification and compensation for robotic system "
             "by inverse calibration, 2000 (errors that grow as a machine warms)",
-            {"time"},
-            {{"rate_x", "m/s", 1e-9, 1e-4}, {"turn_rate_x", "rad/s", 1e-9, 1e-4}}};
+        .needs = {"time"},
+        .ranges = {{.parameter = "rate_x", .unit = "m/s", .low = 1e-9, .high = 1e-4},
+                   {.parameter = "turn_rate_x", .unit = "rad/s", .low = 1e-9, .high = 1e-4}}};
+  }
+  std::string describe(const EffectVariant&, const Arm&) const override {
+    return "the base, or the tracker, drifting with time";
   }
 
   std::vector<EffectVariant> variants(const EffectData& data) const override {
@@ -83,14 +93,20 @@ class Drift final : public Effect {
 class ClockShift final : public Effect {
  public:
   EffectInfo info() const override {
-    return {"clock_shift",
+    return {
+        .name = "clock_shift",
+        .description =
             "joints and tracker out of step: positions belong to joint values of another moment",
-            "q' = q(t + delay) ≈ q + delay · dq/dt",
+        .formula = "q' = q(t + delay) ≈ q + delay · dq/dt",
+        .source =
             "Furgale, Rehder, Siegwart: Unified temporal and spatial calibration for multi-sensor "
             "systems, 2013",
-            {"time"},
-            {{"delay", "s", 1e-5, 1.0}},
-            true};
+        .needs = {"time"},
+        .ranges = {{.parameter = "delay", .unit = "s", .low = 1e-5, .high = 1.0}},
+        .by_difference = true};
+  }
+  std::string describe(const EffectVariant&, const Arm&) const override {
+    return "clocks of joints and tracker out of step";
   }
 
   std::vector<EffectVariant> variants(const EffectData& data) const override {

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "bathyal/base/check.hpp"
+#include "bathyal/effects/internal/library.hpp"
 
 namespace bathyal {
 namespace {
@@ -120,6 +121,11 @@ EffectData make_effect_data(const Arm& arm, const RowMatrix& q, const Covariates
                      [&time](int a, int b) { return time(a, 0) < time(b, 0); });
   }
   return data;
+}
+
+std::string Effect::describe(const EffectVariant& variant, const Arm& arm) const {
+  return variant.joint < 0 ? variant.effect
+                           : variant.effect + " of " + effects::describe_joint(variant.joint, arm);
 }
 
 double plausible_size(const EffectInfo& info, const EffectParameter& parameter) {

@@ -88,13 +88,13 @@ struct EffectData {
 EffectData make_effect_data(const Arm& arm, const RowMatrix& q, const Covariates& covariates,
                             bool has_rotation);
 
-/// Documentation of an effect.
+/// What is known of an effect, whatever its variant; one designated initializer each.
 struct EffectInfo {
-  std::string name;                ///< as diagnosis names it
-  std::string description;         ///< "a curve along one joint: …"
-  std::string formula;             ///< "q + c cos(k q) + s sin(k q)"
-  std::string source;              ///< paper or textbook
-  std::vector<std::string> needs;  ///< covariates without which it is not observable
+  std::string name;                     ///< as diagnosis names it
+  std::string description;              ///< "a curve along one joint: …"
+  std::string formula;                  ///< "q + c cos(k q) + s sin(k q)"
+  std::string source;                   ///< paper or textbook
+  std::vector<std::string> needs = {};  ///< covariates without which it is not observable
   struct Range {
     std::string parameter;
     std::string unit;
@@ -102,7 +102,7 @@ struct EffectInfo {
     double high = 0.0;  ///< greatest plausible size: the standard deviation of the prior that
                         ///< diagnosis assumes; may be infinite
   };
-  std::vector<Range> ranges;  ///< one for each unit at least
+  std::vector<Range> ranges = {};  ///< one for each unit at least
   /// Whether it depends on changes from row to row and not on the rows themselves: the ranges of
   /// the training data do not bound it.
   bool by_difference = false;
@@ -119,6 +119,9 @@ class Effect {
  public:
   virtual ~Effect() = default;
   virtual EffectInfo info() const = 0;
+
+  /// A variant for people: "a wave of order 2 along joint 3 (elbow)", joints counted from 1.
+  virtual std::string describe(const EffectVariant& variant, const Arm& arm) const;
 
   /// All variants that these data could show; none where a covariate is missing or constant.
   /// Scanned variants (orders, moments) are given on the grid of the scan.

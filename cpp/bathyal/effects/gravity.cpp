@@ -94,18 +94,24 @@ class JointCompliance final : public Effect {
   }
 
   EffectInfo info() const override {
-    return {
-        "joint_compliance",
-        "a joint that yields under the weight that it carries",
-        "q' = q + compliance · τ(q), τ the torque of gravity along the joint; of unknown masses "
-        "q' = q + Σ moment_i · τ_i(q), τ_i the torque of a unit of mass or mass moment",
-        "Whitney, Lozinski, Rourke, 1986; Khalil, Besnard: Geometric calibration of robots with "
-        "flexible joints and links, 2002",
-        {},
-        {{"compliance", "rad/(N m) or m/N", 1e-8, 1e-3}},
-        false,
-        false,
-        true};
+    return {.name = "joint_compliance",
+            .description = "a joint that yields under the weight that it carries",
+            .formula =
+                "q' = q + compliance · τ(q), τ the torque of gravity along the joint; of unknown "
+                "masses "
+                "q' = q + Σ moment_i · τ_i(q), τ_i the torque of a unit of mass or mass moment",
+            .source =
+                "Whitney, Lozinski, Rourke, 1986; Khalil, Besnard: Geometric calibration of robots "
+                "with "
+                "flexible joints and links, 2002",
+            .ranges = {{.parameter = "compliance",
+                        .unit = "rad/(N m) or m/N",
+                        .low = 1e-8,
+                        .high = 1e-3}},
+            .extrapolates = true};
+  }
+  std::string describe(const EffectVariant& variant, const Arm& arm) const override {
+    return describe_joint(variant.joint, arm) + " giving way under gravity";
   }
 
   std::vector<EffectVariant> variants(const EffectData& data) const override {
@@ -173,15 +179,20 @@ class UnknownPayload final : public Effect {
  public:
   EffectInfo info() const override {
     return {
-        "payload",
-        "joints that give way under load, as by a mass at the tool that was not recorded",
-        "q'_j = q_j + mass_compliance_j · τ_j(1 kg at the tool centre point), all turning joints",
-        "Khalil, Besnard: Geometric calibration of robots with flexible joints and links, 2002",
-        {},
-        {{"mass_compliance_1", "kg rad/(N m)", 1e-8, 1e-2}},
-        false,
-        false,
-        true};
+        .name = "payload",
+        .description =
+            "joints that give way under load, as by a mass at the tool that was not recorded",
+        .formula =
+            "q'_j = q_j + mass_compliance_j · τ_j(1 kg at the tool centre point), all turning "
+            "joints",
+        .source =
+            "Khalil, Besnard: Geometric calibration of robots with flexible joints and links, 2002",
+        .ranges =
+            {{.parameter = "mass_compliance_1", .unit = "kg rad/(N m)", .low = 1e-8, .high = 1e-2}},
+        .extrapolates = true};
+  }
+  std::string describe(const EffectVariant&, const Arm&) const override {
+    return "joints giving way under load, as by a mass at the tool";
   }
 
   std::vector<EffectVariant> variants(const EffectData& data) const override {

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <set>
 
+#include "bathyal/base/text.hpp"
 #include "bathyal/effects/internal/library.hpp"
 
 // Errors along one joint: encoders, gears, screws.
@@ -29,16 +30,22 @@ void for_each_moving(const EffectData& data, const Body& body) {
 class JointHarmonic final : public Effect {
  public:
   EffectInfo info() const override {
-    return {"joint_harmonic",
+    return {
+        .name = "joint_harmonic",
+        .description =
             "a wave along one joint: an eccentric encoder, a gear's teeth, a screw's pitch",
-            "q' = q + cos · cos(order · q) + sin · sin(order · q)",
+        .formula = "q' = q + cos · cos(order · q) + sin · sin(order · q)",
+        .source =
             "Whitney, Lozinski, Rourke: Industrial robot forward calibration method and results, "
             "1986 (gear eccentricity); Tuttle, Seering: A nonlinear model of a harmonic drive gear "
             "transmission, 1996",
-            {},
-            {{"cos", "rad or m", 1e-6, 2e-2}, {"sin", "rad or m", 1e-6, 2e-2}},
-            false,
-            true};
+        .ranges = {{.parameter = "cos", .unit = "rad or m", .low = 1e-6, .high = 2e-2},
+                   {.parameter = "sin", .unit = "rad or m", .low = 1e-6, .high = 2e-2}},
+        .combinable = true};
+  }
+  std::string describe(const EffectVariant& variant, const Arm& arm) const override {
+    return "a wave of order " + three_digits(setting_of(variant, "order")) + " along " +
+           describe_joint(variant.joint, arm);
   }
 
   std::vector<EffectVariant> variants(const EffectData& data) const override {
@@ -120,16 +127,22 @@ class JointMap final : public Effect {
 
  public:
   EffectInfo info() const override {
-    return {"joint_map",
+    return {
+        .name = "joint_map",
+        .description =
             "a smooth periodic curve along one joint: an encoder's whole error over the turn",
+        .formula =
             "q' = q + Σ cos_i · cos(i w q) + sin_i · sin(i w q), i = 1 … terms; w = 1 of a turning "
             "joint, 2π / (1.5 span) of a sliding one",
+        .source =
             "Judd, Knasinski: A technique to calibrate industrial robots with experimental "
             "verification, 1990 (gear errors as Fourier series)",
-            {},
-            {{"cos_1", "rad or m", 1e-6, 2e-2}, {"sin_1", "rad or m", 1e-6, 2e-2}},
-            false,
-            true};
+        .ranges = {{.parameter = "cos_1", .unit = "rad or m", .low = 1e-6, .high = 2e-2},
+                   {.parameter = "sin_1", .unit = "rad or m", .low = 1e-6, .high = 2e-2}},
+        .combinable = true};
+  }
+  std::string describe(const EffectVariant& variant, const Arm& arm) const override {
+    return "a periodic curve along " + describe_joint(variant.joint, arm);
   }
 
   std::vector<EffectVariant> variants(const EffectData& data) const override {
@@ -173,16 +186,17 @@ class JointMap final : public Effect {
 class JointScale final : public Effect {
  public:
   EffectInfo info() const override {
-    return {
-        "joint_scale",
-        "a joint that reports more, or less, than it moves: a wrong gear ratio, a stretched belt",
-        "q' = q (1 + scale)",
-        "Mooring, Roth, Driels: Fundamentals of manipulator calibration, 1991",
-        {},
-        {{"scale", "1", 1e-6, 2e-2}},
-        false,
-        false,
-        true};
+    return {.name = "joint_scale",
+            .description =
+                "a joint that reports more, or less, than it moves: a wrong gear ratio, a "
+                "stretched belt",
+            .formula = "q' = q (1 + scale)",
+            .source = "Mooring, Roth, Driels: Fundamentals of manipulator calibration, 1991",
+            .ranges = {{.parameter = "scale", .unit = "1", .low = 1e-6, .high = 2e-2}},
+            .extrapolates = true};
+  }
+  std::string describe(const EffectVariant& variant, const Arm& arm) const override {
+    return "a wrong scale of " + describe_joint(variant.joint, arm);
   }
 
   std::vector<EffectVariant> variants(const EffectData& data) const override {
@@ -202,16 +216,20 @@ class JointScale final : public Effect {
 class JointCoupling final : public Effect {
  public:
   EffectInfo info() const override {
-    return {"joint_coupling",
+    return {
+        .name = "joint_coupling",
+        .description =
             "a joint that another one moves along: gears, belts or cables that pass through it",
-            "q' = q + ratio · q_by",
+        .formula = "q' = q + ratio · q_by",
+        .source =
             "Whitney, Lozinski, Rourke: Industrial robot forward calibration method and results, "
             "1986 (cross-coupling)",
-            {},
-            {{"ratio", "1, rad/m or m/rad", 1e-6, 2e-2}},
-            false,
-            false,
-            true};
+        .ranges = {{.parameter = "ratio", .unit = "1, rad/m or m/rad", .low = 1e-6, .high = 2e-2}},
+        .extrapolates = true};
+  }
+  std::string describe(const EffectVariant& variant, const Arm& arm) const override {
+    return describe_joint(variant.joint, arm) + " moved along by " +
+           describe_joint(static_cast<int>(setting_of(variant, "by")), arm);
   }
 
   std::vector<EffectVariant> variants(const EffectData& data) const override {
@@ -239,13 +257,17 @@ class JointCoupling final : public Effect {
 class Backlash final : public Effect {
  public:
   EffectInfo info() const override {
-    return {"backlash",
-            "play in a joint: it stops short of the side from which it came",
-            "q' = q - gap / 2 · direction",
-            "Whitney, Lozinski, Rourke, 1986; Ruderman, Hoffmann, Bertram: Modeling and "
-            "identification of elastic robot joints with hysteresis and backlash, 2009",
-            {"direction"},
-            {{"gap", "rad or m", 1e-6, 5e-3}}};
+    return {.name = "backlash",
+            .description = "play in a joint: it stops short of the side from which it came",
+            .formula = "q' = q - gap / 2 · direction",
+            .source =
+                "Whitney, Lozinski, Rourke, 1986; Ruderman, Hoffmann, Bertram: Modeling and "
+                "identification of elastic robot joints with hysteresis and backlash, 2009",
+            .needs = {"direction"},
+            .ranges = {{.parameter = "gap", .unit = "rad or m", .low = 1e-6, .high = 5e-3}}};
+  }
+  std::string describe(const EffectVariant& variant, const Arm& arm) const override {
+    return "play in " + describe_joint(variant.joint, arm);
   }
 
   std::vector<EffectVariant> variants(const EffectData& data) const override {

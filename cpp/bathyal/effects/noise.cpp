@@ -21,34 +21,31 @@ class RowEffect final : public Effect {
 }  // namespace
 
 std::shared_ptr<const Effect> outliers() {
-  return std::make_shared<RowEffect>(
-      EffectInfo{"outliers",
-                 "rows that contradict the others: a slipped probe, a broken beam",
-                 "row i is excluded where its residual exceeds what noise explains",
-                 "Huber: Robust estimation of a location parameter, 1964; Rousseeuw, Leroy: Robust "
-                 "regression and outlier detection, 1987",
-                 {},
-                 {}});
+  return std::make_shared<RowEffect>(EffectInfo{
+      .name = "outliers",
+      .description = "rows that contradict the others: a slipped probe, a broken beam",
+      .formula = "row i is excluded where its residual exceeds what noise explains",
+      .source = "Huber: Robust estimation of a location parameter, 1964; Rousseeuw, Leroy: Robust "
+                "regression and outlier detection, 1987"});
 }
 
 std::shared_ptr<const Effect> range_noise() {
-  return std::make_shared<RowEffect>(
-      EffectInfo{"range_noise",
-                 "noise that grows with the distance from the tracker",
-                 "σ² = σ0² + (rate · |position|)²",
-                 "ISO 10360-10 (a tracker's permissible error A + B · L); Harvey: Estimating "
-                 "regression models with multiplicative heteroscedasticity, 1976",
-                 {},
-                 {{"rate", "m/m", 1e-7, 1e-2}}});
+  return std::make_shared<RowEffect>(EffectInfo{
+      .name = "range_noise",
+      .description = "noise that grows with the distance from the tracker",
+      .formula = "σ² = σ0² + (rate · |position|)²",
+      .source = "ISO 10360-10 (a tracker's permissible error A + B · L); Harvey: Estimating "
+                "regression models with multiplicative heteroscedasticity, 1976",
+      .ranges = {{.parameter = "rate", .unit = "m/m", .low = 1e-7, .high = 1e-2}}});
 }
 
 std::shared_ptr<const Effect> quantisation() {
-  return std::make_shared<RowEffect>(EffectInfo{"quantisation",
-                                                "joint values that were logged in steps",
-                                                "all logged q are whole multiples of step",
-                                                "Widrow, Kollár: Quantization noise, 2008",
-                                                {},
-                                                {{"step", "rad", 1e-6, 2e-2}}});
+  return std::make_shared<RowEffect>(
+      EffectInfo{.name = "quantisation",
+                 .description = "joint values that were logged in steps",
+                 .formula = "all logged q are whole multiples of step",
+                 .source = "Widrow, Kollár: Quantization noise, 2008",
+                 .ranges = {{.parameter = "step", .unit = "rad", .low = 1e-6, .high = 2e-2}}});
 }
 
 }  // namespace bathyal::effects

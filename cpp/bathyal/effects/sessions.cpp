@@ -5,6 +5,7 @@
 #include <set>
 #include <utility>
 
+#include "bathyal/base/error.hpp"
 #include "bathyal/effects/internal/library.hpp"
 
 // Steps: bases and tools that moved between sessions, a tool that slipped.
@@ -101,15 +102,30 @@ class FrameBySession : public Effect {
   virtual bool turns(const EffectData& data) const = 0;
 };
 
+/// " from session 3 on"
+std::string sessions_of(const EffectVariant& variant) {
+  const auto from = variant.settings.find("from");
+  return from == variant.settings.end() ? " in each session by itself"
+                                        : " from session " + to_text(from->second) + " on";
+}
+
 class BaseShift final : public FrameBySession {
  public:
   EffectInfo info() const override {
-    return {"base_shift",
+    return {
+        .name = "base_shift",
+        .description =
             "the base, or the tracker's frame, was elsewhere in some sessions than in the first",
+        .formula =
             "base' = base · shift, turn (one for each later session, or one from a session on)",
+        .source =
             "Mooring, Roth, Driels: Fundamentals of manipulator calibration, 1991, on base frames",
-            {"session"},
-            {{"shift_x_2", "m", 1e-6, 0.1}, {"turn_x_2", "rad", 1e-6, 0.1}}};
+        .needs = {"session"},
+        .ranges = {{.parameter = "shift_x_2", .unit = "m", .low = 1e-6, .high = 0.1},
+                   {.parameter = "turn_x_2", .unit = "rad", .low = 1e-6, .high = 0.1}}};
+  }
+  std::string describe(const EffectVariant& variant, const Arm&) const override {
+    return "the base, or the tracker, moved" + sessions_of(variant);
   }
 
  private:
@@ -121,12 +137,19 @@ class BaseShift final : public FrameBySession {
 class ToolChange final : public FrameBySession {
  public:
   EffectInfo info() const override {
-    return {"tool_change",
-            "the tool sat otherwise on the flange in some sessions than in the first",
+    return {
+        .name = "tool_change",
+        .description = "the tool sat otherwise on the flange in some sessions than in the first",
+        .formula =
             "flange' = flange · shift, turn (one for each later session, or one from a session on)",
+        .source =
             "Mooring, Roth, Driels: Fundamentals of manipulator calibration, 1991, on tool frames",
-            {"session"},
-            {{"shift_x_2", "m", 1e-6, 0.05}, {"turn_x_2", "rad", 1e-6, 0.1}}};
+        .needs = {"session"},
+        .ranges = {{.parameter = "shift_x_2", .unit = "m", .low = 1e-6, .high = 0.05},
+                   {.parameter = "turn_x_2", .unit = "rad", .low = 1e-6, .high = 0.1}}};
+  }
+  std::string describe(const EffectVariant& variant, const Arm&) const override {
+    return "the tool sitting otherwise" + sessions_of(variant);
   }
 
  private:
@@ -144,12 +167,18 @@ class ToolChange final : public FrameBySession {
 class ToolSlip final : public Effect {
  public:
   EffectInfo info() const override {
-    return {"tool_slip",
-            "the tool slipped on the flange at some moment, and stayed there",
-            "flange' = flange · shift, turn in all rows after the moment",
-            "change of a mean at an unknown moment: Page: Continuous inspection schemes, 1954",
-            {},
-            {{"shift_x", "m", 1e-6, 0.05}, {"turn_x", "rad", 1e-6, 0.1}}};
+    return {.name = "tool_slip",
+            .description = "the tool slipped on the flange at some moment, and stayed there",
+            .formula = "flange' = flange · shift, turn in all rows after the moment",
+            .source =
+                "change of a mean at an unknown moment: Page: Continuous inspection schemes, 1954",
+            .ranges = {{.parameter = "shift_x", .unit = "m", .low = 1e-6, .high = 0.05},
+                       {.parameter = "turn_x", .unit = "rad", .low = 1e-6, .high = 0.1}}};
+  }
+  std::string describe(const EffectVariant& variant, const Arm&) const override {
+    return "the tool slipping after row " +
+           std::to_string(std::lround(setting_of(variant, "moment"))) +
+           (variant.settings.contains("time") ? " in time" : "");
   }
 
   std::vector<EffectVariant> variants(const EffectData& data) const override {

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "bathyal/diagnosis/arm/internal/descriptions.hpp"
+#include "bathyal/diagnosis/arm/internal/model.hpp"
 #include "diagnosis/small_arms.hpp"
 
 namespace bathyal::diagnosis {
@@ -46,19 +46,12 @@ TEST(RecordChecks, WarnOfTimesThatRunBackwardsAndOfShortSessions) {
   EXPECT_EQ(few[0].rfind("1 of 2 sessions has fewer than three rows", 0), 0U) << few[0];
 }
 
-TEST(Descriptions, CountJointsFromOneAndNameTheSetting) {
-  const Arm arm = two_joints();
+TEST(WholeOrder, IsOfWavesAlone) {
   EffectVariant variant;
-  variant.effect = "joint_harmonic";
-  variant.joint = 1;
+  EXPECT_FALSE(has_whole_order(variant));
   variant.settings["order"] = 2.0;
-  EXPECT_EQ(description_of(variant, arm), "a wave of order 2 along joint 2");
   EXPECT_TRUE(has_whole_order(variant));
   variant.settings["order"] = 2.5;
-  EXPECT_FALSE(has_whole_order(variant));
-  variant = {};
-  variant.effect = "of_the_user";
-  EXPECT_EQ(description_of(variant, arm), "of_the_user");
   EXPECT_FALSE(has_whole_order(variant));
 }
 

@@ -65,6 +65,23 @@ TEST(Library, ExtrapolatesWhatFollowsFromKnownArguments) {
   EXPECT_EQ(found, expected);
 }
 
+TEST(Library, DescribesVariantsForPeople) {
+  const Scene scene(irregular_arm(3));
+  const EffectVariant wave{"joint_harmonic", 1, {{"order", 2.0}}, {}, ""};
+  EXPECT_EQ(
+      library_effects()[0]->describe(wave, scene.arm).rfind("a wave of order 2 along joint 2", 0),
+      0U);
+  std::set<std::string> texts;
+  for (const auto& effect : library_effects()) {
+    for (const EffectVariant& v : effect->variants(scene.data())) {
+      const std::string text = effect->describe(v, scene.arm);
+      EXPECT_EQ(text.find('_'), std::string::npos) << text;
+      texts.insert(text);
+    }
+  }
+  EXPECT_GT(texts.size(), 30U);
+}
+
 TEST(Variants, NeedTheirCovariates) {
   Scene bare(irregular_arm(3));
   bare.covariates.clear();

@@ -6,7 +6,6 @@
 #include <map>
 
 #include "bathyal/base/text.hpp"
-#include "bathyal/diagnosis/arm/internal/descriptions.hpp"
 #include "bathyal/identify/model/calibration_data.hpp"
 
 namespace bathyal::diagnosis {
@@ -139,7 +138,7 @@ void expand_to_duplicates(const std::vector<int>& of, Diagnosis& diagnosis) {
       for (Estimate& setting : effect.parameters) {
         if (setting.name != "moment" || setting.value != kept) continue;
         setting.value = setting.low = setting.high = moment->second;
-        effect.description = description_of(found.variant, diagnosis.arm);
+        effect.description = found.effect->describe(found.variant, diagnosis.arm);
       }
     }
   }

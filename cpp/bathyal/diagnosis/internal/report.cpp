@@ -7,7 +7,6 @@
 
 #include "bathyal/base/error.hpp"
 #include "bathyal/base/text.hpp"
-#include "bathyal/diagnosis/arm/internal/descriptions.hpp"
 #include "bathyal/estimation/f_distribution.hpp"
 
 namespace bathyal::diagnosis {

@@ -26,6 +26,17 @@ bool slides(const Arm& arm, int coordinate) {
   return leader != arm.joints().end() && leader->type == JointType::kPrismatic;
 }
 
+std::string describe_joint(int coordinate, const Arm& arm) {
+  const std::string number = std::to_string(coordinate + 1);
+  const auto& joints = arm.joints();
+  const auto joint = std::find_if(joints.begin(), joints.end(), [&](const Joint& other) {
+    return other.type != JointType::kFixed && other.coordinate == coordinate;
+  });
+  const bool named =
+      joint != joints.end() && !joint->name.empty() && joint->name != "joint_" + number;
+  return "joint " + number + (named ? " (" + joint->name + ")" : "");
+}
+
 std::string unit_of(const Arm& arm, int coordinate) {
   return slides(arm, coordinate) ? "m" : "rad";
 }

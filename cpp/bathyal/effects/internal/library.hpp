@@ -44,6 +44,8 @@ using Perturbations = std::vector<std::vector<Perturbation>>;
 bool slides(const Arm& arm, int coordinate);
 /// "rad" or "m"
 std::string unit_of(const Arm& arm, int coordinate);
+/// "joint 3 (elbow)", counted from 1.
+std::string describe_joint(int coordinate, const Arm& arm);
 /// Whether any two of the numbers differ by more than rounding.
 bool varies(const Eigen::VectorXd& numbers);
 inline bool moves(const EffectData& data, int coordinate) { return varies(data.q.col(coordinate)); }

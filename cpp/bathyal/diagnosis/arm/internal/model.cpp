@@ -7,7 +7,6 @@
 #include <numeric>
 
 #include "bathyal/base/text.hpp"
-#include "bathyal/diagnosis/arm/internal/descriptions.hpp"
 #include "bathyal/diagnosis/arm/internal/quantisation_step.hpp"
 #include "bathyal/identify/checks/run_checks.hpp"
 #include "bathyal/identify/fit/fit_results.hpp"
@@ -48,6 +47,11 @@ std::vector<int> ranks_of(const std::vector<int>& order) {
 }
 
 }  // namespace
+
+bool has_whole_order(const EffectVariant& variant) {
+  const auto order = variant.settings.find("order");
+  return order != variant.settings.end() && order->second == std::round(order->second);
+}
 
 ArmModel::ArmModel(const Arm& arm, const Measurement& measurement,
                    std::unique_ptr<const Measurement>&& own, const IdentifyOptions& options)
@@ -149,7 +153,7 @@ void ArmModel::gather_terms(const Effects& effects) {
       by_alias_group[{variant.joint, variant.alias_group}].push_back(
           static_cast<int>(terms_.size()));
       terms_.push_back({variant.effect, variant.joint, variant.alias_group,
-                        description_of(variant, nominal_), static_cast<double>(variants.size()),
+                        effect->describe(variant, nominal_), static_cast<double>(variants.size()),
                         has_whole_order(variant)});
       terms_.back().combinable = effect->info().combinable;
       terms_.back().continuous = variant.settings.contains("order") && !has_whole_order(variant);
@@ -205,7 +209,7 @@ std::vector<int> ArmModel::refine(int term) {
     for (EffectVariant& variant : here.effect->between(sources_[from].variant, sources_[to].variant,
                                                        record_ ? *record_ : data_)) {
       selection::Term about = terms_[term];
-      about.description = description_of(variant, nominal_);
+      about.description = here.effect->describe(variant, nominal_);
       about.preferred = has_whole_order(variant);
       about.continuous = variant.settings.contains("order") && !about.preferred;
       chain.push_back(static_cast<int>(terms_.size()));

@@ -18,6 +18,9 @@
 
 namespace bathyal::diagnosis {
 
+/// Whether it has an order, and that is a whole number.
+bool has_whole_order(const EffectVariant& variant);
+
 /// An arm with its touches or tracked poses, and the effects that may be present. Arm, measurement
 /// and options must outlive it.
 class ArmModel final : public selection::Model {

@@ -4,7 +4,6 @@
 #include <map>
 #include <utility>
 
-#include "bathyal/diagnosis/arm/internal/descriptions.hpp"
 #include "bathyal/diagnosis/arm/internal/model.hpp"
 #include "bathyal/estimation/gram.hpp"
 #include "bathyal/estimation/orthogonal.hpp"
@@ -75,7 +74,7 @@ bool ArmModel::update_orders() {
     if (std::abs(step) * precision[at] > kOrderSettled && std::abs(step) < far && order > 0.0 &&
         alone) {
       variant.settings["order"] = order;
-      terms_[term].description = description_of(variant, nominal_);
+      terms_[term].description = sources_[term].effect->describe(variant, nominal_);
       moved = true;
     }
     ++at;
@@ -205,8 +204,9 @@ std::shared_ptr<const selection::Model::Checkpoint> ArmModel::save() const {
 void ArmModel::restore(const Checkpoint& checkpoint) {
   const auto& to = dynamic_cast<const ArmCheckpoint&>(checkpoint);
   for (std::size_t i = 0; i < to.active.size(); ++i) {
-    sources_[to.active[i]].variant = to.variants[i];
-    terms_[to.active[i]].description = description_of(to.variants[i], nominal_);
+    Source& source = sources_[to.active[i]];
+    source.variant = to.variants[i];
+    terms_[to.active[i]].description = source.effect->describe(source.variant, nominal_);
   }
   prior_scales_ = to.prior_scales;
   effects_arm_ = to.effects_arm;
