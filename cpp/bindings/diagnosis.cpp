@@ -10,6 +10,7 @@
 
 #include "bathyal/base/error.hpp"
 #include "bathyal/compensation/corrected_arm.hpp"
+#include "bathyal/selection/decisions.hpp"
 #include "bindings.hpp"
 #include "diagnosis_docs.hpp"
 #include "enum_names.hpp"
@@ -141,7 +142,7 @@ void bind_diagnosis_parts(py::module_& module) {
       .def_readonly("rivals", &NamedEffect::alternatives, "Cause: the best alternatives to it.")
       .def("__repr__",
            [](const NamedEffect& e) { return "NamedEffect(" + e.name + on_joint(e.joint) + ")"; });
-  module.attr("BEYOND_NOISE") = selection::kBeyondNoise;
+  module.attr("BEYOND_NOISE") = selection::Decisions::kBeyondNoise;
   bind_structure(module);
 }
 

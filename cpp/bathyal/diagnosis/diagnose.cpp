@@ -17,6 +17,7 @@
 #include "bathyal/diagnosis/internal/report.hpp"
 #include "bathyal/effects/gravity_load.hpp"
 #include "bathyal/identify/model/calibration_data.hpp"
+#include "bathyal/selection/decisions.hpp"
 #include "bathyal/selection/selection.hpp"
 
 namespace bathyal {
@@ -48,7 +49,7 @@ void check_groups(const std::vector<std::string>& groups, Index rows) {
     throw_argument("groups", std::to_string(rows) + " labels, one a row", std::to_string(count));
   }
   const std::set<std::string> different(groups.begin(), groups.end());
-  if (static_cast<int>(different.size()) < selection::kMinGivenGroups) {
+  if (static_cast<int>(different.size()) < selection::Decisions::kMinGivenGroups) {
     throw_argument("groups", "two groups or more", "\"" + groups.front() + "\" in all rows");
   }
 }

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "bathyal/selection/decisions.hpp"
 #include "bathyal/selection/lack_of_fit.hpp"
 
 namespace bathyal {
@@ -84,7 +85,7 @@ struct Structure {
   double size = 0.0;        ///< rms per axis, less noise [m]
   double share = 0.0;       ///< of the residuals' variance, less noise
   double p_value = 1.0;     ///< corrected for multiplicity
-  bool is_beyond_noise() const { return p_value <= selection::kBeyondNoise; }
+  bool is_beyond_noise() const { return p_value <= selection::Decisions::kBeyondNoise; }
 };
 
 /// Cross-validation: what was held out, and the prediction errors.

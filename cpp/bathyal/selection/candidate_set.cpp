@@ -8,6 +8,7 @@
 
 #include "bathyal/estimation/gram.hpp"
 #include "bathyal/estimation/orthogonal.hpp"
+#include "bathyal/selection/decisions.hpp"
 
 namespace bathyal::selection {
 namespace {
@@ -16,8 +17,6 @@ constexpr double kNever = -std::numeric_limits<double>::infinity();
 
 /// Least share of a candidate's squared length outside the span of the set's other members.
 constexpr double kMinShare = 1e-8;
-/// The same within its alias group: with less it is a combination of the other.
-constexpr double kMinShareInAliasGroup = 0.1;
 
 /// Whether each column keeps more than `least` after projection off those before it.
 bool is_independent(const Eigen::LLT<Eigen::MatrixXd>& root,
@@ -56,8 +55,8 @@ CandidateSet::CandidateSet(const Eigen::MatrixXd& basis, const Eigen::VectorXd& 
     const Term& term = all[static_cast<std::size_t>(terms[i])];
     const int alias_group =
         alias_groups.emplace(term.alias_group, static_cast<int>(alias_groups.size())).first->second;
-    members_.push_back(
-        {terms[i], &term, wide, width, std::log(term.multiplicity) + kTermPenalty, alias_group});
+    members_.push_back({terms[i], &term, wide, width,
+                        std::log(term.multiplicity) + Decisions::kTermPenalty, alias_group});
     wide += width;
   }
   stack_.resize(residual.size(), wide);
@@ -140,7 +139,7 @@ double CandidateSet::score_with(int member, std::span<const int> others, const S
   if (!(base.dof > k + 1.0)) return kNever;
   const Eigen::LLT<Eigen::MatrixXd> root(square);
   if (!is_independent(root, min_share(prior_precision_.segment(own.first, own.width),
-                                      kin ? kMinShareInAliasGroup : kMinShare))) {
+                                      kin ? Decisions::kMinShareInAliasGroup : kMinShare))) {
     return kNever;
   }
   const double explained = root.matrixL().solve(xtr).squaredNorm();

@@ -13,10 +13,6 @@
 
 namespace bathyal::selection {
 
-/// ln of the prior odds against any term: together with `multiplicity` it bounds false positives on
-/// clean data (tests/simulated_cases/score_card.py measures how often).
-inline constexpr double kTermPenalty = 4.5;
-
 /// Complexity penalty on the log evidence of k = `width` columns whose values have Wald's statistic
 /// `f` per column: (k/2) (ln(1 + F) + F / (1 + F)). For large F this is (k/2) (ln F + 1), that of a
 /// normal prior as wide as the values; at F = 0 it is 0.
@@ -60,7 +56,8 @@ class CandidateSet {
   /// Values have a normal prior of the plausible size (ProjectedColumns::length): without it, weak
   /// directions shared by several members reach values at which the linearization is meaningless.
   ///
-  /// The score is -(ν/2) ln(RSS) - Σ [ complexity_penalty(k, F) + ln(multiplicity) + kTermPenalty
+  /// The score is -(ν/2) ln(RSS) - Σ [ complexity_penalty(k, F) + ln(multiplicity) +
+  /// Decisions::kTermPenalty
   /// ]: the likelihood with the noise integrated out, less the penalty for k columns under a normal
   /// prior as wide as the values (empirical Bayes, George and Foster 2000), less that for picking
   /// one of `multiplicity` terms (Chen and Chen 2008).
@@ -83,7 +80,7 @@ class CandidateSet {
     const Term* term;
     Index first;
     Index width;
-    double cost;      ///< ln(multiplicity) + kTermPenalty
+    double cost;      ///< ln(multiplicity) + Decisions::kTermPenalty
     int alias_group;  ///< number of term->alias_group
   };
   /// All columns projected on a set's: the Gram matrix of what remains is

@@ -6,11 +6,11 @@
 #include <map>
 #include <numeric>
 
+#include "bathyal/selection/decisions.hpp"
+
 namespace bathyal::selection {
 namespace {
 
-/// With fewer groups, each would be too large a share to hold out.
-constexpr int kMinGroups = 6;
 /// Of each fold, where only the order of a list is known: a list is often a sweep, and one block of
 /// it covers a region that no other row is near.
 constexpr std::size_t kPieces = 8;
@@ -147,10 +147,10 @@ Folds cut(const Observations& observations, int wanted, bool by_group) {
 
 Folds make_folds(const Observations& observations, int wanted) {
   const int points = observations.group.empty() ? 0 : count_of(observations.group);
-  if (points >= kMinGroups) {
+  if (points >= Decisions::kMinGroups) {
     // Touches of planes, or replicates that join groups, may leave too few folds.
     Folds whole = cut(observations, wanted, true);
-    if (2 * whole.count >= kMinGroups) return whole;
+    if (2 * whole.count >= Decisions::kMinGroups) return whole;
   }
   return cut(observations, wanted, false);
 }

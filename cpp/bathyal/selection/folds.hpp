@@ -8,8 +8,6 @@
 
 namespace bathyal::selection {
 
-inline constexpr int kMinFolds = 3;  ///< fewer allow no cross-validation
-
 /// Which observations are held out together: (observations,) fold numbers 0 … count - 1.
 struct Folds {
   std::vector<int> fold_of;
@@ -28,7 +26,6 @@ std::vector<int> find_replicates(const Eigen::Ref<const Eigen::MatrixXd>& q, dou
 /// cannot be held out, where replicates link everything.
 Folds make_folds(const Observations& observations, int wanted = 10);
 
-inline constexpr int kMinGivenGroups = 2;  ///< given groups: fewer leave nothing to predict from
 /// More given groups are joined to so many folds.
 inline constexpr int kMostGroupFolds = 50;
 

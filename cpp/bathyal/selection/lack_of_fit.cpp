@@ -6,6 +6,7 @@
 #include <map>
 #include <utility>
 
+#include "bathyal/selection/decisions.hpp"
 #include "bathyal/selection/internal/cross_validation.hpp"
 #include "bathyal/selection/internal/grid_scan.hpp"
 #include "bathyal/selection/internal/subset_search.hpp"
@@ -15,9 +16,7 @@ namespace {
 
 constexpr int kMaxRounds = 4;
 constexpr std::size_t kMaxLackOfFitTerms = 6;  ///< tested at once
-constexpr std::size_t kManyTerms = 6;
-constexpr std::size_t kMaxReplacements = 4;  ///< from which a search begins
-constexpr double kReplacementGain = 2.0;     ///< log evidence
+constexpr std::size_t kMaxReplacements = 4;    ///< from which a search begins
 
 bool contains(const std::vector<int>& terms, int term) {
   return std::find(terms.begin(), terms.end(), term) != terms.end();
@@ -47,7 +46,7 @@ ActiveSet LackOfFitCheck::select(const std::vector<int>& terms) {
     check_stop_();
     unplaced_ = significant(active);
     // So many terms approximate anything: structure is reported in addition to them.
-    if (active.terms.size() > kManyTerms) break;
+    if (active.terms.size() > Decisions::kManyTerms) break;
     if (auto next = replaced(active)) {
       active = std::move(*next);
       continue;
@@ -77,7 +76,7 @@ ActiveSet LackOfFitCheck::select(const std::vector<int>& terms) {
 std::vector<int> LackOfFitCheck::significant(const ActiveSet& active) const {
   std::vector<int> found;
   for (const LackOfFit& d : working_point_.lack_of_fit(working_point_.nuisance(active.all()))) {
-    if (d.p > kBeyondNoise || found.size() == kMaxLackOfFitTerms) break;
+    if (d.p > Decisions::kBeyondNoise || found.size() == kMaxLackOfFitTerms) break;
     found.push_back(d.term);
   }
   return found;
@@ -112,7 +111,7 @@ std::vector<Replacement> LackOfFitCheck::replacements(const ActiveSet& active) c
                                            basis.dof, working_point_.num_threads())) {
       const double gain = fit->score + scanned.gain -
                           std::log(working_point_.term(scanned.term).multiplicity) - whole->score;
-      if (!(gain > kReplacementGain)) continue;
+      if (!(gain > Decisions::kReplacementGain)) continue;
       const auto [place, fresh] = best.emplace(scanned.term, Replacement{scanned.term, rest, gain});
       if (!fresh && gain > place->second.gain) place->second = {scanned.term, rest, gain};
     }
@@ -197,7 +196,8 @@ std::vector<LackOfFit> LackOfFitCheck::remaining(const ActiveSet& active, bool r
   for (int round = 0; round < kMaxRounds; ++round) {
     const std::vector<LackOfFit> there = working_point_.lack_of_fit(working_point_.nuisance(all));
     const auto next = std::find_if(there.begin(), there.end(), [&](const LackOfFit& d) {
-      return d.p <= kBeyondNoise && (refuted || (contains(unplaced_, d.term) && d.gain > 0.0));
+      return d.p <= Decisions::kBeyondNoise &&
+             (refuted || (contains(unplaced_, d.term) && d.gain > 0.0));
     });
     if (next == there.end()) break;
     out.push_back(*next);

@@ -10,9 +10,6 @@
 
 namespace bathyal::selection {
 
-/// Corrected p-value up to which structure is beyond noise; the one such threshold.
-inline constexpr double kBeyondNoise = 0.002;
-
 /// Terms of the library, and lack-of-fit terms that were selected with them.
 struct ActiveSet {
   std::vector<int> terms;

@@ -5,13 +5,13 @@
 #include <cmath>
 
 #include "bathyal/estimation/f_distribution.hpp"
+#include "bathyal/selection/decisions.hpp"
 
 namespace bathyal::selection {
 namespace {
 
 /// Variance in units of the noise below which residuals are rounding, and have no outliers.
 constexpr double kRounding = 1e-6;
-constexpr double kMaxOutliers = 0.2;  ///< share of observations: more are no exception
 
 std::vector<std::vector<Index>> rows_of_observations(const Linearization& at, Index observations) {
   std::vector<std::vector<Index>> rows(static_cast<std::size_t>(observations));
@@ -179,7 +179,7 @@ std::vector<ObservationTest> test_observations(const Linearization& at,
 Eigen::VectorXd exclude_outliers(const Linearization& at, const Eigen::MatrixXd& basis,
                                  const Eigen::VectorXd& weights, double dof) {
   const std::vector<ObservationTest> tests = test_observations(at, basis, weights, dof);
-  const double threshold = kOutlierLevel / static_cast<double>(weights.size());
+  const double threshold = Decisions::kOutlierLevel / static_cast<double>(weights.size());
   Eigen::VectorXd out = weights;
   Index outliers = 0;
   for (Index i = 0; i < weights.size(); ++i) {
@@ -188,7 +188,8 @@ Eigen::VectorXd exclude_outliers(const Linearization& at, const Eigen::MatrixXd&
     if (belongs && !(weights[i] > 0.0)) out[i] = 1.0;
     if (!belongs) out[i] = 0.0;
   }
-  return static_cast<double>(outliers) > kMaxOutliers * static_cast<double>(weights.size())
+  return static_cast<double>(outliers) >
+                 Decisions::kMaxOutliers * static_cast<double>(weights.size())
              ? weights
              : out;
 }

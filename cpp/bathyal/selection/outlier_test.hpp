@@ -25,9 +25,6 @@ std::vector<ObservationTest> test_observations(const Linearization& at,
                                                const Eigen::MatrixXd& basis,
                                                const Eigen::VectorXd& weights, double dof);
 
-/// Family-wise significance level of the outlier test.
-inline constexpr double kOutlierLevel = 0.001;
-
 /// `weights` with 0 for outliers, and 1 for excluded observations that are none any more.
 Eigen::VectorXd exclude_outliers(const Linearization& at, const Eigen::MatrixXd& basis,
                                  const Eigen::VectorXd& weights, double dof);

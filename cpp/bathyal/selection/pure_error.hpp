@@ -4,19 +4,17 @@
 #include <Eigen/Dense>
 #include <vector>
 
+#include "bathyal/selection/decisions.hpp"
 #include "bathyal/selection/model.hpp"
 
 namespace bathyal::selection {
-
-/// Degrees of freedom from which replicates estimate the noise.
-inline constexpr double kMinPureErrorDof = 12.0;
 
 /// What replicates of an observation differ by, without any model.
 struct PureError {
   double squares = 0.0;  ///< about the mean of each set of replicates
   double dof = 0.0;
   int sets = 0;
-  bool is_measured() const { return dof >= kMinPureErrorDof && squares > 0.0; }
+  bool is_measured() const { return dof >= Decisions::kMinPureErrorDof && squares > 0.0; }
 };
 
 /// `values`: the rows of each observation, none of an excluded one; `replicate`: its number.

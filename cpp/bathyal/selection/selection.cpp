@@ -9,14 +9,12 @@
 
 #include "bathyal/estimation/f_distribution.hpp"
 #include "bathyal/estimation/orthogonal.hpp"
+#include "bathyal/selection/decisions.hpp"
 #include "bathyal/selection/internal/cross_validation.hpp"
 #include "bathyal/selection/internal/subset_search.hpp"
 
 namespace bathyal::selection {
 namespace {
-
-constexpr double kMinDof = 10.0;
-constexpr double kMaxPValue = 0.05;  ///< corrected; terms above it are dropped
 
 class StructureSelection {
  public:
@@ -92,11 +90,10 @@ void StructureSelection::fit_variance_components() {
         fit_noise(term, model_.linearization(), whole.basis, weights_, model_.noise(), out_.folds);
     fit.term = f;
     // A step that the record itself shows needs no evidence, only a share that matters.
-    constexpr double kMatters = 0.04;
-    const bool named = term.known > 0.0
-                           ? fit.share > kMatters
-                           : fit.gain > kTermPenalty + complexity_penalty(1.0, 2.0 * fit.gain) &&
-                                 fit.held_out_gain > 0.0;
+    const bool named = term.known > 0.0 ? fit.share > Decisions::kMinKnownShare
+                                        : fit.gain > Decisions::kTermPenalty +
+                                                         complexity_penalty(1.0, 2.0 * fit.gain) &&
+                                              fit.held_out_gain > 0.0;
     if (named) out_.noise.push_back(fit);
   }
   if (out_.noise.empty()) return;
@@ -128,7 +125,7 @@ void StructureSelection::drop_redundant_terms() {
     // A term may help only because it lowers the value of another, and so its penalty.
     const auto fit = candidates.evaluate(set);
     std::size_t weakest = set.size();
-    double p = kMaxPValue;
+    double p = Decisions::kMaxPValue;
     for (std::size_t i = 0; i < set.size(); ++i) {
       if (candidates.term(set[i]).lack_of_fit || !(p_value_of(candidates, set[i], *fit, i) > p))
         continue;
@@ -262,11 +259,13 @@ void StructureSelection::test_remainder() {
   const NuisanceBasis& whole = working_point_.nuisance(terms);
   out_.autocorrelation =
       test_autocorrelation(model_, whole.basis, whole.dof, weights_, options_.num_threads);
-  std::erase_if(out_.autocorrelation, [](const Autocorrelation& a) { return a.p > kBeyondNoise; });
+  std::erase_if(out_.autocorrelation,
+                [](const Autocorrelation& a) { return a.p > Decisions::kBeyondNoise; });
   out_.pure_error = test_pure_error(model_, whole.basis, whole.dof, weights_);
   // Two measures of the same.
   double more = out_.autocorrelation.empty() ? 0.0 : out_.autocorrelation.front().explained;
-  if (out_.pure_error.p <= kBeyondNoise) more = std::max(more, out_.pure_error.explained);
+  if (out_.pure_error.p <= Decisions::kBeyondNoise)
+    more = std::max(more, out_.pure_error.explained);
   out_.unexplained += more;
 }
 
@@ -287,8 +286,8 @@ void StructureSelection::fill_detectable() {
   const auto rows = static_cast<double>(model_.linearization().residual.size());
   double explained = 20.0;
   for (int round = 0; round < 50; ++round) {
-    explained =
-        2.0 * (kTermPenalty + std::log(kTrials) + complexity_penalty(kWidth, explained / kWidth));
+    explained = 2.0 * (Decisions::kTermPenalty + std::log(kTrials) +
+                       complexity_penalty(kWidth, explained / kWidth));
   }
   out_.detectable = std::sqrt(explained / rows);
 }
@@ -301,7 +300,8 @@ SelectionResult StructureSelection::run(const Shortlist& shortlist) {
   select_explanation(shortlist);
   fill_detectable();
   const NuisanceBasis& whole = working_point_.nuisance(active_.terms);
-  out_.held_out = out_.folds.count >= (given ? kMinGivenGroups : kMinFolds) && whole.dof >= kMinDof;
+  out_.held_out = out_.folds.count >= (given ? Decisions::kMinGivenGroups : Decisions::kMinFolds) &&
+                  whole.dof >= Decisions::kMinDof;
   if (!out_.held_out) {
     working_point_.fit({});
     active_.terms.clear();

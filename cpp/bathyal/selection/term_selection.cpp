@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "bathyal/selection/decisions.hpp"
 #include "bathyal/selection/internal/grid_scan.hpp"
 #include "bathyal/selection/internal/subset_search.hpp"
 #include "bathyal/selection/outlier_test.hpp"
@@ -11,14 +12,10 @@
 namespace bathyal::selection {
 namespace {
 
-constexpr int kMaxPasses = 6;          ///< of selection and fit
-constexpr double kMinScoreGain = 0.5;  ///< log evidence
-constexpr double kFarBehind = 20.0;    ///< the same: four times the observations recover no more
-constexpr int kMaxScans = 4;           ///< in the first pass; later ones start from its result
-constexpr int kPeaks = 4;              ///< of each scan that are refined
+constexpr int kMaxPasses = 6;  ///< of selection and fit
+constexpr int kMaxScans = 4;   ///< in the first pass; later ones start from its result
+constexpr int kPeaks = 4;      ///< of each scan that are refined
 constexpr int kFinerRounds = 3;
-/// Log evidence for a preferred setting: two and a half standard deviations of an order.
-constexpr double kPreferredBonus = 3.0;
 
 }  // namespace
 
@@ -74,7 +71,7 @@ std::vector<int> TermSelector::refined(std::vector<int> terms) {
     const auto now = candidates.evaluate(set);
     if (!now) break;
     const auto value_of = [&](double score, int term) {
-      return score + (working_point_.term(term).preferred ? kPreferredBonus : 0.0);
+      return score + (working_point_.term(term).preferred ? Decisions::kPreferredBonus : 0.0);
     };
     double best = now->score;
     const Eigen::MatrixXd replacement = candidates.exchange_scores(set);
@@ -143,7 +140,7 @@ std::vector<int> TermSelector::simplified(std::vector<int> terms) {
     const auto now = candidates.evaluate(members_of(candidates, terms));
     const std::vector<int> own = members_of(candidates, {terms[i]});
     if (!now || own.empty()) continue;
-    double best = now->score - kPreferredBonus;
+    double best = now->score - Decisions::kPreferredBonus;
     int simpler = terms[i];
     for (const int member : members_of(candidates, others)) {
       if (candidates.width(member) >= candidates.width(own.front())) continue;
@@ -205,7 +202,7 @@ TermSelector::ScoredSelection TermSelector::search(Eigen::VectorXd weights) {
     check_stop_();
     const Selection next = next_selection(now, now.terms.empty() ? kMaxScans : 1);
     const double score = working_point_.score(next.terms, next.weights);
-    worse = pass == 0 || score > best.score + kMinScoreGain ? 0 : worse + 1;
+    worse = pass == 0 || score > best.score + Decisions::kMinScoreGain ? 0 : worse + 1;
     if (pass == 0 || score > best.score) best = {next, score, working_point_.save()};
     const bool stays =
         next.weights == now.weights && (next.terms == now.terms || next.terms.empty());
@@ -258,7 +255,7 @@ Shortlist TermSelector::shortlist(const std::vector<int>& terms) const {
     const bool selected = std::find(set.begin(), set.end(), m) != set.end();
     const double best =
         set.empty() ? forward[m] : std::max(forward[m], replacement.col(m).maxCoeff());
-    if (!selected && best > now->score - kFarBehind)
+    if (!selected && best > now->score - Decisions::kFarBehind)
       out.candidates.push_back(candidates.term_index(m));
   }
   return out;

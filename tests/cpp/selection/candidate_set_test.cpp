@@ -7,6 +7,7 @@
 
 #include "bathyal/base/random.hpp"
 #include "bathyal/estimation/orthogonal.hpp"
+#include "bathyal/selection/decisions.hpp"
 #include "bathyal/selection/internal/subset_search.hpp"
 
 namespace bathyal::selection {
@@ -81,8 +82,8 @@ TEST_F(CandidateSetTest, ScoreFollowsItsFormula) {
   ASSERT_TRUE(fit);
   double score = -0.5 * p.dof() * std::log(fit->residual_sum);
   for (const double f : fit->f) {
-    score -=
-        std::log1p(f) + f / (1.0 + f) + std::log(4.0) + kTermPenalty;  // two columns, four trials
+    score -= std::log1p(f) + f / (1.0 + f) + std::log(4.0) +
+             Decisions::kTermPenalty;  // two columns, four trials
   }
   EXPECT_NEAR(fit->score, score, 1e-9);
 }

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "bathyal/selection/decisions.hpp"
 #include "selection/linear_model.hpp"
 
 namespace bathyal::selection {
@@ -76,7 +77,7 @@ TEST(SelectTerms, AmongManyTermsLackOfFitIsReportedInAddition) {
   EXPECT_EQ(found.terms.size(), 7u);
   EXPECT_EQ(effects_of(model, found.terms).front(), "nearest");
   ASSERT_EQ(effects_of(model, found.lack_of_fit), Names{"truth"});
-  EXPECT_LT(found.lack_of_fit[0].p, kBeyondNoise);
+  EXPECT_LT(found.lack_of_fit[0].p, Decisions::kBeyondNoise);
   EXPECT_GT(found.unexplained, 0.0);
 }
 
@@ -96,7 +97,7 @@ TEST(SelectTerms, LackOfFitThatPredictsNothingReplacesNoTerm) {
   EXPECT_EQ(effects_of(model, found.terms), Names{"name"});
   ASSERT_EQ(effects_of(model, found.lack_of_fit), Names{"by block"});
   EXPECT_EQ(found.lack_of_fit[0].width, kRows / kRowsPerFold - 1);
-  EXPECT_LT(found.lack_of_fit[0].p, kBeyondNoise);
+  EXPECT_LT(found.lack_of_fit[0].p, Decisions::kBeyondNoise);
 }
 
 }  // namespace

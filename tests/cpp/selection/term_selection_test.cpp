@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "bathyal/selection/decisions.hpp"
 #include "bathyal/selection/lack_of_fit.hpp"
 #include "selection/linear_model.hpp"
 
@@ -124,7 +125,7 @@ TEST(LackOfFitCheck, StructureOfARefutedTermRemains) {
   const std::vector<LackOfFit> remaining = check.remaining({{0, 1}, {}}, true);
   ASSERT_EQ(remaining.size(), 1U);
   EXPECT_EQ(remaining[0].term, 3);
-  EXPECT_LE(remaining[0].p, kBeyondNoise);
+  EXPECT_LE(remaining[0].p, Decisions::kBeyondNoise);
 }
 
 }  // namespace

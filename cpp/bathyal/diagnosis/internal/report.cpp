@@ -8,6 +8,7 @@
 #include "bathyal/base/error.hpp"
 #include "bathyal/base/text.hpp"
 #include "bathyal/estimation/f_distribution.hpp"
+#include "bathyal/selection/decisions.hpp"
 
 namespace bathyal::diagnosis {
 namespace {
@@ -81,7 +82,7 @@ class Reporter {
   void fill_lack_of_fit_before() {
     std::set<std::string> reported;
     for (const selection::LackOfFit& d : found_.lack_of_fit_before) {
-      if (d.p > selection::kBeyondNoise && !out_.lack_of_fit_before.empty())
+      if (d.p > selection::Decisions::kBeyondNoise && !out_.lack_of_fit_before.empty())
         break;  // the most significant is reported in any case
       if (!reported.insert(term_at(d.term).effect).second) continue;
       out_.lack_of_fit_before.push_back(
@@ -93,7 +94,7 @@ class Reporter {
     constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
     HeldOut& out = out_.held_out;
     out.how = counted(m_.rows(), m_.tracked ? "pose" : "touch", m_.tracked ? "poses" : "touches") +
-              (options_.groups.empty() && found_.folds.count < selection::kMinFolds
+              (options_.groups.empty() && found_.folds.count < selection::Decisions::kMinFolds
                    ? " make fewer than three blocks of poses that differ"
                    : " leave hardly more equations than unknowns");
     out.noise = std::sqrt(3.0) * out_.noise;
@@ -291,7 +292,7 @@ class Reporter {
     const double size = std::sqrt(found_.unexplained / rows) * model_.mean_unit();
     const double share = found_.base_squares > 0.0 ? found_.unexplained / found_.base_squares : 0.0;
     if (found_.lack_of_fit.empty()) {
-      if (found_.pure_error.p <= selection::kBeyondNoise) {
+      if (found_.pure_error.p <= selection::Decisions::kBeyondNoise) {
         out_.unexplained = {{},   -1,    "more than repeats of a pose differ",
                             size, share, found_.pure_error.p};
       }
@@ -316,7 +317,7 @@ class Reporter {
 
   void decide() {
     const bool unexplained = (!found_.lack_of_fit.empty() || !found_.autocorrelation.empty() ||
-                              found_.pure_error.p <= selection::kBeyondNoise) &&
+                              found_.pure_error.p <= selection::Decisions::kBeyondNoise) &&
                              found_.unexplained > options_.leftover * found_.explained;
     if (unexplained) {
       out_.verdict = Verdict::kUnknown;

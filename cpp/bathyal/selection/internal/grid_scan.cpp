@@ -9,6 +9,7 @@
 #include "bathyal/estimation/gram.hpp"
 #include "bathyal/estimation/orthogonal.hpp"
 #include "bathyal/selection/candidate_set.hpp"
+#include "bathyal/selection/decisions.hpp"
 
 namespace bathyal::selection {
 namespace {
@@ -54,7 +55,7 @@ std::vector<ScannedTerm> scan(const Model& model, const std::vector<int>& terms,
       const double rest = std::max(total - out[i].explained, 1e-12 * total);
       out[i].gain = 0.5 * dof * std::log(total / rest) -
                     complexity_penalty(width, out[i].explained / width / (rest / still_free)) -
-                    kTermPenalty;
+                    Decisions::kTermPenalty;
     }
   });
   return out;

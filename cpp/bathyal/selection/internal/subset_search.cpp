@@ -10,6 +10,7 @@
 #include <string>
 
 #include "bathyal/base/parallel.hpp"
+#include "bathyal/selection/decisions.hpp"
 
 namespace bathyal::selection {
 namespace {
@@ -70,8 +71,6 @@ std::vector<Scored> extended(const CandidateSet& candidates, const std::vector<S
   return out;
 }
 
-/// Alternatives less likely than e to minus this are not reported.
-constexpr double kMaxLogOddsDeficit = 20.0;
 constexpr int kAskedOfAliasGroup = 3;  ///< terms of a group that are evaluated in a member's place
 
 /// By how much an approximate score may be too low: a member changes the others' penalties.
@@ -211,7 +210,7 @@ std::vector<Alternative> find_alternatives(const CandidateSet& candidates,
     const Eigen::VectorXd scores = quick.row(static_cast<Index>(i));
     std::map<std::string, int> asked;
     for (const int m : best_of(scores, candidates.size())) {
-      if (scores[m] + multiplicity(m) < own - kMaxLogOddsDeficit) continue;
+      if (scores[m] + multiplicity(m) < own - Decisions::kMaxLogOddsDeficit) continue;
       const std::string& alias_group = candidates.term(m).alias_group;
       if (alias_group == candidates.term(set[i]).alias_group ||
           ++asked[alias_group] > kAskedOfAliasGroup)

@@ -74,9 +74,6 @@ void check_points(const CheckContext& context, Warnings& warnings) {
 }
 
 void check_joint_motion(const CheckContext& context, Warnings& warnings) {
-  constexpr double kStill = 1e-3;         // [rad] or [m]
-  constexpr double kHardly = 0.35;        // [rad], 20 deg
-  constexpr double kHardlySlides = 0.02;  // [m]
   const RowMatrix& q = context.measurement.q;
   std::vector<std::string> still;
   std::vector<std::string> hardly;
@@ -85,9 +82,10 @@ void check_joint_motion(const CheckContext& context, Warnings& warnings) {
     const Index c = joint.coordinate;
     const double range = q.col(c).maxCoeff() - q.col(c).minCoeff();
     const std::string description = joint_label(context.nominal, c);
-    if (range < kStill) {
+    if (range < Limits::kStill) {
       still.push_back(description);
-    } else if (range < (joint.type == JointType::kPrismatic ? kHardlySlides : kHardly)) {
+    } else if (range <
+               (joint.type == JointType::kPrismatic ? Limits::kHardlySlides : Limits::kHardly)) {
       hardly.push_back(description + " (" + joint_amount(context.nominal, c, range) + ")");
     }
   }
@@ -105,7 +103,6 @@ void check_joint_motion(const CheckContext& context, Warnings& warnings) {
 }
 
 void check_orientations(const CheckContext& context, Warnings& warnings) {
-  constexpr double kNarrow = 0.44;  // [rad], 25 deg
   const Measurement& m = context.measurement;
   if (m.tracked || m.points() == 0) return;
   const ChainDerivatives chain(context.system.arm_parameters(), context.fit.values, {});
@@ -127,7 +124,7 @@ void check_orientations(const CheckContext& context, Warnings& warnings) {
     const double half = (turned[i] - mean).norm() / std::sqrt(8.0);
     widest = std::max(widest, 2.0 * std::asin(std::min(1.0, half)));
   }
-  if (widest > kNarrow) return;
+  if (widest > Limits::kNarrow) return;
   warnings.push_back(
       "At no point did the tool turn by more than " + degrees(widest) +
       " from its mean attitude: such similar poses determine the parameters poorly, and errors "
@@ -137,7 +134,6 @@ void check_orientations(const CheckContext& context, Warnings& warnings) {
 }
 
 void check_limits(const CheckContext& context, Warnings& warnings) {
-  constexpr double kBeyond = 2e-3;  // [rad] or [m]
   const RowMatrix& q = context.measurement.q;
   std::vector<std::string> texts;
   for (Index j = 0; j < q.cols(); ++j) {
@@ -146,7 +142,7 @@ void check_limits(const CheckContext& context, Warnings& warnings) {
     for (Index i = 0; i < q.rows(); ++i) {
       const double beyond =
           std::max(context.nominal.lower()[j] - q(i, j), q(i, j) - context.nominal.upper()[j]);
-      if (beyond > kBeyond) ++rows;
+      if (beyond > Limits::kBeyondLimit) ++rows;
       most = std::max(most, beyond);
     }
     if (rows == 0) continue;

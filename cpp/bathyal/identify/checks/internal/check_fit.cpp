@@ -21,13 +21,12 @@ void check_convergence(const CheckContext& context, Warnings& warnings) {
 
 /// Rows of the arm with implausibly large changes.
 std::vector<std::string> folded_rows(const CheckContext& context) {
-  constexpr double kFolded = 0.5;  // [rad]
-  constexpr double kSurely = 3.0;  // else it is undetermined
   std::vector<std::string> rows;
   for (const FitParameter& p : context.fit.parameters) {
     const bool row = p.group.rfind("row", 0) == 0;
     const double change = p.value - p.nominal;
-    if (row && p.unit == "rad" && std::abs(change) > std::max(kFolded, kSurely * p.std)) {
+    if (row && p.unit == "rad" &&
+        std::abs(change) > std::max(Limits::kFolded, Limits::kFoldedSigma * p.std)) {
       rows.push_back(p.description + " by " + degrees(change));
     }
   }
@@ -36,7 +35,7 @@ std::vector<std::string> folded_rows(const CheckContext& context) {
 
 bool looks_like_another_arm(const CheckContext& context) {
   if (context.search.refitted) return context.search.no_consensus;
-  return context.fit.rms_after > kWrongArmShare * chain_length(context.nominal);
+  return context.fit.rms_after > Limits::kWrongArmShare * chain_length(context.nominal);
 }
 
 void check_machine(const CheckContext& context, Warnings& warnings) {
@@ -103,15 +102,14 @@ void check_outliers(const CheckContext& context, Warnings& warnings) {
 }
 
 void check_given_noise(const CheckContext& context, Warnings& warnings) {
-  constexpr double kMaxRatio = 1.5;
   const ArmFit& fit = context.fit;
-  if (fit.degrees_of_freedom < 10.0 || !fit.outliers.empty()) return;
+  if (fit.degrees_of_freedom < Limits::kFewDof || !fit.outliers.empty()) return;
   double sum = 0.0;
   for (Index i = 0; i < fit.residuals.cols(); ++i) {
     sum += context.measurement.weights[i] * fit.residuals.col(i).squaredNorm();
   }
   const double found = std::sqrt(sum / fit.degrees_of_freedom);
-  if (!has_equal_weights(context) || found < kMaxRatio * fit.noise) return;
+  if (!has_equal_weights(context) || found < Limits::kNoiseRatio * fit.noise) return;
   warnings.push_back("The residuals imply a noise of " + millimetres(found) + " per axis, where " +
                      millimetres(fit.noise) +
                      " was given: standard deviations are too small by that factor. Give no noise, "
@@ -119,13 +117,10 @@ void check_given_noise(const CheckContext& context, Warnings& warnings) {
 }
 
 void check_residual_structure(const CheckContext& context, Warnings& warnings) {
-  constexpr double kSurely = 1e-3;
-  constexpr double kMinShare = 0.02;  // of the variance
   const ResidualStructure& structure = context.structure;
-  constexpr double kLeastPart = 1e-5;  // [m] no arm is asked for less
   const double part = std::sqrt(structure.share) * context.fit.rms_after;
-  if (structure.p > kSurely || structure.share < kMinShare || part < kLeastPart ||
-      is_unusable(context)) {
+  if (structure.p > Limits::kStructureP || structure.share < Limits::kStructureShare ||
+      part < Limits::kStructureSize || is_unusable(context)) {
     return;
   }
   const std::string joint = joint_label(context.nominal, structure.coordinate);
@@ -140,8 +135,6 @@ void check_residual_structure(const CheckContext& context, Warnings& warnings) {
 }
 
 void check_parameters(const CheckContext& context, Warnings& warnings) {
-  constexpr double kSurely = 4.0;
-  constexpr double kStrain = 6.0;  // of the prior's std
   if (is_unusable(context) || outliers_dominate(context)) return;
   const ArmFit& fit = context.fit;
   std::vector<std::string> far;
@@ -149,9 +142,9 @@ void check_parameters(const CheckContext& context, Warnings& warnings) {
     const FitParameter& p = fit.parameters[i];
     if (!is_row(fit.arm_parameters.slots[i])) continue;
     const double change = std::abs(p.value - p.nominal);
-    const double most = std::min(p.unit == "rad" ? kFarAngle : kFarLength,
-                                 kStrain * fit.arm_parameters.parameters[i].prior_std);
-    if (change < most || change < kSurely * p.std) continue;
+    const double most = std::min(p.unit == "rad" ? Limits::kFarAngle : Limits::kFarLength,
+                                 Limits::kStrain * fit.arm_parameters.parameters[i].prior_std);
+    if (change < most || change < Limits::kFarSigma * p.std) continue;
     far.push_back(p.description + " by " + in_its_unit(p.value - p.nominal, p.unit));
   }
   if (far.empty()) return;
@@ -166,7 +159,7 @@ void check_precision(const CheckContext& context, Warnings& warnings) {
   for (std::size_t i = 0; i < context.fit.parameters.size(); ++i) {
     const FitParameter& p = context.fit.parameters[i];
     if (!is_row(context.fit.arm_parameters.slots[i]) || p.status != Status::kIdentified) continue;
-    if (p.std < (p.unit == "rad" ? kFarAngle : kFarLength)) continue;
+    if (p.std < (p.unit == "rad" ? Limits::kFarAngle : Limits::kFarLength)) continue;
     weak.push_back(p.description + " (± " + in_its_unit(p.std, p.unit) + ")");
   }
   if (weak.empty()) return;
@@ -178,9 +171,8 @@ void check_precision(const CheckContext& context, Warnings& warnings) {
 }
 
 void check_degrees_of_freedom(const CheckContext& context, Warnings& warnings) {
-  constexpr double kFew = 10.0;
   const ArmFit& fit = context.fit;
-  if (fit.degrees_of_freedom >= kFew) return;
+  if (fit.degrees_of_freedom >= Limits::kFewDof) return;
   const int dof = std::max(0, static_cast<int>(std::lround(fit.degrees_of_freedom)));
   warnings.push_back(
       (dof == 0 ? "As many unknowns as equations: residuals are small for any arm, and do not "

@@ -22,8 +22,6 @@ std::string distances_found(const Measurement& m, const ArmFit& fit) {
 }
 
 void check_unobserved_scale(const CheckContext& context, Warnings& warnings) {
-  constexpr double kLoosePrior = 3e-3;  // [m] more than makers allow themselves
-  constexpr double kShrunk = 0.01;
   const ArmFit& fit = context.fit;
   std::string text =
       "No measurement determines the scale of the arm: a smaller arm would agree with itself even "
@@ -51,7 +49,7 @@ void check_unobserved_scale(const CheckContext& context, Warnings& warnings) {
       loosest = std::max(loosest, std);
     }
   }
-  if (loosest <= kLoosePrior && std::abs(fit.scale - 1.0) < kShrunk) return;
+  if (loosest <= Limits::kLoosePrior && std::abs(fit.scale - 1.0) < Limits::kShrunk) return;
   warnings.push_back("The arm came out at " + three_digits(fit.scale) +
                      " times its nominal size with lengths constrained to " + millimetres(loosest) +
                      " only; a looser prior would shrink it further. Set the maker's tolerance, "
@@ -59,11 +57,10 @@ void check_unobserved_scale(const CheckContext& context, Warnings& warnings) {
 }
 
 void check_observed_scale(const CheckContext& context, Warnings& warnings) {
-  constexpr double kMostStretch = 0.02;
   const ArmFit& fit = context.fit;
   const double stretch = std::abs(fit.scale - 1.0);
   if (is_unusable(context) || outliers_dominate(context)) return;
-  if (stretch < kMostStretch || stretch < 3.0 * fit.scale_std) return;
+  if (stretch < Limits::kMostStretch || stretch < 3.0 * fit.scale_std) return;
   warnings.push_back("By the " + fit.scale_source + " the arm is " + three_digits(fit.scale) +
                      " times its nominal size (± " + three_digits(fit.scale_std) +
                      "), which no maker misses by so much: a given length or its unit is wrong, "
@@ -105,13 +102,13 @@ std::vector<GivenLength> given_lengths(const Measurement& m) {
 /// Given lengths that the touches alone contradict, with points a and b exchanged.
 std::vector<GivenLength> contradicted(const std::vector<GivenLength>& given,
                                       const Eigen::Matrix3Xd& points, int a, int b) {
-  constexpr double kShare = 0.03;  // the scale of the arm is known no better
-  constexpr double kLeast = 3e-3;  // [m]
   const auto swap = [a, b](int p) { return p == a ? b : p == b ? a : p; };
   std::vector<GivenLength> wrong;
   for (const GivenLength& length : given) {
     const double found = (points.col(swap(length.first)) - points.col(swap(length.second))).norm();
-    if (std::abs(found - length.length) > kShare * length.length + kLeast) wrong.push_back(length);
+    if (std::abs(found - length.length) >
+        Limits::kLengthShare * length.length + Limits::kLengthLeast)
+      wrong.push_back(length);
   }
   return wrong;
 }
@@ -150,7 +147,6 @@ std::string gross_contradiction(const CheckContext& context) {
 
 /// Errors of the size of the noise: estimated against given lengths.
 std::string fine_contradiction(const CheckContext& context) {
-  constexpr double kMostSigma = 4.0;
   const Measurement& m = context.measurement;
   const std::vector<double> center = center_std(m, context.fit.noise);
   std::vector<std::string> texts;
@@ -159,7 +155,7 @@ std::string fine_contradiction(const CheckContext& context) {
     const DistanceComparison& found = context.fit.distances[k];
     const double std =
         std::hypot(m.distance_std, std::hypot(center[known.first], center[known.second]));
-    if (std::abs(found.estimated - found.given) < kMostSigma * std) continue;
+    if (std::abs(found.estimated - found.given) < Limits::kLengthSigma * std) continue;
     texts.push_back("from " + m.name_of(found.first) + " to " + m.name_of(found.second) +
                     " given as " + millimetres(found.given) + ", estimated as " +
                     millimetres(found.estimated));
@@ -167,7 +163,7 @@ std::string fine_contradiction(const CheckContext& context) {
   for (const KnownPoint& known : m.known_points) {
     const double away = (context.fit.points.col(known.label) - known.position).norm();
     const double std = std::hypot(m.point_std, center[known.label]);
-    if (away < kMostSigma * std::sqrt(3.0) * std) continue;
+    if (away < Limits::kLengthSigma * std::sqrt(3.0) * std) continue;
     texts.push_back("point " + m.name_of(m.labels[known.label]) + " found " + millimetres(away) +
                     " from the given position");
   }

@@ -13,9 +13,6 @@
 namespace bathyal::identify {
 namespace {
 
-constexpr double kFalseAlarm = 0.01;   ///< of a whole fit without outliers
-constexpr double kMinSigma = 6.0;      ///< below it a residual may be in the tail of the noise
-constexpr double kMinDistance = 5e-5;  ///< [m] no touch is an outlier at less
 constexpr int kMaxSearchRounds = 10;
 
 /// Each row against its prediction from the others.
@@ -52,14 +49,13 @@ double distance(const DeletionResiduals& residuals, const ArmResiduals& system, 
 /// Whether the residual of row i is beyond chance.
 bool is_outlier(const DeletionResiduals& residuals, const ArmResiduals& system, Index i) {
   const selection::ObservationTest& test = residuals.tests[i];
-  return distance(residuals, system, i) >= kMinDistance &&
-         test.distance * test.rows >= kMinSigma * kMinSigma &&
-         test.p < kFalseAlarm / static_cast<double>(residuals.tests.size());
+  return distance(residuals, system, i) >= Limits::kMinDistance &&
+         test.distance * test.rows >= Limits::kMinSigma * Limits::kMinSigma &&
+         test.p < Limits::kFalseAlarm / static_cast<double>(residuals.tests.size());
 }
 
 /// Residuals without outliers are normal: none is an outlier, and the median agrees with the mean.
 bool looks_normal(const DeletionResiduals& residuals, const ArmResiduals& system) {
-  constexpr double kMaxMeanRatio = 1.5;
   std::vector<double> scaled;
   double sum = 0.0;
   for (Index i = 0; i < system.measurement().rows(); ++i) {
@@ -72,7 +68,7 @@ bool looks_normal(const DeletionResiduals& residuals, const ArmResiduals& system
   const auto middle = scaled.begin() + static_cast<std::ptrdiff_t>(scaled.size() / 2);
   std::nth_element(scaled.begin(), middle, scaled.end());
   const double mean = sum / (3.0 * static_cast<double>(scaled.size()));
-  return mean < kMaxMeanRatio * *middle / (kMedianOfNorm * kMedianOfNorm);
+  return mean < Limits::kMaxMeanRatio * *middle / (kMedianOfNorm * kMedianOfNorm);
 }
 
 Eigen::VectorXd weighted_norms(const ArmResiduals& system, const Eigen::VectorXd& x) {
@@ -94,7 +90,7 @@ bool has_strayed(const ArmResiduals& system, const Eigen::VectorXd& x) {
     const ParameterSlot& slot = parameters.slots[c];
     if (!is_row(slot)) continue;
     const double change = std::abs(x[c] - parameters.parameters[c].nominal);
-    if (change > (is_length(slot) ? kFarLength : kFarAngle)) return true;
+    if (change > (is_length(slot) ? Limits::kFarLength : Limits::kFarAngle)) return true;
   }
   return false;
 }
@@ -109,7 +105,7 @@ ArmResiduals near_nominal(const ArmResiduals& fitted, const Measurement& without
   std::vector<LinearConstraint> rows;
   for (const int c : fitted.free()) {
     const ParameterSlot& slot = parameters.slots[c];
-    const double std = !is_row(slot) ? kFrame : is_length(slot) ? kLength : kFarAngle;
+    const double std = !is_row(slot) ? kFrame : is_length(slot) ? kLength : Limits::kFarAngle;
     rows.push_back({Eigen::VectorXd::Unit(parameters.nominal().size(), c), std});
   }
   system.set_linear_constraints(std::move(rows));
@@ -135,7 +131,8 @@ void reweigh(ArmResiduals& system, double (*weight_of)(double), int most_rounds,
   std::vector<double> observation_weights = system.observation_weights();
   for (int round = 0; round < most_rounds; ++round) {
     const Eigen::VectorXd norms = weighted_norms(system, x);
-    const double noise = std::max(median_noise(system, norms), kMinDistance / kMinSigma);
+    const double noise =
+        std::max(median_noise(system, norms), Limits::kMinDistance / Limits::kMinSigma);
     double change = 0.0;
     for (Index i = 0; i < norms.size(); ++i) {
       const double next = weight_of(norms[i] / noise);
@@ -152,10 +149,11 @@ void reweigh(ArmResiduals& system, double (*weight_of)(double), int most_rounds,
 /// Least squares of the rows that pass the test, until they stay the same.
 DeletionResiduals trimmed_fit(ArmResiduals& system, Eigen::VectorXd& x) {
   const Eigen::VectorXd norms = weighted_norms(system, x);
-  const double noise = std::max(median_noise(system, norms), kMinDistance / kMinSigma);
+  const double noise =
+      std::max(median_noise(system, norms), Limits::kMinDistance / Limits::kMinSigma);
   std::vector<double> observation_weights(system.observation_weights().size(), 1.0);
   for (Index i = 0; i < norms.size(); ++i) {
-    if (norms[i] > kMinSigma * noise) observation_weights[i] = selection::kExcludedWeight;
+    if (norms[i] > Limits::kMinSigma * noise) observation_weights[i] = selection::kExcludedWeight;
   }
   DeletionResiduals found;
   for (int round = 0; round < kMaxSearchRounds; ++round) {
@@ -178,14 +176,13 @@ DeletionResiduals trimmed_fit(ArmResiduals& system, Eigen::VectorXd& x) {
 /// The other point that row i agrees with, if any.
 std::optional<int> point_that_fits(const ArmResiduals& system, const DeletionResiduals& residuals,
                                    Index i, const Vec3& tip, const Eigen::Matrix3Xd& centers) {
-  constexpr double kDistanceRatio = 0.2;
   const Measurement& m = system.measurement();
   const selection::ObservationTest& test = residuals.tests[i];
   const double from = distance(residuals, system, i);
   const double std = from / std::sqrt(test.distance * test.rows);
   for (int p = 0; p < m.points(); ++p) {
     const double away = (tip - centers.col(p)).norm();
-    if (p != m.point[i] && away < kMinSigma * std && away < kDistanceRatio * from) {
+    if (p != m.point[i] && away < Limits::kMinSigma * std && away < Limits::kDistanceRatio * from) {
       return m.labels[p];
     }
   }
@@ -232,7 +229,7 @@ OutlierSearch find_outliers(const ArmResiduals& fitted, const Eigen::VectorXd& x
   }
   const double rms = std::sqrt(3.0 * found.variance) * system.noise().position;
   if (3 * unexplained > m.rows() ||
-      rms > kWrongArmShare * chain_length(system.arm_parameters().arm)) {
+      rms > Limits::kWrongArmShare * chain_length(system.arm_parameters().arm)) {
     out.no_consensus = true;
     out.outliers.clear();
     return out;

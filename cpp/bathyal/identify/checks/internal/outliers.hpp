@@ -3,20 +3,12 @@
 
 #include <vector>
 
+#include "bathyal/identify/checks/internal/limits.hpp"
 #include "bathyal/identify/fit/arm_fit.hpp"
 
 // Rows that contradict the others.
 
 namespace bathyal::identify {
-
-/// How far the parameters of a row may lie from nominal before the search counts as diverged: more
-/// than tolerances of makers and assembly.
-inline constexpr double kFarLength = 10e-3;  ///< [m]
-inline constexpr double kFarAngle = 0.05;    ///< [rad]
-
-/// Residual of a fit [m, rms], as a share of the length of the chain, from which it cannot be this
-/// arm.
-inline constexpr double kWrongArmShare = 0.01;
 
 struct OutlierSearch {
   std::vector<Outlier> outliers;  ///< by row

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "bathyal/estimation/f_distribution.hpp"
+#include "bathyal/identify/checks/internal/limits.hpp"
 #include "bathyal/identify/fit/observability.hpp"
 
 namespace bathyal::identify {
@@ -15,8 +16,6 @@ constexpr Index kMaxComparedPoses = 2000;
 constexpr Index kFunctionsPerJoint = 2;                ///< of one joint
 constexpr Index kRegressors = 3 * kFunctionsPerJoint;  ///< each along three axes
 constexpr double kCollinear = 1e-3;                    ///< independent share of a regressor
-constexpr double kJointThreshold = 0.01;               ///< which joint it is
-constexpr double kLeastDof = 5.0;                      ///< left for the noise
 
 /// The functions of joint j alone, at each of its values.
 class JointFunctions {
@@ -185,11 +184,11 @@ ResidualStructure test(ArmResiduals& system, const Eigen::VectorXd& x) {
   const double dof = system.free_rows()[0] - static_cast<double>(basis.cols());
   const double squares = projected.squaredNorm();
   const Explained all = explain(square, along);
-  if (all.functions < 1.0 || dof - all.functions < kLeastDof) return out;
+  if (all.functions < 1.0 || dof - all.functions < Limits::kStructureDof) return out;
   const FTest together = f_test(all.squares, all.functions, squares, dof);
   out.p = together.p;
   out.share = together.share;
-  if (out.p > kJointThreshold) return out;
+  if (out.p > Limits::kJointP) return out;
   for (int j = 0; j < m.q.cols(); ++j) {
     const Index at = kRegressors * j;
     const Explained alone =
