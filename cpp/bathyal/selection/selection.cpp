@@ -135,8 +135,7 @@ void StructureSelection::fit_variance_components() {
     constexpr double kMatters = 0.04;
     const bool named = components[f].known > 0.0
                            ? fit.share > kMatters
-                           : fit.gain > kTermPenalty + complexity_penalty(1.0, 2.0 * fit.gain) &&
-                                 fit.held_out_gain > 0.0;
+                           : fit.p() <= kBeyondNoise && fit.held_out_gain > 0.0;
     if (!named) continue;
     // What the noise is made of without this component is a smaller part of it.
     const double others = 1.0 - fit.share;
