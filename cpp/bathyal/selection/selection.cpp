@@ -299,8 +299,10 @@ void StructureSelection::test_remainder() {
   const NuisanceBasis& whole = working_point_.nuisance(terms);
   out_.autocorrelation =
       test_autocorrelation(model_, whole.basis, whole.dof, weights_, options_.num_threads);
+  for (Autocorrelation& a : out_.autocorrelation) a.p = std::min(1.0, kStructureTests * a.p);
   std::erase_if(out_.autocorrelation, [](const Autocorrelation& a) { return a.p > kBeyondNoise; });
   out_.pure_error = test_pure_error(model_, whole.basis, whole.dof, weights_);
+  out_.pure_error.p = std::min(1.0, kStructureTests * out_.pure_error.p);
   // Two measures of the same.
   double more = out_.autocorrelation.empty() ? 0.0 : out_.autocorrelation.front().explained;
   if (out_.pure_error.p <= kBeyondNoise) more = std::max(more, out_.pure_error.explained);

@@ -88,9 +88,9 @@ std::vector<LackOfFit> WorkingPoint::lack_of_fit(const NuisanceBasis& nuisance) 
     if (term.width == 0.0 || !(nuisance.dof > term.width + 1.0)) continue;
     LackOfFit d{term.term, term.explained, term.width};
     const double noise = (total - term.explained) / (nuisance.dof - term.width);
-    d.p = std::min(
-        1.0, static_cast<double>(asked.size()) * f_tail(term.explained / term.width / noise,
-                                                        term.width, nuisance.dof - term.width));
+    d.p = std::min(1.0, kStructureTests * static_cast<double>(asked.size()) *
+                            f_tail(term.explained / term.width / noise, term.width,
+                                   nuisance.dof - term.width));
     const double beyond = std::max(term.explained - term.width * noise, 0.0);
     d.size = std::sqrt(beyond / rows);
     d.share = total > 0.0 ? beyond / total : 0.0;

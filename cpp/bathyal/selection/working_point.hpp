@@ -16,12 +16,16 @@ struct NuisanceBasis {
   double dof = 0.0;       ///< residual degrees of freedom
 };
 
+/// Kinds of tests that ask whether there is structure at all: lack-of-fit terms, the likeness of
+/// near residuals, pure error. Each counts the others.
+inline constexpr double kStructureTests = 3.0;
+
 /// Test of one lack-of-fit term: structure in the residuals, whatever its cause.
 struct LackOfFit {
   int term = 0;
   double explained = 0.0;
   double width = 0.0;
-  double p = 1.0;     ///< corrected for all lack-of-fit terms
+  double p = 1.0;     ///< corrected for all lack-of-fit terms and kStructureTests
   double size = 0.0;  ///< per row [noise]
   double share = 0.0;
   double gain = 0.0;  ///< in log evidence, corrected for multiplicity
