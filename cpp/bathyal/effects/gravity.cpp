@@ -102,7 +102,7 @@ class JointCompliance final : public Effect {
         "Whitney, Lozinski, Rourke, 1986; Khalil, Besnard: Geometric calibration of robots with "
         "flexible joints and links, 2002",
         {},
-        {{"compliance", "rad/(N m) or m/N", 1e-8, 1e-3}},
+        {{"compliance", "rad/(N m) or m/N", 1e-8, 1e-2}},
         false,
         false,
         true};
