@@ -114,9 +114,8 @@ std::vector<int> TermSelector::refined(std::vector<int> terms) {
   return terms;
 }
 
-/// Of several ways to describe one cause, a narrower one with a preferred setting that scores
-/// nearly as well: a whole curve is no better a name for a wave that fits a turn because chance
-/// bends it a little. A wave whose order was fitted is no simpler than that: it must score better.
+/// Of several ways to describe one cause, the narrowest that scores nearly as well: a whole curve
+/// is no better a name for a wave because chance bends it a little.
 std::vector<int> TermSelector::simplified(std::vector<int> terms) {
   for (std::size_t i = 0; i < terms.size(); ++i) {
     check_stop_();
@@ -144,16 +143,15 @@ std::vector<int> TermSelector::simplified(std::vector<int> terms) {
     const auto now = candidates.evaluate(members_of(candidates, terms));
     const std::vector<int> own = members_of(candidates, {terms[i]});
     if (!now || own.empty()) continue;
-    double best = now->score;
+    double best = now->score - kPreferredBonus;
     int simpler = terms[i];
     for (const int member : members_of(candidates, others)) {
       if (candidates.width(member) >= candidates.width(own.front())) continue;
       std::vector<int> with = rest;
       with.push_back(candidates.term_index(member));
       const auto fit = candidates.evaluate(members_of(candidates, with));
-      const double bonus = candidates.term(member).preferred ? kPreferredBonus : 0.0;
-      if (!fit || !(fit->score + bonus > best)) continue;
-      best = fit->score + bonus;
+      if (!fit || !(fit->score > best)) continue;
+      best = fit->score;
       simpler = candidates.term_index(member);
     }
     terms[i] = simpler;

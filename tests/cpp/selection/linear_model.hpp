@@ -38,11 +38,9 @@ class LinearModel final : public Model {
     columns_.push_back(columns);
   }
   /// One of four ways to describe a cause.
-  void add_alias(const std::string& alias_group, const Eigen::MatrixXd& columns,
-                 bool preferred = false) {
+  void add_alias(const std::string& alias_group, const Eigen::MatrixXd& columns) {
     add(alias_group, columns);
     terms_.back().multiplicity = 4.0;
-    terms_.back().preferred = preferred;
   }
   void add_scan(const std::vector<int>& family) { scans_.push_back(family); }
   Eigen::VectorXd& data() { return at_.residual; }
