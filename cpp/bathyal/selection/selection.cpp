@@ -131,11 +131,17 @@ void StructureSelection::fit_variance_components() {
     VarianceComponentFit fit = fit_noise(beside_found(components[f]), model_.linearization(),
                                          whole.basis, weights_, model_.noise(), out_.folds);
     fit.term = f;
-    // A step that the record itself shows needs no evidence, only a share that matters.
+    // A step that the record itself shows needs no evidence, only a share that matters. Where
+    // residuals have structure, it is uneven too: then a component must be worth a term.
     constexpr double kMatters = 0.04;
-    const bool named = components[f].known > 0.0
-                           ? fit.share > kMatters
-                           : fit.p() <= kBeyondNoise && fit.held_out_gain > 0.0;
+    const auto is_significant = [&] {
+      const std::vector<LackOfFit> structure = working_point_.lack_of_fit(whole);
+      return structure.empty() || structure.front().p > kBeyondNoise
+                 ? fit.p() <= kBeyondNoise
+                 : fit.gain > kTermPenalty + complexity_penalty(1.0, 2.0 * fit.gain);
+    };
+    const bool named = components[f].known > 0.0 ? fit.share > kMatters
+                                                 : fit.held_out_gain > 0.0 && is_significant();
     if (!named) continue;
     // What the noise is made of without this component is a smaller part of it.
     const double others = 1.0 - fit.share;
