@@ -183,8 +183,10 @@ void bind_result(py::module_& module) {
           "out.")
       .def_readonly("effects", &Diagnosis::effects,
                     "NamedEffect, largest first; partial when the verdict is unknown.")
-      .def_readonly("ambiguous", &Diagnosis::ambiguous,
-                    "Cause: all that these data cannot distinguish.")
+      .def_readonly(
+          "ambiguous", &Diagnosis::ambiguous,
+          "Cause: what these data cannot distinguish; the four most likely in the place of "
+          "an effect, itself included. Its `rivals` may be more.")
       .def_property_readonly(
           "next_poses",
           [](const Diagnosis& d) {

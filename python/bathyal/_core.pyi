@@ -9632,7 +9632,7 @@ class Diagnosis:
     @property
     def ambiguous(self) -> list[Cause]:
         """
-        Cause: all that these data cannot distinguish.
+        Cause: what these data cannot distinguish; the four most likely in the place of an effect, itself included. Its `rivals` may be more.
         """
     @property
     def data(self) -> Touches | Tracked:
@@ -10084,7 +10084,7 @@ def depth_from_pressure(pressure: numpy.typing.ArrayLike, latitude: numpy.typing
     >>> round(bathyal.depth_from_pressure(1000.0, latitude=45), 2)
     989.5
     """
-def diagnose(arm: Arm, data: Touches | Tracked, *, effects: collections.abc.Iterable[Effect] | None = None, parametrization: str = 'hayati', fixed: collections.abc.Sequence[str] = [], length_prior: typing.SupportsFloat | typing.SupportsIndex | None = None, blocks: typing.SupportsInt | typing.SupportsIndex = 10, groups: numpy.typing.ArrayLike | None = None, rival_odds: typing.SupportsFloat | typing.SupportsIndex = 0.05, leftover: typing.SupportsFloat | typing.SupportsIndex = 0.03, num_next_poses: typing.SupportsInt | typing.SupportsIndex = 8, progress: collections.abc.Callable[[float, str], None] | None = None, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> Diagnosis:
+def diagnose(arm: Arm, data: Touches | Tracked, *, effects: collections.abc.Iterable[Effect] | None = None, parametrization: str = 'hayati', fixed: collections.abc.Sequence[str] = [], length_prior: typing.SupportsFloat | typing.SupportsIndex | None = None, blocks: typing.SupportsInt | typing.SupportsIndex = 10, groups: numpy.typing.ArrayLike | None = None, rival_odds: typing.SupportsFloat | typing.SupportsIndex = 0.1, leftover: typing.SupportsFloat | typing.SupportsIndex = 0.03, num_next_poses: typing.SupportsInt | typing.SupportsIndex = 8, progress: collections.abc.Callable[[float, str], None] | None = None, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> Diagnosis:
     """
     Find what the best rigid model of an arm gets wrong, name the cause, measure the gain.
     

@@ -24,7 +24,7 @@ struct DiagnoseOptions {
   int blocks = 10;  ///< folds of the cross-validation, 3 … 50
   /// Odds of an alternative against the best explanation from which the verdict is ambiguous, 0
   /// … 1.
-  double rival_odds = 0.05;
+  double rival_odds = 0.1;
   /// Unexplained structure, as a share of the variance that the effects explain, from which the
   /// verdict is unknown; 0 or more.
   double leftover = 0.03;
@@ -47,7 +47,8 @@ struct Diagnosis {
 
   Verdict verdict = Verdict::kNone;
   std::vector<NamedEffect> effects;  ///< largest first; partial when the verdict is unknown
-  std::vector<Cause> ambiguous;      ///< all causes that these data cannot distinguish
+  std::vector<Cause> ambiguous;      ///< causes that these data cannot distinguish, the four
+                                     ///< most likely in the place of each effect
   RowMatrix next_poses;              ///< (m, n) poses that would distinguish them
   std::vector<Structure> lack_of_fit_before;  ///< of geometry alone, beyond noise;
                                               ///< where none is, the most significant

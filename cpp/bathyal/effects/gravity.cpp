@@ -107,7 +107,7 @@ class JointCompliance final : public Effect {
             .ranges = {{.parameter = "compliance",
                         .unit = "rad/(N m) or m/N",
                         .low = 1e-8,
-                        .high = 1e-3}},
+                        .high = 1e-2}},
             .extrapolates = true};
   }
   std::string describe(const EffectVariant& variant, const Arm& arm) const override {

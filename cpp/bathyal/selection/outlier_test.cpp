@@ -46,16 +46,17 @@ double deviance(const Spread& s, double theta) {
   return logs + rows * std::log(std::max(sum / rows, 1e-300));
 }
 
-/// θ of least deviance, by golden-section search in ln θ; 0 when none is better than that.
-double best_theta(const Spread& s) {
+/// The θ at which `loss` is least, by golden-section search in ln θ.
+template <typename Loss>
+double least_theta(const Loss& loss) {
   constexpr double kGolden = 0.6180339887498949;
   double low = std::log(1e-6), high = std::log(1e6);
-  // The deviance may have several minima: the search starts from the best point of a coarse grid.
+  // The loss may have several minima: the search starts from the best point of a coarse grid.
   constexpr int kSteps = 60;
   int best = 0;
-  double least = deviance(s, std::exp(low));
+  double least = loss(std::exp(low));
   for (int k = 1; k <= kSteps; ++k) {
-    const double now = deviance(s, std::exp(low + (high - low) * k / kSteps));
+    const double now = loss(std::exp(low + (high - low) * k / kSteps));
     if (now < least) {
       least = now;
       best = k;
@@ -67,13 +68,18 @@ double best_theta(const Spread& s) {
   high = middle + step;
   while (high - low > 1e-6) {
     const double a = high - kGolden * (high - low), b = low + kGolden * (high - low);
-    if (deviance(s, std::exp(a)) < deviance(s, std::exp(b))) {
+    if (loss(std::exp(a)) < loss(std::exp(b))) {
       high = b;
     } else {
       low = a;
     }
   }
-  const double theta = std::exp(0.5 * (low + high));
+  return std::exp(0.5 * (low + high));
+}
+
+/// θ of least deviance; 0 when none is better than that.
+double best_theta(const Spread& s) {
+  const double theta = least_theta([&](double at) { return deviance(s, at); });
   return deviance(s, theta) < deviance(s, 0.0) ? theta : 0.0;
 }
 
@@ -206,11 +212,10 @@ VarianceComponentFit fit_noise(const VarianceComponent& term, const Linearizatio
 
   const auto theta_of = [&](const Spread& s) {
     if (!(term.known > 0.0)) return best_theta(s);
-    // The step is known from the record: its share c of the variance, of which σ² = s² (1 - c) is
-    // the rest.
-    const double share = term.known * term.known * mean;
-    const double whole = best_scale(s, 0.0);
-    return share < 0.99 * whole ? share / (whole - share) : 99.0;
+    // The mean variance by the component is known from the record: θ is that over the rest, which
+    // is found where the likelihood is highest. Rows that the component hardly moves show it.
+    const double known = term.known * term.known * mean;
+    return least_theta([&](double at) { return -log_likelihood(s, at, known / at); });
   };
   const double theta = theta_of(all);
   const double scale = best_scale(all, theta);

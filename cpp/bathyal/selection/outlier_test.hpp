@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "bathyal/selection/folds.hpp"
@@ -38,6 +40,9 @@ struct VarianceComponentFit {
   double held_out_gain = 0.0;  ///< the same on held-out folds
   double share = 0.0;          ///< of the noise's variance
   double ratio = 0.0;          ///< Model::set_variance_ratios
+  /// Of so large a gain in homoscedastic noise, of a variance that cannot be negative (Self and
+  /// Liang 1987).
+  double p() const { return 0.5 * std::erfc(std::sqrt(std::max(gain, 0.0))); }
 };
 
 /// `basis` as above; `noise` of a position row [m]. `weights` are 0 or 1.

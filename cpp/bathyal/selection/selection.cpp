@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <numeric>
 #include <optional>
 #include <set>
 #include <utility>
@@ -45,6 +47,8 @@ class StructureSelection {
   }
 
   void select_explanation(const Shortlist& shortlist);
+  VarianceComponent beside_found(VarianceComponent component) const;
+  void whiten();
   void fit_variance_components();
   void drop_redundant_terms();
   void drop_unpredictive_terms();
@@ -82,22 +86,27 @@ void StructureSelection::select_explanation(const Shortlist& shortlist) {
   weights_ = best.weights;
 }
 
-void StructureSelection::fit_variance_components() {
-  const NuisanceBasis& whole = working_point_.nuisance(active_.terms);
-  for (int f = 0; f < static_cast<int>(model_.variance_components().size()); ++f) {
-    const VarianceComponent& term = model_.variance_components()[f];
-    VarianceComponentFit fit =
-        fit_noise(term, model_.linearization(), whole.basis, weights_, model_.noise(), out_.folds);
-    fit.term = f;
-    // A step that the record itself shows needs no evidence, only a share that matters.
-    const bool named = term.known > 0.0 ? fit.share > Decisions::kMinKnownShare
-                                        : fit.gain > Decisions::kTermPenalty +
-                                                         complexity_penalty(1.0, 2.0 * fit.gain) &&
-                                              fit.held_out_gain > 0.0;
-    if (named) out_.noise.push_back(fit);
+/// `component` in rows that are whitened by the covariance of those that were found.
+VarianceComponent StructureSelection::beside_found(VarianceComponent component) const {
+  std::map<int, std::vector<Index>> rows;
+  const Linearization& at = model_.linearization();
+  for (Index m = 0; m < at.noise_rows; ++m) rows[at.observation[m]].push_back(m);
+  for (const auto& [observation, own] : rows) {
+    const auto count = static_cast<Index>(own.size());
+    Eigen::MatrixXd covariance = Eigen::MatrixXd::Identity(count, count);
+    for (const VarianceComponentFit& fit : out_.noise) {
+      const Eigen::MatrixXd loads = model_.variance_components()[fit.term].loads(own, Eigen::all);
+      covariance += fit.ratio * loads * loads.transpose();
+    }
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(covariance);
+    const Eigen::MatrixXd loads = component.loads(own, Eigen::all);
+    component.loads(own, Eigen::all) = eigen.operatorInverseSqrt() * loads;
   }
-  if (out_.noise.empty()) return;
-  // Rows are whitened from here on, and the selection is updated for that.
+  return component;
+}
+
+/// Whitens the rows by the components that were found; the selection is updated for that.
+void StructureSelection::whiten() {
   Eigen::VectorXd ratios =
       Eigen::VectorXd::Zero(static_cast<Index>(model_.variance_components().size()));
   for (const VarianceComponentFit& fit : out_.noise) ratios[fit.term] = fit.ratio;
@@ -106,6 +115,40 @@ void StructureSelection::fit_variance_components() {
   const Selection again = selector_.reselect({active_.terms, weights_});
   active_.terms = again.terms;
   weights_ = again.weights;
+}
+
+/// A component that the record itself shows comes first; what is estimated is tested given it.
+void StructureSelection::fit_variance_components() {
+  const std::vector<VarianceComponent>& components = model_.variance_components();
+  std::vector<int> order(components.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_partition(order.begin(), order.end(),
+                        [&](int f) { return components[f].known > 0.0; });
+  for (const int f : order) {
+    const NuisanceBasis& whole = working_point_.nuisance(active_.terms);
+    VarianceComponentFit fit = fit_noise(beside_found(components[f]), model_.linearization(),
+                                         whole.basis, weights_, model_.noise(), out_.folds);
+    fit.term = f;
+    // A step that the record itself shows needs no evidence, only a share that matters. Where
+    // residuals have structure, it is uneven too: then a component must be worth a term.
+    const auto is_significant = [&] {
+      const std::vector<LackOfFit> structure = working_point_.lack_of_fit(whole);
+      return structure.empty() || structure.front().p > Decisions::kBeyondNoise
+                 ? fit.p() <= Decisions::kBeyondNoise
+                 : fit.gain > Decisions::kTermPenalty + complexity_penalty(1.0, 2.0 * fit.gain);
+    };
+    const bool named = components[f].known > 0.0 ? fit.share > Decisions::kMinKnownShare
+                                                 : fit.held_out_gain > 0.0 && is_significant();
+    if (!named) continue;
+    // What the noise is made of without this component is a smaller part of it.
+    const double others = 1.0 - fit.share;
+    for (VarianceComponentFit& found : out_.noise) {
+      fit.share *= 1.0 - found.share;
+      found.ratio /= others;
+    }
+    out_.noise.push_back(fit);
+    whiten();
+  }
 }
 
 /// p-value of the `i`-th of a set given the others: by Fisher's F, corrected for the multiplicity
@@ -259,9 +302,12 @@ void StructureSelection::test_remainder() {
   const NuisanceBasis& whole = working_point_.nuisance(terms);
   out_.autocorrelation =
       test_autocorrelation(model_, whole.basis, whole.dof, weights_, options_.num_threads);
+  for (Autocorrelation& a : out_.autocorrelation)
+    a.p = std::min(1.0, Decisions::kStructureTests * a.p);
   std::erase_if(out_.autocorrelation,
                 [](const Autocorrelation& a) { return a.p > Decisions::kBeyondNoise; });
   out_.pure_error = test_pure_error(model_, whole.basis, whole.dof, weights_);
+  out_.pure_error.p = std::min(1.0, Decisions::kStructureTests * out_.pure_error.p);
   // Two measures of the same.
   double more = out_.autocorrelation.empty() ? 0.0 : out_.autocorrelation.front().explained;
   if (out_.pure_error.p <= Decisions::kBeyondNoise)

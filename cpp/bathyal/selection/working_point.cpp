@@ -88,7 +88,7 @@ std::vector<LackOfFit> WorkingPoint::lack_of_fit(const NuisanceBasis& nuisance) 
     if (term.width == 0.0 || !(nuisance.dof > term.width + 1.0)) continue;
     LackOfFit d{term.term, term.explained, term.width};
     const FTest test = f_test(term.explained, term.width, total, nuisance.dof);
-    d.p = std::min(1.0, static_cast<double>(asked.size()) * test.p);
+    d.p = std::min(1.0, Decisions::kStructureTests * static_cast<double>(asked.size()) * test.p);
     d.size = std::sqrt(test.explained / rows);
     d.share = test.share;
     d.gain = term.gain - std::log(model_.terms()[term.term].multiplicity);

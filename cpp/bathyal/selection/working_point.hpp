@@ -21,7 +21,7 @@ struct LackOfFit {
   int term = 0;
   double explained = 0.0;
   double width = 0.0;
-  double p = 1.0;     ///< corrected for all lack-of-fit terms
+  double p = 1.0;     ///< corrected for all lack-of-fit terms and Decisions::kStructureTests
   double size = 0.0;  ///< per row [noise]
   double share = 0.0;
   double gain = 0.0;  ///< in log evidence, corrected for multiplicity

@@ -65,6 +65,16 @@ TEST_F(ReportTest, VerdictFollowsFromUnexplainedStructureAndAlternatives) {
   const Diagnosis two = report(model_, measurement_, arm_, selected_, options);
   EXPECT_EQ(two.verdict, Verdict::kAmbiguous);
   EXPECT_EQ(two.ambiguous.size(), 2U);
+  selected_.alternatives = {
+      {term, term + 1, 0.9}, {term, term + 2, 0.8}, {term, term + 3, 0.7}, {term, term + 4, 0.6}};
+  const Diagnosis four = report(model_, measurement_, arm_, selected_, options);
+  EXPECT_EQ(four.ambiguous.size(), 4U);
+  EXPECT_EQ(four.ambiguous.back().odds, 0.7);
+  EXPECT_EQ(four.effects[0].alternatives.size(), 4U);
+  // One in twelve is not enough to doubt the other.
+  selected_.alternatives = {{term, term + 1, 0.08}};
+  EXPECT_EQ(report(model_, measurement_, arm_, selected_, options).verdict, Verdict::kNamed);
+  selected_.alternatives = {{term, term + 1, 0.5}};
   options.rival_odds = 0.6;
   EXPECT_EQ(report(model_, measurement_, arm_, selected_, options).verdict, Verdict::kNamed);
 

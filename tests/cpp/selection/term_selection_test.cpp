@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "bathyal/estimation/f_distribution.hpp"
 #include "bathyal/selection/decisions.hpp"
 #include "bathyal/selection/lack_of_fit.hpp"
 #include "selection/linear_model.hpp"
@@ -70,6 +71,24 @@ TEST(TermSelector, DescribesACauseByTheNarrowestTermThatDoesAsWell) {
   ASSERT_GT(candidates.evaluate(std::vector<int>{0})->score,
             candidates.evaluate(std::vector<int>{1})->score);
   EXPECT_EQ(TermSelector(point, [] {}).select().terms, std::vector<int>{2});
+}
+
+/// Clean data are asked in three ways, and must not be three times as likely to be called unknown.
+TEST(LackOfFitCheck, EachKindOfTestCountsTheOthers) {
+  LinearModel model;
+  model.add("structure", swing(4, 20.0), true);
+  model.data() += 0.02 * swing(4, 20.0);
+  WorkingPoint point(model, 1);
+  const NuisanceBasis& base = point.nuisance();
+  const Eigen::VectorXd residual =
+      model.data() - base.basis * (base.basis.transpose() * model.data());
+  const std::vector<LackOfFit> found = point.lack_of_fit(base);
+  ASSERT_EQ(found.size(), 1U);
+  const double left = base.dof - found[0].width;
+  const double noise = (residual.squaredNorm() - found[0].explained) / left;
+  const double alone = f_tail(found[0].explained / found[0].width / noise, found[0].width, left);
+  ASSERT_LT(alone, 1.0 / 3.0);
+  EXPECT_NEAR(found[0].p, 3.0 * alone, 1e-9);
 }
 
 TEST(LackOfFitCheck, FindsStructureThatTheTermsDoNotExplain) {

@@ -67,6 +67,12 @@ def test_the_library_has_every_effect_and_says_what_it_is() -> None:
     assert not bathyal.effects.get("joint_map").by_difference
 
 
+def test_joints_of_small_arms_may_be_soft() -> None:
+    """A servo that yields by a hundredth of a radian per N m is no exception."""
+    [compliance] = bathyal.effects.get("joint_compliance").ranges
+    assert compliance.high >= 1e-2
+
+
 def test_the_library_says_what_is_extrapolated() -> None:
     physics = {
         "joint_scale",

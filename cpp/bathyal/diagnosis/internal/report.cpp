@@ -13,7 +13,8 @@
 namespace bathyal::diagnosis {
 namespace {
 
-constexpr std::size_t kMaxAlternatives = 5;
+constexpr std::size_t kMaxAlternatives = 5;  ///< `rivals` of an effect
+constexpr std::size_t kMaxListed = 4;        ///< of them in `ambiguous`, the effect included
 
 /// The t whose two tails hold 5 %.
 double t_of_95(double dof) {
@@ -328,11 +329,12 @@ class Reporter {
       return;
     }
     out_.verdict = Verdict::kNamed;
-    std::vector<int> terms;
+    std::map<int, std::size_t> listed;  // causes in the place of a term, itself included
     for (const selection::AlternativeTerm& alternative : found_.alternatives) {
-      if (alternative.odds < options_.rival_odds) continue;
-      if (std::find(terms.begin(), terms.end(), alternative.term) == terms.end()) {
-        terms.push_back(alternative.term);
+      if (alternative.odds < options_.rival_odds || listed[alternative.term] == kMaxListed)
+        continue;
+      if (++listed[alternative.term] == 1) {
+        ++listed[alternative.term];
         out_.ambiguous.push_back(cause(alternative.term, 1.0));
       }
       out_.ambiguous.push_back(cause(alternative.replacement, alternative.odds));

@@ -138,6 +138,9 @@ void ArmModel::gather_variance_components() {
     loads.middleRows<3>(3 * i) =
         evenly * walk.joint_jacobian(m_.q.row(i).data(), i, m_.tool[i], m_.station[i], frames, tip);
   }
+  for (const Joint& joint : nominal_.joints()) {  // the step is one of angles
+    if (joint.type == JointType::kPrismatic) loads.col(joint.coordinate).setZero();
+  }
   variance_components_.push_back(
       {"quantisation", "joint values logged in steps", "step", "rad", 1.0, std::move(loads)});
   variance_components_.back().known = step;
