@@ -26,12 +26,19 @@ DeletionResiduals deletion_residuals(const ArmResiduals& system, const Eigen::Ve
   Eigen::VectorXd residuals(system.rows());
   Eigen::MatrixXd jacobian(system.rows(), system.columns());
   system.evaluate(system.scaled(x).data(), residuals.data(), jacobian.data());
-  const selection::Linearization at = to_linearization(system, std::move(residuals), jacobian);
-  const Eigen::MatrixXd basis = column_space(at.jacobian, kRankTolerance);
+  selection::Linearization at = to_linearization(system, std::move(residuals), jacobian);
+  Eigen::MatrixXd basis = column_space(at.jacobian, kRankTolerance);
+  // Of positions alone, with the leverage that all rows give them.
+  const Index rows = 3 * system.measurement().rows();
+  at.residual.conservativeResize(rows);
+  at.jacobian.conservativeResize(rows, Eigen::NoChange);
+  at.observation.resize(static_cast<std::size_t>(rows));
+  basis.conservativeResize(rows, Eigen::NoChange);
   Eigen::VectorXd weights(system.measurement().rows());
   for (Index i = 0; i < weights.size(); ++i) weights[i] = system.is_excluded(i) ? 0.0 : 1.0;
   DeletionResiduals out;
-  out.dof = static_cast<double>(system.rows() - basis.cols()) - at.constrained_dof;
+  out.dof = system.free_rows()[0] + static_cast<double>(3 * system.measurement().points()) -
+            basis.squaredNorm();
   out.tests = selection::test_observations(at, basis, weights, out.dof);
   const double squares =
       at.residual.squaredNorm() - (basis.transpose() * at.residual).squaredNorm();
