@@ -137,6 +137,8 @@ void bind_diagnosis_parts(py::module_& module) {
           "noise itself: held-out log likelihood.")
       .def_readonly("held_out_before", &NamedEffect::held_out_before, "Without it, 3-D rms [m].")
       .def_readonly("held_out_after", &NamedEffect::held_out_after, "With it, 3-D rms [m].")
+      .def_readonly("nested_folds", &NamedEffect::nested_folds,
+                    "In how many folds of `held_out.nested` the same was found in this joint.")
       .def_readonly("p_value", &NamedEffect::p_value,
                     "Of its F test given the others, corrected for multiplicity.")
       .def_readonly("rivals", &NamedEffect::alternatives, "Cause: the best alternatives to it.")
@@ -153,6 +155,26 @@ void bind_held_out(py::module_& module) {
       .def_readonly("rows", &HeldOut::Part::rows, "How many rows it has.")
       .def_readonly("rms_before", &HeldOut::Part::rms_before, "3-D [m].")
       .def_readonly("rms_after", &HeldOut::Part::rms_after, "3-D [m].");
+  py::class_<HeldOut::Nested>(
+      module, "HeldOutNested",
+      "Prediction errors of rows that had no part in the choice of causes either (nested "
+      "cross-validation).")
+      .def_readonly("folds", &HeldOut::Nested::folds,
+                    "Number of folds, each held out of a whole "
+                    "diagnosis.")
+      .def_readonly("rms_after", &HeldOut::Nested::rms, "3-D, of the rows that `after` has [m].")
+      .def_property_readonly(
+          "after", [](const HeldOut::Nested& h) { return to_numpy(h.after); },
+          "(N,) [m]; nan: an outlier, or a tool or station that only its fold has.")
+      .def_property_readonly(
+          "verdicts",
+          [](const HeldOut::Nested& h) {
+            std::vector<std::string> names;
+            for (const Verdict verdict : h.verdicts)
+              names.push_back(enum_name(verdict, verdict_names()));
+            return names;
+          },
+          "list of str: the verdict of each of these diagnoses.");
   py::class_<HeldOut>(module, "HeldOut", "Prediction errors of held-out rows.")
       .def_readonly("how", &HeldOut::how, "What one fold is.")
       .def_readonly("blocks", &HeldOut::blocks, "Number of folds.")
@@ -160,6 +182,12 @@ void bind_held_out(py::module_& module) {
       .def_readonly("rms_after", &HeldOut::rms_after, "With the effects, 3-D [m].")
       .def_readonly("noise", &HeldOut::noise, "Floor, 3-D [m].")
       .def_readonly("p_value", &HeldOut::p_value, "Of the gain, by sign flips of the folds.")
+      .def_property_readonly(
+          "nested",
+          [](const HeldOut& h) -> py::typing::Optional<HeldOut::Nested> {
+            return h.nested.folds > 0 ? py::cast(h.nested) : py::none();
+          },
+          "HeldOutNested: the causes chosen anew without each fold; None unless asked for.")
       .def_readonly("parts", &HeldOut::parts,
                     "HeldOutPart: errors by group, session or touched point.")
       .def_property_readonly(
@@ -287,7 +315,7 @@ void bind_diagnose(py::module_& module) {
       [](const py::typing::Union<Arm>& given, const py::typing::Union<Touches, Tracked>& data,
          const py::typing::Optional<py::typing::Iterable<Effect>>& effects,
          const std::string& parametrization, std::vector<std::string> fixed,
-         std::optional<double> length_prior, int blocks, const OptionalArray& groups,
+         std::optional<double> length_prior, int blocks, const OptionalArray& groups, int nested,
          double rival_odds, double leftover, int num_next_poses, const MaybeProgress& progress,
          int num_threads) {
         const Arm& arm = arm_argument(given);
@@ -300,6 +328,7 @@ void bind_diagnose(py::module_& module) {
             .rival_odds = rival_odds,
             .leftover = leftover,
             .groups = groups_argument(groups),
+            .nested = nested,
             .num_next_poses = num_next_poses,
             .num_threads = num_threads};
         const auto asked = effects_argument(effects);
@@ -329,9 +358,10 @@ void bind_diagnose(py::module_& module) {
       py::arg("parametrization") = enum_name(defaults.parametrization, parametrization_names()),
       py::arg("fixed") = defaults.fixed, py::arg("length_prior") = defaults.length_prior,
       py::arg("blocks") = defaults.blocks, py::arg("groups") = py::none(),
-      py::arg("rival_odds") = defaults.rival_odds, py::arg("leftover") = defaults.leftover,
-      py::arg("num_next_poses") = defaults.num_next_poses, py::arg("progress") = py::none(),
-      py::arg("num_threads") = defaults.num_threads, kDiagnoseDoc);
+      py::arg("nested") = defaults.nested, py::arg("rival_odds") = defaults.rival_odds,
+      py::arg("leftover") = defaults.leftover, py::arg("num_next_poses") = defaults.num_next_poses,
+      py::arg("progress") = py::none(), py::arg("num_threads") = defaults.num_threads,
+      kDiagnoseDoc);
 }
 
 }  // namespace

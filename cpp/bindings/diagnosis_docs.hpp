@@ -54,6 +54,10 @@ groups : (N,) array of int or str, optional
     are then held out in turn instead of `blocks`, in which effects must prove themselves and the
     held-out errors are measured. More than 50 groups are joined to 50 folds. A base or tool that
     only one group has cannot be predicted from others: it stays as fitted to all rows.
+nested : int
+    Folds of a nested cross-validation, 2 to 50 (of `groups`, where given, as many as there are), or
+    0. The whole diagnosis is made anew without each: names, orders and sizes. `held_out.nested` has
+    the errors. It takes as long as so many diagnoses. Of tracked poses only.
 rival_odds : float
     Odds of an alternative against the best explanation from which the verdict is "ambiguous".
 leftover : float

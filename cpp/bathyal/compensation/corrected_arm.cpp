@@ -331,16 +331,26 @@ CorrectedArm::Contribution CorrectedArm::contribution(std::size_t effect, const 
   for (Index i = 0; i < count; ++i) {
     if (!inside[i]) out.use[i] = known[i] ? beyond : EffectUse::kOmitted;
   }
-  const bool curve = found.variant.joint >= 0 && std::isfinite(periods_[effect]);
-  const Perturbations held = curve ? average(effect) : std::move(low);
-  for_each_pair(found, out.perturbations, held,
-                [&](RowMatrix& values, const RowMatrix& replacement) {
+  for_each_pair(found, out.perturbations, low, [&](RowMatrix& values, const RowMatrix& at_edge) {
+    for (Index i = 0; i < count; ++i) {
+      if (out.use[i] == EffectUse::kHeld) {
+        values.row(i) = at_edge.row(i);
+      } else if (out.use[i] == EffectUse::kOmitted) {
+        values.row(i).setZero();
+      }
+    }
+  });
+  const int joint = found.variant.joint;
+  if (joint < 0 || !std::isfinite(periods_[effect])) return out;
+  // From the value at the edge to the average within half a period, so that the tip does not jump.
+  const Eigen::ArrayXd share =
+      (1.0 - 2.0 / periods_[effect] * (rows.query.q.col(joint) - near.col(joint)).array().abs())
+          .max(0.0);
+  for_each_pair(found, out.perturbations, average(effect),
+                [&](RowMatrix& values, const RowMatrix& mean) {
                   for (Index i = 0; i < count; ++i) {
-                    if (out.use[i] == EffectUse::kHeld) {
-                      values.row(i) = replacement.row(curve ? 0 : i);
-                    } else if (out.use[i] == EffectUse::kOmitted) {
-                      values.row(i).setZero();
-                    }
+                    if (out.use[i] != EffectUse::kHeld) continue;
+                    values.row(i) = mean.row(0) + share[i] * (values.row(i) - mean.row(0));
                   }
                 });
   return out;

@@ -50,8 +50,9 @@ struct CorrectedInverse {
 /// which were fitted together, the shortest). Where an argument that the effect depends on lies
 /// beyond (the perturbation would differ at the nearest row within), an effect that follows from
 /// physics with known arguments (Effect::extrapolates) is evaluated as within. Any other is held
-/// constant: a harmonic or curve along its joint at its average over the training data, because its
-/// extrapolation is undetermined; a smooth effect at its value in the nearest row. What shares its
+/// at its value in the nearest row; a harmonic or curve along its joint, whose extrapolation is
+/// undetermined, goes over from there to its average over the training data within half of its
+/// period. What shares its
 /// joint and its alias group with an effect that is held was fitted together with it, and is held
 /// too. The geometry was estimated together with the effects, so that omitting them would give
 /// larger errors. An effect whose argument is unknown (NaN, a session without training data) is

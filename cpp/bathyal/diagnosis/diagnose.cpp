@@ -2,6 +2,7 @@
 #include "bathyal/diagnosis/diagnose.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <numeric>
 #include <set>
@@ -13,6 +14,7 @@
 #include "bathyal/diagnosis/arm/internal/room_check.hpp"
 #include "bathyal/diagnosis/internal/duplicates.hpp"
 #include "bathyal/diagnosis/internal/model_check.hpp"
+#include "bathyal/diagnosis/internal/nested.hpp"
 #include "bathyal/diagnosis/internal/record_checks.hpp"
 #include "bathyal/diagnosis/internal/report.hpp"
 #include "bathyal/effects/gravity_load.hpp"
@@ -99,26 +101,94 @@ selection::Shortlist shortlist_from_subset(ArmModel& arm_model, int num_threads,
   return found;
 }
 
-Diagnosis run(const Arm& arm, const Measurement& measurement, const Covariates& covariates,
-              const DiagnoseOptions& options,
-              const std::vector<std::shared_ptr<const Effect>>& effects,
-              const DiagnosisProgress& progress) {
-  check_effects(effects);
+IdentifyOptions identify_options(const DiagnoseOptions& options) {
   IdentifyOptions identify;
   identify.parametrization = options.parametrization;
   identify.fixed = options.fixed;
   identify.length_prior = options.length_prior;
   identify.num_threads = options.num_threads;
-  // Bad covariates are refused before the long computation.
-  check_weight(make_effect_data(arm, measurement.q, covariates, measurement.has_rotation()),
-               effects);
-  ArmModel arm_model(arm, measurement, covariates, identify, effects);
+  return identify;
+}
+
+/// What is found in a record; the model is fitted with it.
+selection::SelectionResult select(ArmModel& arm_model, const DiagnoseOptions& options,
+                                  const DiagnosisProgress& progress) {
   const selection::SelectionOptions asked{options.num_threads, options.blocks,
                                           numbered(options.groups)};
   const selection::Shortlist shortlist =
       shortlist_from_subset(arm_model, options.num_threads, progress);
-  const selection::SelectionResult found =
-      selection::select_terms(arm_model, asked, progress, shortlist);
+  return selection::select_terms(arm_model, asked, progress, shortlist);
+}
+
+/// The values at `rows` of each covariate.
+Covariates covariates_of_rows(const Covariates& covariates, const std::vector<int>& rows) {
+  Covariates out;
+  for (const auto& [name, values] : covariates) out[name] = values(rows, Eigen::all);
+  return out;
+}
+
+/// Of all rows, by what is found in `rows` alone.
+Prediction predict(const Arm& arm, const Measurement& all, const Covariates& covariates,
+                   const DiagnoseOptions& options,
+                   const std::vector<std::shared_ptr<const Effect>>& effects,
+                   const std::vector<int>& rows, const DiagnosisProgress& progress) {
+  Measurement some = subset(all, rows);
+  some.perturbation_rows.clear();
+  ArmModel arm_model(arm, some, covariates_of_rows(covariates, rows), identify_options(options),
+                     effects);
+  DiagnoseOptions of_some = options;
+  of_some.groups = picked(options.groups, rows);
+  const std::set<std::string> groups(of_some.groups.begin(), of_some.groups.end());
+  if (groups.size() < selection::kMinGivenGroups) of_some.groups.clear();
+  const Diagnosis found =
+      report(arm_model, some, arm, select(arm_model, of_some, progress), of_some);
+  Prediction out{found.verdict, {}, {}};
+  for (const NamedEffect& effect : found.effects) out.found.emplace_back(effect.name, effect.joint);
+  Covariates known;
+  for (const auto& [name, values] : used_covariates(arm_model.data())) {
+    if (covariates.contains(name)) known[name] = covariates.at(name);
+  }
+  const Eigen::Matrix3Xd tips = tips_of_model(found, arm_model, all, known, options.num_threads);
+  out.errors = (tips - all.position).colwise().norm();
+  const std::set<int> tools(some.tool.begin(), some.tool.end());
+  const std::set<int> stations(some.station.begin(), some.station.end());
+  for (Index i = 0; i < all.rows(); ++i) {
+    if (tools.contains(all.tool[i]) && stations.contains(all.station[i])) continue;
+    out.errors[i] = std::numeric_limits<double>::quiet_NaN();
+  }
+  return out;
+}
+
+/// Folds of whole groups, where there are some.
+selection::Folds nested_folds(const ArmModel& arm_model, const DiagnoseOptions& options) {
+  const selection::Folds folds =
+      options.groups.empty() ? selection::make_folds(arm_model.observations(), options.nested)
+                             : selection::folds_of_groups(numbered(options.groups));
+  if (folds.count >= selection::kMinGivenGroups) return folds;
+  throw_argument("nested", "0 where the poses make no two blocks that differ",
+                 std::to_string(options.nested));
+}
+
+Diagnosis run(const Arm& arm, const Measurement& measurement, const Covariates& covariates,
+              const DiagnoseOptions& options,
+              const std::vector<std::shared_ptr<const Effect>>& effects,
+              const DiagnosisProgress& progress) {
+  check_effects(effects);
+  // Bad covariates are refused before the long computation.
+  check_weight(make_effect_data(arm, measurement.q, covariates, measurement.has_rotation()),
+               effects);
+  ArmModel arm_model(arm, measurement, covariates, identify_options(options), effects);
+  const bool nested = options.nested > 0;
+  const selection::Folds folds = nested ? nested_folds(arm_model, options) : selection::Folds{};
+  // Each diagnosis is a part of the work.
+  const double parts = 1.0 + folds.count;
+  const auto progress_from = [&](double begin) -> DiagnosisProgress {
+    if (!progress || !nested) return progress;
+    return [&, begin](double done, const std::string& stage) {
+      progress((begin + done) / parts, begin > 0.0 ? stage + " without a fold" : stage);
+    };
+  };
+  const selection::SelectionResult found = select(arm_model, options, progress_from(0.0));
   Diagnosis out = report(arm_model, measurement, arm, found, options);
   check_model(out, arm_model, measurement, options.num_threads);
   for (const auto& sentences :
@@ -128,6 +198,14 @@ Diagnosis run(const Arm& arm, const Measurement& measurement, const Covariates& 
   }
   if (out.verdict == Verdict::kAmbiguous) {
     out.next_poses = next_poses(arm_model, found, options.rival_odds, options.num_next_poses);
+  }
+  if (nested) {
+    const auto without = [&](const std::vector<int>& rows, int fold) {
+      return predict(arm, measurement, covariates, options, effects, rows,
+                     progress_from(1.0 + fold));
+    };
+    cross_validate_whole(folds, found.outliers, without, out);
+    if (progress) progress(1.0, "done");
   }
   return out;
 }
@@ -156,6 +234,8 @@ void DiagnoseOptions::check() const {
   check_not_negative("leftover", leftover);
   if (length_prior) check_positive("length_prior", *length_prior);
   constexpr int kMostNextPoses = 1000;
+  constexpr int kMostNested = 50;
+  if (nested != 0) check_range("nested", nested, 2, kMostNested);
   check_range("num_next_poses", num_next_poses, 0, kMostNextPoses);
 }
 
@@ -164,6 +244,10 @@ Diagnosis diagnose(const Arm& arm, const Touches& touches, const DiagnoseOptions
                    const DiagnosisProgress& progress) {
   options.check();
   touches.check();
+  if (options.nested != 0) {
+    throw_argument("nested", "0 for touches: where a touched point lies is not measured",
+                   std::to_string(options.nested));
+  }
   return diagnosis::run_without_duplicates(arm, touches, options, effects, progress);
 }
 

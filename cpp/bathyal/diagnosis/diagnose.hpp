@@ -31,6 +31,9 @@ struct DiagnoseOptions {
   /// (N,) name of the group of each row (a placement, a day), 2 or more: they are the folds, held
   /// out whole in turn, and `blocks` is not used. Empty: folds are made.
   std::vector<std::string> groups = {};
+  /// Folds of a nested cross-validation (HeldOut::Nested), each a whole diagnosis: 2 … 50, or given
+  /// groups where there are some; 0: none. Of tracked poses only.
+  int nested = 0;
   int num_next_poses = 8;  ///< of `next_poses`, 0 to 1 000
   int num_threads = 0;     ///< 0 = all; the same bytes for any number
 

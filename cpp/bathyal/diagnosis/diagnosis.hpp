@@ -51,6 +51,7 @@ struct NamedEffect {
   double held_out_before = 0.0;  ///< rms (3-D) of held-out errors without it [m]
   double held_out_after = 0.0;   ///< with it [m]
   double p_value = 1.0;          ///< of its F test within the set, corrected for multiplicity
+  int nested_folds = 0;          ///< of HeldOut::Nested: how many found the same in this joint
   std::vector<Cause> alternatives;  ///< the best other explanations of the same
 };
 
@@ -105,6 +106,15 @@ struct HeldOut {
   std::vector<Part> parts;
   Eigen::VectorXd before;  ///< (N,) prediction error by row, geometry alone [m]; NaN: not held out
   Eigen::VectorXd after;   ///< (N,) with the effects [m]
+
+  /// Names, orders and sizes chosen anew without the rows that are predicted; in `rms_after` the
+  /// values alone are.
+  struct Nested {
+    int folds = 0;                  ///< 0: was not asked for
+    double rms = 0.0;               ///< 3-D, of the rows that `after` has [m]
+    Eigen::VectorXd after;          ///< (N,) [m]; NaN: an outlier, or undetermined without its fold
+    std::vector<Verdict> verdicts;  ///< (folds,)
+  } nested;
 };
 
 }  // namespace bathyal

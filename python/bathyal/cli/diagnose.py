@@ -27,6 +27,16 @@ def diagnose(
     reading: own.TouchColumns,
     beside: own.CovariateColumns,
     known: own.Known,
+    nested: Annotated[
+        int,
+        typer.Option(
+            min=0,
+            max=50,
+            metavar="K",
+            help="Also hold out each of K parts of tracked poses from the whole diagnosis, the "
+            "choice of causes included; takes as long as K more.",
+        ),
+    ] = 0,
     json: opt.Json = False,
     quiet: opt.Quiet = False,
 ) -> None:
@@ -55,7 +65,10 @@ def diagnose(
     nominal = job.nominal()
     read = {**reading.keywords(), **beside.keywords(), **known.keywords()}
     with talk.progress() as progress:
-        found = diagnose_files(data, nominal, tracked=job.tracked, read=read, step=progress)
+        options = {"nested": nested} if nested else {}
+        found = diagnose_files(
+            data, nominal, tracked=job.tracked, read=read, options=options, step=progress
+        )
         files = found.write(job.out, title=job.title(nominal, data), step=progress)
     talk.warn(short_warnings(found.warnings))
     talk.brief(

@@ -115,9 +115,22 @@ def contents(report: Diagnosis) -> dict[str, Any]:
             ],
             "before_m": _by_row(held.before, len(report.data)),
             "after_m": _by_row(held.after, len(report.data)),
+            "nested": _nested(report),
         },
         "residuals_before_m": np.asarray(report.residuals_before),
         "residuals_after_m": np.asarray(report.residuals_after),
+    }
+
+
+def _nested(report: Diagnosis) -> dict[str, Any] | None:
+    nested = report.held_out.nested
+    if nested is None:
+        return None
+    return {
+        "folds": nested.folds,
+        "rms_after_m": nested.rms_after,
+        "verdicts": nested.verdicts,
+        "after_m": _by_row(nested.after, len(report.data)),
     }
 
 
@@ -157,6 +170,7 @@ def _effect(effect: Any) -> dict[str, Any]:
         "gain": effect.gain,
         "held_out_before_m": effect.held_out_before,
         "held_out_after_m": effect.held_out_after,
+        "nested_folds": effect.nested_folds,
         "p_value": effect.p_value,
         "size_m": effect.size,
         "rivals": [_cause(cause) for cause in effect.rivals],

@@ -24,7 +24,15 @@ from bathyal.io.provenance import Step, file_facts
 from bathyal.io.result_sets import filling
 from bathyal.view.brief import Brief
 
-_LONG = ("residuals_before_m", "residuals_after_m")  # a number a row: of files, not of a screen
+# A number a row: of files, not of a screen.
+_LONG = ("residuals_before_m", "residuals_after_m")
+_BY_ROW = ("before_m", "after_m")
+
+
+def _without_rows(value: Any) -> Any:
+    if not isinstance(value, dict):
+        return value
+    return {name: one for name, one in value.items() if name not in _BY_ROW}
 
 
 @dataclass(frozen=True)
@@ -70,8 +78,8 @@ class Diagnosed:
     def summary(self) -> dict[str, Any]:
         """Numbers for programs, SI units in the names; without those of single rows."""
         known = {name: value for name, value in contents(self.report).items() if name not in _LONG}
-        held = known["held_out"]
-        known["held_out"] = {k: v for k, v in held.items() if k not in ("before_m", "after_m")}
+        held = _without_rows(known["held_out"])
+        known["held_out"] = {name: _without_rows(value) for name, value in held.items()}
         return known
 
     @property

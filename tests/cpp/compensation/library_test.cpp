@@ -153,7 +153,7 @@ TEST(CorrectedLibrary, IdentificationHoldsEffects) {
   far.row(5).setConstant(60.0);
   const RowMatrix beyond =
       model.fixed_effects(view(far), scene.covariates)[0].perturbations[0][0].values;
-  EXPECT_EQ(beyond.row(3), beyond.row(5));  // at the average of what was taught
+  EXPECT_EQ(beyond.row(3), beyond.row(5));  // at the average over the support
   EXPECT_NE(beyond.row(3), held[0].perturbations[0][0].values.row(3));
   EXPECT_EQ(beyond.row(4), held[0].perturbations[0][0].values.row(4));
 }

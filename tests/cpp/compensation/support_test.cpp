@@ -155,14 +155,14 @@ TEST(CorrectedArm, HoldsWavesInGapsWiderThanTheirPeriod) {
   }
   const CorrectedArm model(arm, waves(arm), support_of(training_q, {}));
   JointMatrix q = JointMatrix::Constant(3, arm.size(), -0.5);
-  q.row(1).setConstant(0.1);
-  q(2, 0) = q(2, 1) = 0.1;
+  q.row(1).setConstant(0.21);
+  q(2, 0) = q(2, 1) = 0.21;
   SupportMask expected = SupportMask::Constant(3, 3, true);
   expected(1, 0) = expected(1, 1) = false;
   const CorrectedPoses found = model.forward(view_of(q));
   EXPECT_TRUE((within(found.uses) == expected).all()) << within(found.uses);
 
-  // Held at the average of what was taught: here by a plain sum over both stretches.
+  // Far from both edges at the average over the support: here by a plain sum over both stretches.
   const auto wave = [](double at) {
     return 1e-3 * (std::cos(3 * at) + std::cos(9 * at)) +
            2e-3 * (std::sin(3 * at) + std::sin(9 * at));
@@ -181,13 +181,33 @@ TEST(CorrectedArm, HoldsWavesInGapsWiderThanTheirPeriod) {
   EXPECT_GT(std::abs(sum / kParts), 1e-4);
 
   EXPECT_EQ(model.support_reasons(view_of(q))[1],
-            "joint 3 at 0.1 rad, in the gap of the data from -0.2 to 0.6: joint_harmonic of joint "
+            "joint 3 at 0.21 rad, in the gap of the data from -0.2 to 0.6: joint_harmonic of joint "
             "3 held");
   const std::vector<std::vector<Support::Gap>> gaps = model.gaps();
   ASSERT_EQ(gaps.size(), 6u);
   for (std::size_t j = 0; j < gaps.size(); ++j) EXPECT_EQ(gaps[j].size(), j == 2 ? 1u : 0u);
   EXPECT_NEAR(gaps[2][0].low, -0.2, 1e-12);
   EXPECT_NEAR(gaps[2][0].high, 0.6, 1e-12);
+}
+
+TEST(CorrectedArm, GoesOverFromTheEdgeToTheAverageWithoutAJump) {
+  const Arm arm = ur10e();
+  RowMatrix training_q(101, arm.size());
+  for (Index i = 0; i < training_q.rows(); ++i)
+    training_q.row(i).setConstant(-1.0 + 0.02 * static_cast<double>(i));
+  const CorrectedArm model(arm, {waves(arm)[1]}, support_of(training_q, {}));
+  // Half a period of order 9 beyond the edge, and farther.
+  constexpr double kHalf = 0.5 * 2.0 * 3.14159265358979 / 9.0;
+  const std::vector<double> beyond{0.0, 1e-9, 0.5 * kHalf, kHalf, 2.0 * kHalf, 1.0};
+  JointMatrix q = JointMatrix::Zero(static_cast<Index>(beyond.size()), arm.size());
+  for (std::size_t i = 0; i < beyond.size(); ++i) q(static_cast<Index>(i), 2) = 1.0 + beyond[i];
+  const RowMatrix moved =
+      model.fixed_effects(view_of(q), {})[0].perturbations[0][0].values.array() * 1e-3;
+  EXPECT_NEAR(moved(0, 0), moved(1, 0), 1e-10);
+  EXPECT_NEAR(moved(2, 0), 0.5 * (moved(0, 0) + moved(4, 0)), 1e-12);
+  EXPECT_NEAR(moved(3, 0), moved(4, 0), 1e-12);
+  EXPECT_EQ(moved(4, 0), moved(5, 0));
+  EXPECT_GT(std::abs(moved(0, 0) - moved(4, 0)), 1e-4);
 }
 
 TEST(CorrectedArm, ALoneRowInAGapTeachesNothing) {

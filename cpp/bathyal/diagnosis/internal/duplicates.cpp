@@ -121,7 +121,8 @@ void expand_to_duplicates(const std::vector<int>& of, Diagnosis& diagnosis) {
                                       &diagnosis.fit.residuals, &diagnosis.fit.residuals_before}) {
     *residuals = Eigen::Matrix3Xd((*residuals)(Eigen::all, from));
   }
-  for (Eigen::VectorXd* errors : {&diagnosis.held_out.before, &diagnosis.held_out.after}) {
+  HeldOut& held = diagnosis.held_out;
+  for (Eigen::VectorXd* errors : {&held.before, &held.after, &held.nested.after}) {
     if (errors->size() > 0) *errors = Eigen::VectorXd((*errors)(from));
   }
   for (NamedEffect& effect : diagnosis.effects) {

@@ -17,26 +17,6 @@ using PoseNumbers = Eigen::Matrix<double, 4, 4, Eigen::RowMajor>;
 /// [m], and of the largest coordinate: rounding of the two computations.
 constexpr double kTipRounding = 1e-9;
 
-/// (3, N) tips of the model, each by the tool and the station of its row.
-Eigen::Matrix3Xd tips_of_model(const Diagnosis& found, const ArmModel& arm_model,
-                               const Measurement& m, const Covariates& covariates,
-                               int num_threads) {
-  const CorrectedArm model(found.arm, found.found, found.support);
-  const CorrectedPoses poses =
-      model.forward_of_record({m.q.data(), m.q.rows(), m.q.cols()}, covariates, num_threads);
-  const ArmState state = arm_model.state();
-  const Pose base = state.bases[0].inverse(), tool = state.tools[0].inverse();
-  Eigen::Matrix3Xd tips(3, m.rows());
-  for (Index i = 0; i < m.rows(); ++i) {
-    Pose pose;
-    pose.matrix() = Eigen::Map<const PoseNumbers>(&poses.poses[16 * static_cast<std::size_t>(i)]);
-    if (m.tool[i] > 0) pose = pose * tool * state.tools[m.tool[i]];
-    if (m.station[i] > 0) pose = state.bases[m.station[i]] * base * pose;
-    tips.col(i) = pose.translation();
-  }
-  return tips;
-}
-
 /// (3, N) distance of tips less residuals from the measured position, from the point's mean, or
 /// from the touched plane.
 Eigen::Matrix3Xd misses_of_model(const Eigen::Matrix3Xd& tips, const Diagnosis& found,
@@ -69,6 +49,26 @@ bool lacks_own_covariate(const Covariates& covariates, Index row) {
 }
 
 }  // namespace
+
+Eigen::Matrix3Xd tips_of_model(const Diagnosis& found, const ArmModel& arm_model,
+                               const Measurement& measurement, const Covariates& covariates,
+                               int num_threads) {
+  const Measurement& m = measurement;
+  const CorrectedArm model(found.arm, found.found, found.support);
+  const CorrectedPoses poses =
+      model.forward_of_record({m.q.data(), m.q.rows(), m.q.cols()}, covariates, num_threads);
+  const ArmState state = arm_model.state();
+  const Pose base = state.bases[0].inverse(), tool = state.tools[0].inverse();
+  Eigen::Matrix3Xd tips(3, m.rows());
+  for (Index i = 0; i < m.rows(); ++i) {
+    Pose pose;
+    pose.matrix() = Eigen::Map<const PoseNumbers>(&poses.poses[16 * static_cast<std::size_t>(i)]);
+    if (m.tool[i] > 0) pose = pose * tool * state.tools[m.tool[i]];
+    if (m.station[i] > 0) pose = state.bases[m.station[i]] * base * pose;
+    tips.col(i) = pose.translation();
+  }
+  return tips;
+}
 
 void check_model(const Diagnosis& found, const ArmModel& arm_model, const Measurement& measurement,
                  int num_threads) {

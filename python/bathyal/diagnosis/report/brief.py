@@ -143,6 +143,11 @@ def _gain(report: Diagnosis) -> dict[str, str]:
         "held-out error": f"{length_text(held.rms_before)} → {length_text(held.rms_after)} "
         f"(3-D rms; noise alone {length_text(held.noise)})"
     }
+    if held.nested is not None:
+        numbers["causes chosen anew"] = (
+            f"{length_text(held.nested.rms_after)} (3-D rms of {held.nested.folds} parts held out "
+            "of the whole diagnosis)"
+        )
     if math.isfinite(report.gain):
         numbers["explained"] = (
             f"{gained_share_text(report, report.gain)}, {chance_text(held.p_value)}"

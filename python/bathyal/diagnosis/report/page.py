@@ -277,6 +277,9 @@ def _parts(report: Diagnosis) -> str:
     if report.verdict == "none":
         return ""
     rows = [("all held out", "", length_text(held.rms_before), length_text(held.rms_after))]
+    if held.nested is not None:
+        nested = length_text(held.nested.rms_after)
+        rows.append((f"causes chosen anew for each of {held.nested.folds} parts", "", "", nested))
     parts = held.parts if len(held.parts) > 1 else []
     rows += [
         (part.name, f"{part.rows:,}", length_text(part.rms_before), length_text(part.rms_after))

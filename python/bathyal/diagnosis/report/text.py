@@ -172,7 +172,18 @@ def gain_text(report: Diagnosis) -> str:
     )
     if math.isfinite(report.gain):
         text += f": {gained_share_text(report, report.gain)} is explained"
-    return f"{text} ({chance_text(held.p_value)})."
+    return f"{text} ({chance_text(held.p_value)}).{_nested_text(report)}"
+
+
+def _nested_text(report: Diagnosis) -> str:
+    """What is added to the held-out error by the choice of causes, where that was measured."""
+    nested = report.held_out.nested
+    if nested is None:
+        return ""
+    return (
+        f" With the causes, too, chosen anew without each of {nested.folds} parts it is "
+        f"{length_text(nested.rms_after)}."
+    )
 
 
 def evidence_texts(report: Diagnosis) -> list[str]:
