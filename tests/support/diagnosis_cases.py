@@ -96,7 +96,7 @@ def vibration(
 def effect(name: str, joint: int | None, words: str, **numbers: object) -> SimpleNamespace:
     given = {
         "parameters": {}, "gain": 0.9, "held_out_before": 4e-4, "held_out_after": 0.6e-4,
-        "p_value": 1e-300, "size": 2e-4, "rivals": [], "rows": [],
+        "p_value": 1e-300, "size": 2e-4, "rivals": [], "rows": [], "nested_folds": 0,
     }  # fmt: skip
     return SimpleNamespace(name=name, joint=joint, words=words, **{**given, **numbers})
 
@@ -176,7 +176,7 @@ def base(count: int = 240, sessions: int = 2) -> Report:
             how="20 blocks of poses that lie near each other were held out in turn", blocks=20,
             rms_before=rms(before),
             rms_after=rms(after), noise=noise, p_value=2e-6, parts=parts, before=before,
-            after=after,
+            after=after, nested=None,
         ),
         gain=(rms(before) ** 2 - rms(after) ** 2) / (rms(before) ** 2 - noise**2),
         model=Arm(),

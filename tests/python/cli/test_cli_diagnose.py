@@ -88,6 +88,7 @@ def test_everything_is_written_and_reported(table, tmp_path, capsys, asked):
     arm, data, options = asked[0]
     assert arm.name == "UR10"
     assert options == {}
+    assert told["held_out"]["nested"] is None
     assert sorted(data.covariates) == ["session", "temperature", "time"]
     np.testing.assert_allclose(data.q, cases.measured().q, atol=1e-8)
     page = (tmp_path / "out" / "report.html").read_text(encoding="utf-8")
@@ -116,6 +117,19 @@ def test_the_engine_finds_what_was_hidden_and_says_so(table, tmp_path, capsys):
     assert np.sqrt(np.mean(off**2)) < 1.2 * cases.NOISE
     with open(tmp_path / "out" / "residuals.csv", encoding="utf-8") as stream:
         assert len(stream.readlines()) == 241
+
+
+def test_nested_folds_are_asked_for(table, tmp_path, capsys):
+    code, text, err = run(
+        capsys, "diagnose", table, "--tracked", "--arm", "ur10", "-o", tmp_path / "out", "--json",
+        "--nested", "2",
+    )  # fmt: skip
+    assert code == 0, err
+    nested = json.loads(text)["held_out"]["nested"]
+    assert nested["verdicts"] == ["named", "named"]
+    assert sorted(nested) == ["folds", "rms_after_m", "verdicts"]
+    kept = json.loads((tmp_path / "out" / "report.json").read_text())["held_out"]["nested"]
+    assert len(kept["after_m"]) == 240
 
 
 def test_people_see_the_verdict_first(table, tmp_path, capsys, asked, undrawn, monkeypatch):

@@ -15,7 +15,7 @@ from tests.support.corrected_arm_cases import ALL, COVARIATES, Q, effects, harmo
 def test_beyond_the_support_it_says_so_and_falls_back() -> None:
     arm = model()
     q = Q[:4].copy()
-    q[1, 2] = 1.5
+    q[1, 2] = 2.7
     covariates = ALL | {"temperature": [25, 25, 45, np.nan], "session": [1, 1, 1, 7]}
     with pytest.warns(bathyal.SupportWarning) as caught:
         poses = arm.forward(q, covariates=covariates)
@@ -25,7 +25,7 @@ def test_beyond_the_support_it_says_so_and_falls_back() -> None:
     assert warning.counts == {"joint_harmonic of joint 3": 1, "thermal": 2, "base_shift": 1}
     low, high = np.quantile(COVARIATES["temperature"], [0, 1])
     assert warning.beyond == [
-        f"joint 3: {q[1:, 2].min():.4g} to 1.5, data {Q[:, 2].min():.4g} to {Q[:, 2].max():.4g}, "
+        f"joint 3: {q[1:, 2].min():.4g} to 2.7, data {Q[:, 2].min():.4g} to {Q[:, 2].max():.4g}, "
         "1 rows",
         "session: 7 not in the data",
         f"temperature: 25 to 45, data {low:.4g} to {high:.4g}, 1 rows; unknown, 1 rows",
@@ -213,7 +213,7 @@ def test_what_follows_from_physics_is_extrapolated() -> None:
 
 def test_identification_holds_effects_beyond_their_support() -> None:
     arm = model([harmonic(1, 1.7)])
-    data = bathyal.Tracked(Q + 3.0, arm.arm.forward(Q + 3.0)[:, :3, 3])
+    data = bathyal.Tracked(Q + 5.0, arm.arm.forward(Q + 5.0)[:, :3, 3])
     fit = bathyal.identify_arm(arm, data)
     assert fit.rms_after < 1e-9
     again = bathyal.CorrectedArm(fit.arm, arm.effects, arm.support)

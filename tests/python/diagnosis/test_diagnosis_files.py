@@ -36,8 +36,8 @@ def test_json_keeps_its_names_and_goes_round(name, tmp_path):
     assert sorted(contents(report)) == KEYS
     for effect, own in zip(kept["effects"], report.effects, strict=True):
         assert sorted(effect) == [
-            "gain", "held_out_after_m", "held_out_before_m", "joint", "name", "p_value",
-            "parameters", "rivals", "rows", "size_m", "words",
+            "gain", "held_out_after_m", "held_out_before_m", "joint", "name",
+            "nested_folds", "p_value", "parameters", "rivals", "rows", "size_m", "words",
         ]  # fmt: skip
         for number, estimate in own.parameters.items():
             kept_number = effect["parameters"][number]
