@@ -273,8 +273,10 @@ def main() -> None:
             print(quarter(start), flush=True)
     if "fifths" in names:
         print(
-            "\n| a fifth left out of the whole diagnosis | geometry | with what is named | the same "
-            "without outliers | each fifth | outliers | folds of values alone | s |\n|" + "---|" * 8
+            "\n| a fifth left out of the whole diagnosis | geometry | with what is named | the "
+            "same without outliers | each fifth | outliers | folds of values alone | s |\n|"
+            + "---|"
+            * 8
         )
         for series in "CBA":
             print(fifth(series), flush=True)

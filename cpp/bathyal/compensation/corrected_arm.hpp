@@ -52,8 +52,7 @@ struct CorrectedInverse {
 /// physics with known arguments (Effect::extrapolates) is evaluated as within. Any other is held
 /// at its value in the nearest row; a harmonic or curve along its joint, whose extrapolation is
 /// undetermined, goes over from there to its average over the training data within half of its
-/// period. What shares its
-/// joint and its alias group with an effect that is held was fitted together with it, and is held
+/// period. What shares its joint and its alias group with an effect that is held was fitted together with it, and is held
 /// too. The geometry was estimated together with the effects, so that omitting them would give
 /// larger errors. An effect whose argument is unknown (NaN, a session without training data) is
 /// omitted, as if the arm did not have it. Where all effects are omitted the result is that of the
