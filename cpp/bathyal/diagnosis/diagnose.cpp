@@ -139,7 +139,7 @@ Prediction predict(const Arm& arm, const Measurement& all, const Covariates& cov
   DiagnoseOptions of_some = options;
   of_some.groups = picked(options.groups, rows);
   const std::set<std::string> groups(of_some.groups.begin(), of_some.groups.end());
-  if (groups.size() < selection::kMinGivenGroups) of_some.groups.clear();
+  if (groups.size() < selection::Decisions::kMinGivenGroups) of_some.groups.clear();
   const Diagnosis found =
       report(arm_model, some, arm, select(arm_model, of_some, progress), of_some);
   Prediction out{found.verdict, {}, {}};
@@ -164,7 +164,7 @@ selection::Folds nested_folds(const ArmModel& arm_model, const DiagnoseOptions& 
   const selection::Folds folds =
       options.groups.empty() ? selection::make_folds(arm_model.observations(), options.nested)
                              : selection::folds_of_groups(numbered(options.groups));
-  if (folds.count >= selection::kMinGivenGroups) return folds;
+  if (folds.count >= selection::Decisions::kMinGivenGroups) return folds;
   throw_argument("nested", "0 where the poses make no two blocks that differ",
                  std::to_string(options.nested));
 }
