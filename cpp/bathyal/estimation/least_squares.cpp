@@ -64,21 +64,33 @@ LeastSquaresResult solve_least_squares(const ResidualModel& model, const Eigen::
   options.check();
   if (model.columns() == 0) return {start, {model.cost(start.data())}, true};
   LeastSquaresResult result{start, {}, false};
-  double damping = options.damping;
+  double damping = options.damping, growth = 2.0;
   Eigen::MatrixXd normal = model.normal_equations(start.data());
   result.history.push_back(normal(normal.rows() - 1, normal.cols() - 1));
   bool moved = false;
   for (int i = 0; i < options.max_iterations && !result.converged; ++i) {
     if (moved) normal = model.normal_equations(result.y.data());
     const double before = result.history.back();
-    const Eigen::VectorXd next = result.y + damped_step(normal, damping, options);
+    const Eigen::VectorXd step = damped_step(normal, damping, options);
+    const Eigen::VectorXd next = result.y + step;
     const double cost = model.cost(next.data());
     moved = cost < before;
     if (moved) {
       result.y = next;
       result.history.push_back(cost);
     }
-    damping *= moved ? options.factor : 1.0 / options.factor;
+    if (options.solver == Solver::kLevenberg) {
+      damping *= moved ? options.factor : 1.0 / options.factor;
+    } else if (moved) {  // by the gain ratio (Nielsen 1999)
+      const Index last = normal.cols() - 1;
+      const Eigen::VectorXd slope = normal.topLeftCorner(last, last) * step;
+      const double predicted = -step.dot(2.0 * normal.col(last).head(last) + slope);
+      damping *= std::max(1.0 / 3.0, 1.0 - std::pow(2.0 * (before - cost) / predicted - 1.0, 3));
+      growth = 2.0;
+    } else {
+      damping *= growth;
+      growth *= 2.0;
+    }
     result.converged =
         std::abs(cost - before) <= std::max(options.cost_change * static_cast<double>(model.rows()),
                                             options.relative_cost_change * before);

@@ -28,17 +28,25 @@ DeletionResiduals deletion_residuals(const ArmResiduals& system, const Eigen::Ve
   system.evaluate(system.scaled(x).data(), residuals.data(), jacobian.data());
   selection::Linearization at = to_linearization(system, std::move(residuals), jacobian);
   Eigen::MatrixXd basis = column_space(at.jacobian, kRankTolerance);
-  // Of positions alone, with the leverage that all rows give them.
-  const Index rows = 3 * system.measurement().rows();
-  at.residual.conservativeResize(rows);
-  at.jacobian.conservativeResize(rows, Eigen::NoChange);
-  at.observation.resize(static_cast<std::size_t>(rows));
-  basis.conservativeResize(rows, Eigen::NoChange);
+  // Positions alone, with the leverage that all rows give them.
+  const Index positions = system.position_rows(), rotations = system.rotation_rows();
+  const Index others = system.rows() - positions - rotations;
+  const auto drop_rotations = [&](auto& rows) {
+    rows.middleRows(positions, others) = rows.bottomRows(others).eval();
+    rows.conservativeResize(positions + others, Eigen::NoChange);
+  };
+  if (rotations > 0) {
+    drop_rotations(at.residual);
+    drop_rotations(at.jacobian);
+    drop_rotations(basis);
+    at.observation.erase(at.observation.begin() + positions,
+                         at.observation.begin() + positions + rotations);
+  }
   Eigen::VectorXd weights(system.measurement().rows());
   for (Index i = 0; i < weights.size(); ++i) weights[i] = system.is_excluded(i) ? 0.0 : 1.0;
   DeletionResiduals out;
-  out.dof = system.free_rows()[0] + static_cast<double>(3 * system.measurement().points()) -
-            basis.squaredNorm();
+  out.dof = system.free_rows()[0] +
+            static_cast<double>(3 * system.measurement().points() + others) - basis.squaredNorm();
   out.tests = selection::test_observations(at, basis, weights, out.dof);
   const double squares =
       at.residual.squaredNorm() - (basis.transpose() * at.residual).squaredNorm();
