@@ -15,8 +15,8 @@ export CC := gcc
 export CXX := g++
 
 # Debian packages: to build and run; to test; for the benchmarks' peers.
-APT_BUILD := g++ cmake ninja-build ccache libeigen3-dev python3 python3-dev python3-venv
-APT_TEST := $(APT_BUILD) git libgtest-dev libceres-dev libpcl-dev clang-14 libclang-rt-14-dev \
+APT_BUILD := g++ cmake ninja-build ccache libeigen3-dev libceres-dev python3 python3-dev python3-venv
+APT_TEST := $(APT_BUILD) git libgtest-dev libpcl-dev clang-14 libclang-rt-14-dev \
             clang-format-14 util-linux gpsd
 APT_BENCH := $(APT_TEST) libcgal-dev libgmp-dev libmpfr-dev liborocos-kdl-dev libnlopt-cxx-dev
 

@@ -156,8 +156,7 @@ criterion : {"centroid", "pairs"}
 pair_weights : bool
     Weigh a point by the number of its touches, as "pairs" always does.
 solver : {"levenberg_marquardt", "paper"}
-    Damped relative to each parameter's curvature, or as the paper's eq 17 with its sign mended.
-    They reach the same cost.
+    Ceres' TinySolver, or the paper's eq 17 with its sign mended. They reach the same cost.
 max_iterations : int
 tool_start : {"auto", "arm", "estimate"}
     Start from the arm's tool, or estimate it (eq 12-16). "auto": the arm's where it has one.

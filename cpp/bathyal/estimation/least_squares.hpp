@@ -28,19 +28,18 @@ class ResidualModel {
 };
 
 enum class Solver {
-  kLevenbergMarquardt,  ///< damping of each parameter relative to its curvature (Marquardt 1963)
-  kLevenberg,           ///< the same damping for all parameters, in units of their scales
-  kPaper = kLevenberg,  ///< Yukhimets, Gubankov 2023, eq 17
+  kLevenbergMarquardt,  ///< Ceres' TinySolver (Madsen, Nielsen, Tingleff 2004)
+  kPaper,  ///< Yukhimets, Gubankov 2023, eq 17: one damping for all parameters, in their units
 };
 
 struct LeastSquaresOptions {
   Solver solver = Solver::kLevenbergMarquardt;
   int max_iterations = 100;           ///< 1 or more, failed ones included
-  double damping = 1e-8;              ///< initial, above 0
-  double factor = 0.1;                ///< of the damping after each success; eta of eq 17, in (0, 1)
+  double damping = 1e-8;              ///< initial, relative (paper: absolute), above 0
+  double factor = 0.1;                ///< eta of eq 17, in (0, 1)
   double cost_change = 1e-12;         ///< convergence: the mean square changes by less, 0 or more
-  double relative_cost_change = 0.0;  ///< or by less than this share of itself
-  double ridge = 1e-13;               ///< least damping relative to the curvature
+  double relative_cost_change = 0.0;  ///< or by less than this share of itself (paper)
+  double ridge = 1e-13;               ///< least damping relative to the curvature (paper)
   Eigen::MatrixXd subspace = {};      ///< (columns, k) orthonormal: admissible changes; empty: all
 
   void check() const;
@@ -54,15 +53,15 @@ struct LeastSquaresResult {
 
 /// The nearest minimum of the sum of squared residuals, from `start`.
 ///
-/// Steps are computed from JᵀJ; the rows of the model enter only through `normal_equations` and
-/// `cost`. Directions to which no residual is sensitive do no harm: steps are damped and do not move
-/// along them. The printed rule of eq 17 is corrected: the damping falls after success and grows
-/// after failure, and the stop test takes the absolute value of the change.
+/// Steps are computed from JᵀJ, as TinySolver and the paper do; the rows of the model enter only
+/// through `normal_equations` and `cost`. Directions to which no residual is sensitive do no harm:
+/// both solvers are damped and do not move along them. The printed rule of eq 17 is corrected: the
+/// damping falls after success and grows after failure, and the stop test takes the absolute value
+/// of the change.
 LeastSquaresResult solve_least_squares(const ResidualModel& model, const Eigen::VectorXd& start,
                                        const LeastSquaresOptions& options = {});
 
-/// The step from the `normal` equations [J r]ᵀ[J r] with `damping` as `options.solver` applies it;
-/// 0: the Gauss–Newton step.
+/// The step of eq 17 from the `normal` equations [J r]ᵀ[J r]; without damping Gauss–Newton's.
 Eigen::VectorXd damped_step(const Eigen::MatrixXd& normal, double damping,
                             const LeastSquaresOptions& options = {});
 

@@ -347,7 +347,7 @@ class Searching:
         _fit_option("Each touch against its point's mean, or every pair (eq 7).", "criterion"),
     ] = None
     solver: Annotated[
-        Solver | None, _fit_option("Marquardt's damping, or the paper's (eq 17).", "solver")
+        Solver | None, _fit_option("Ceres' own, or the paper's update (eq 17).", "solver")
     ] = None
 
     def keywords(self) -> dict[str, Any]:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""`make wheel`: a wheel that imports and plans where PCL and VTK are not installed."""
+"""`make wheel`: a wheel that imports and plans where PCL, VTK and Ceres are not installed."""
 
 import os
 import re
@@ -20,9 +20,10 @@ SYSTEM_LIBRARIES = {
     "ld-linux-x86-64.so.2",
 }
 
-# Hides every library of PCL and VTK behind an empty file, in a mount namespace of its own.
+# Hides every library of PCL, VTK and Ceres behind an empty file, in a mount namespace of its own.
 HIDE = """
-for library in $(find /usr/lib /usr/local/lib -name 'libpcl_*' -o -name 'libvtk*'); do
+for library in $(find /usr/lib /usr/local/lib -name 'libpcl_*' -o -name 'libvtk*' \\
+                 -o -name 'libceres*'); do
   mount --bind /dev/null "$library"
 done
 exec "$@"

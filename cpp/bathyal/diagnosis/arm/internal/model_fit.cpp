@@ -230,7 +230,7 @@ Eigen::MatrixXd ArmModel::derivatives(const Eigen::VectorXd& x) const {
 /// Damping is the same for all parameters in units of their scales, so that steps along a curved
 /// valley stay within plausible changes.
 LeastSquaresOptions ArmModel::fit_options() const {
-  return {.solver = Solver::kLevenberg,
+  return {.solver = Solver::kPaper,
           .max_iterations = kMaxSteps,
           .damping = kFirstDamping,
           .cost_change = 0.0,
