@@ -12,7 +12,7 @@ import numpy.typing
 import os
 import plotly.graph_objects
 import typing
-__all__: list[str] = ['Allocation', 'AllocationResult', 'Arm', 'ArmFit', 'ArmMotion', 'ArmOnVehicle', 'BEYOND_NOISE', 'Battery', 'BatteryLoad', 'BehaviorTree', 'Capsule', 'Cause', 'CleanReport', 'CleanResult', 'Clearances', 'Condition', 'CorrectedArm', 'CruiseControl', 'CruiseState', 'Current', 'DhTable', 'Diagnosis', 'DropWeight', 'Effect', 'EffectRange', 'EffectRows', 'Eigenray', 'Error', 'Estimate', 'Fin', 'FitParameter', 'FollowedPath', 'FoundEffect', 'HeldOut', 'HeldOutPart', 'Hits', 'Hull', 'HullReport', 'InverseResult', 'KeepOut', 'LineOfSight', 'LineOfSightState', 'Link', 'Material', 'MeshReport', 'MissionPlan', 'MissionRun', 'MotionCheck', 'MotionPlan', 'NamedEffect', 'NavigationErrors', 'NavigationFilter', 'NavigationReport', 'NavigationTrack', 'NavigationUpdate', 'Nearest', 'NearestSegments', 'NmeaReader', 'Outlier', 'Ping', 'PingTruth', 'Pipeline', 'Plane', 'PlaneFit', 'PointCloud', 'Polyline', 'PoseHold', 'PoseHoldState', 'Profile', 'ReachMap', 'RigidBody', 'SamplingPhase', 'SamplingPlan', 'Scene', 'SeabedModel', 'Sediment', 'Sensor', 'SensorReadings', 'SerialLine', 'Shape', 'SheetPatch', 'SheetReport', 'SidescanPings', 'Sonar', 'SoundPath', 'Standpoint', 'StaticTrim', 'Structure', 'Support', 'TargetChecks', 'Targets', 'Tether', 'TextTable', 'Thruster', 'ThrusterFit', 'ThrusterTable', 'Tide', 'TipMove', 'ToolPath', 'TouchForecast', 'TouchPlan', 'Touches', 'TracedSound', 'Tracked', 'Trade', 'Trajectory', 'TriangleMesh', 'TrimHold', 'Vehicle', 'VehicleMotion', 'VehicleSystem', 'VehicleSystemState', 'Verification', 'Voxels', 'Water', 'Waves', 'Workspace', 'World', 'WorldObject', 'WorldSnapshot', 'XtfFile', 'absorption', 'allan_deviation', 'ambient_noise', 'ardupilot_json', 'arm_from_chain', 'arm_from_parts', 'arm_parts', 'best_standpoint', 'chain_from_arm', 'check_bytes', 'clean_cloud', 'cover_polygon', 'dead_reckon', 'depth_from_pressure', 'diagnose', 'eigenrays', 'ellipsoid_added_mass', 'find_effect_with', 'find_sheets', 'find_targets', 'fish_paths', 'fit_plane', 'fit_thruster', 'follow_bottom', 'forecast_touches', 'generate_survey', 'identify_arm', 'intersect_moller_trumbore', 'library_effects', 'make_boulder', 'make_cable', 'make_fish', 'make_mine', 'make_pipeline', 'make_seabed', 'make_wreck', 'make_xtf', 'mcap_messages', 'mesh_report', 'nmea_dpt', 'nmea_hdt', 'nmea_position', 'nmea_sentence', 'nmea_vbw', 'parse_xtf', 'pd6_text', 'plan_sampling', 'plan_toolpath', 'plan_touches', 'practical_salinity', 'pressure_from_depth', 'read_mcap', 'read_mesh_with', 'read_pcd', 'read_servo_packet', 'read_text_table', 'seawater_density', 'servo_packet', 'set_simd_level', 'sidescan_bottom', 'sidescan_ground', 'sidescan_mosaic', 'simd_level', 'smooth', 'sound_speed', 'sound_speed_teos10_with', 'survey_height', 'trace_sound', 'triangle_material', 'triangulate', 'triangulate_delaunay', 'typical_sensors', 'verify_positions', 'warn_of_range_with', 'warn_of_support_with', 'with_link_radii', 'write_mcap', 'write_xyz']
+__all__: list[str] = ['Allocation', 'AllocationResult', 'Arm', 'ArmFit', 'ArmMotion', 'ArmOnVehicle', 'BEYOND_NOISE', 'Battery', 'BatteryLoad', 'BehaviorTree', 'Capsule', 'Cause', 'CleanReport', 'CleanResult', 'Clearances', 'Condition', 'CorrectedArm', 'CruiseControl', 'CruiseState', 'Current', 'DhTable', 'Diagnosis', 'DropWeight', 'Effect', 'EffectRange', 'EffectRows', 'Eigenray', 'Error', 'Estimate', 'Fin', 'FitParameter', 'FollowedPath', 'FoundEffect', 'HeldOut', 'HeldOutNested', 'HeldOutPart', 'Hits', 'Hull', 'HullReport', 'InverseResult', 'KeepOut', 'LineOfSight', 'LineOfSightState', 'Link', 'Material', 'MeshReport', 'MissionPlan', 'MissionRun', 'MotionCheck', 'MotionPlan', 'NamedEffect', 'NavigationErrors', 'NavigationFilter', 'NavigationReport', 'NavigationTrack', 'NavigationUpdate', 'Nearest', 'NearestSegments', 'NmeaReader', 'Outlier', 'Ping', 'PingTruth', 'Pipeline', 'Plane', 'PlaneFit', 'PointCloud', 'Polyline', 'PoseHold', 'PoseHoldState', 'Profile', 'ReachMap', 'RigidBody', 'SamplingPhase', 'SamplingPlan', 'Scene', 'SeabedModel', 'Sediment', 'Sensor', 'SensorReadings', 'SerialLine', 'Shape', 'SheetPatch', 'SheetReport', 'SidescanPings', 'Sonar', 'SoundPath', 'Standpoint', 'StaticTrim', 'Structure', 'Support', 'TargetChecks', 'Targets', 'Tether', 'TextTable', 'Thruster', 'ThrusterFit', 'ThrusterTable', 'Tide', 'TipMove', 'ToolPath', 'TouchForecast', 'TouchPlan', 'Touches', 'TracedSound', 'Tracked', 'Trade', 'Trajectory', 'TriangleMesh', 'TrimHold', 'Vehicle', 'VehicleMotion', 'VehicleSystem', 'VehicleSystemState', 'Verification', 'Voxels', 'Water', 'Waves', 'Workspace', 'World', 'WorldObject', 'WorldSnapshot', 'XtfFile', 'absorption', 'allan_deviation', 'ambient_noise', 'ardupilot_json', 'arm_from_chain', 'arm_from_parts', 'arm_parts', 'best_standpoint', 'chain_from_arm', 'check_bytes', 'clean_cloud', 'cover_polygon', 'dead_reckon', 'depth_from_pressure', 'diagnose', 'eigenrays', 'ellipsoid_added_mass', 'find_effect_with', 'find_sheets', 'find_targets', 'fish_paths', 'fit_plane', 'fit_thruster', 'follow_bottom', 'forecast_touches', 'generate_survey', 'identify_arm', 'intersect_moller_trumbore', 'library_effects', 'make_boulder', 'make_cable', 'make_fish', 'make_mine', 'make_pipeline', 'make_seabed', 'make_wreck', 'make_xtf', 'mcap_messages', 'mesh_report', 'nmea_dpt', 'nmea_hdt', 'nmea_position', 'nmea_sentence', 'nmea_vbw', 'parse_xtf', 'pd6_text', 'plan_sampling', 'plan_toolpath', 'plan_touches', 'practical_salinity', 'pressure_from_depth', 'read_mcap', 'read_mesh_with', 'read_pcd', 'read_servo_packet', 'read_text_table', 'seawater_density', 'servo_packet', 'set_simd_level', 'sidescan_bottom', 'sidescan_ground', 'sidescan_mosaic', 'simd_level', 'smooth', 'sound_speed', 'sound_speed_teos10_with', 'survey_height', 'trace_sound', 'triangle_material', 'triangulate', 'triangulate_delaunay', 'typical_sensors', 'verify_positions', 'warn_of_range_with', 'warn_of_support_with', 'with_link_radii', 'write_mcap', 'write_xyz']
 class Error(RuntimeError):
     """
     A broken file, a solver that failed or a part that is not installed.
@@ -9430,6 +9430,11 @@ class NamedEffect:
         Of the effect.
         """
     @property
+    def nested_folds(self) -> int:
+        """
+        In how many folds of `held_out.nested` the same was found in this joint.
+        """
+    @property
     def p_value(self) -> float:
         """
         Of its F test given the others, corrected for multiplicity.
@@ -9551,6 +9556,30 @@ class HeldOutPart:
         """
         How many rows it has.
         """
+class HeldOutNested:
+    """
+    Prediction errors of rows that had no part in the choice of causes either (nested cross-validation).
+    """
+    @property
+    def after(self) -> numpy.ndarray:
+        """
+        (N,) [m]; nan: an outlier, or a tool or station that only its fold has.
+        """
+    @property
+    def folds(self) -> int:
+        """
+        Number of folds, each held out of a whole diagnosis.
+        """
+    @property
+    def rms_after(self) -> float:
+        """
+        3-D, of the rows that `after` has [m].
+        """
+    @property
+    def verdicts(self) -> list[str]:
+        """
+        list of str: the verdict of each of these diagnoses.
+        """
 class HeldOut:
     """
     Prediction errors of held-out rows.
@@ -9574,6 +9603,11 @@ class HeldOut:
     def how(self) -> str:
         """
         What one fold is.
+        """
+    @property
+    def nested(self) -> HeldOutNested | None:
+        """
+        HeldOutNested: the causes chosen anew without each fold; None unless asked for.
         """
     @property
     def noise(self) -> float:
@@ -10084,7 +10118,7 @@ def depth_from_pressure(pressure: numpy.typing.ArrayLike, latitude: numpy.typing
     >>> round(bathyal.depth_from_pressure(1000.0, latitude=45), 2)
     989.5
     """
-def diagnose(arm: Arm, data: Touches | Tracked, *, effects: collections.abc.Iterable[Effect] | None = None, parametrization: str = 'hayati', fixed: collections.abc.Sequence[str] = [], length_prior: typing.SupportsFloat | typing.SupportsIndex | None = None, blocks: typing.SupportsInt | typing.SupportsIndex = 10, groups: numpy.typing.ArrayLike | None = None, rival_odds: typing.SupportsFloat | typing.SupportsIndex = 0.1, leftover: typing.SupportsFloat | typing.SupportsIndex = 0.03, num_next_poses: typing.SupportsInt | typing.SupportsIndex = 8, progress: collections.abc.Callable[[float, str], None] | None = None, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> Diagnosis:
+def diagnose(arm: Arm, data: Touches | Tracked, *, effects: collections.abc.Iterable[Effect] | None = None, parametrization: str = 'hayati', fixed: collections.abc.Sequence[str] = [], length_prior: typing.SupportsFloat | typing.SupportsIndex | None = None, blocks: typing.SupportsInt | typing.SupportsIndex = 10, groups: numpy.typing.ArrayLike | None = None, nested: typing.SupportsInt | typing.SupportsIndex = 0, rival_odds: typing.SupportsFloat | typing.SupportsIndex = 0.1, leftover: typing.SupportsFloat | typing.SupportsIndex = 0.03, num_next_poses: typing.SupportsInt | typing.SupportsIndex = 8, progress: collections.abc.Callable[[float, str], None] | None = None, num_threads: typing.SupportsInt | typing.SupportsIndex = 0) -> Diagnosis:
     """
     Find what the best rigid model of an arm gets wrong, name the cause, measure the gain.
     
@@ -10118,6 +10152,10 @@ def diagnose(arm: Arm, data: Touches | Tracked, *, effects: collections.abc.Iter
         are then held out in turn instead of `blocks`, in which effects must prove themselves and the
         held-out errors are measured. More than 50 groups are joined to 50 folds. A base or tool that
         only one group has cannot be predicted from others: it stays as fitted to all rows.
+    nested : int
+        Folds of a nested cross-validation, 2 to 50 (of `groups`, where given, as many as there are), or
+        0. The whole diagnosis is made anew without each: names, orders and sizes. `held_out.nested` has
+        the errors. It takes as long as so many diagnoses. Of tracked poses only.
     rival_odds : float
         Odds of an alternative against the best explanation from which the verdict is "ambiguous".
     leftover : float
@@ -10586,8 +10624,7 @@ def identify_arm(arm: Arm | CorrectedArm, data: Touches | Tracked, *, parametriz
     pair_weights : bool
         Weigh a point by the number of its touches, as "pairs" always does.
     solver : {"levenberg_marquardt", "paper"}
-        Damped relative to each parameter's curvature, or as the paper's eq 17 with its sign mended.
-        They reach the same cost.
+        Ceres' TinySolver, or the paper's eq 17 with its sign mended. They reach the same cost.
     max_iterations : int
     tool_start : {"auto", "arm", "estimate"}
         Start from the arm's tool, or estimate it (eq 12-16). "auto": the arm's where it has one.

@@ -134,8 +134,8 @@ Prediction predict(const Arm& arm, const Measurement& all, const Covariates& cov
                    const std::vector<int>& rows, const DiagnosisProgress& progress) {
   Measurement some = subset(all, rows);
   some.perturbation_rows.clear();
-  ArmModel arm_model(arm, some, covariates_of_rows(covariates, rows), identify_options(options),
-                     effects);
+  const IdentifyOptions identify = identify_options(options);
+  ArmModel arm_model(arm, some, covariates_of_rows(covariates, rows), identify, effects);
   DiagnoseOptions of_some = options;
   of_some.groups = picked(options.groups, rows);
   const std::set<std::string> groups(of_some.groups.begin(), of_some.groups.end());
@@ -177,7 +177,8 @@ Diagnosis run(const Arm& arm, const Measurement& measurement, const Covariates& 
   // Bad covariates are refused before the long computation.
   check_weight(make_effect_data(arm, measurement.q, covariates, measurement.has_rotation()),
                effects);
-  ArmModel arm_model(arm, measurement, covariates, identify_options(options), effects);
+  const IdentifyOptions identify = identify_options(options);
+  ArmModel arm_model(arm, measurement, covariates, identify, effects);
   const bool nested = options.nested > 0;
   const selection::Folds folds = nested ? nested_folds(arm_model, options) : selection::Folds{};
   // Each diagnosis is a part of the work.

@@ -29,6 +29,8 @@ class ArmModel final : public selection::Model {
 
   ArmModel(const Arm& arm, const Measurement& measurement, const Covariates& covariates,
            const IdentifyOptions& options, const Effects& effects);
+  ArmModel(const Arm& arm, const Measurement& measurement, const Covariates& covariates,
+           IdentifyOptions&& options, const Effects& effects) = delete;
   /// The same with a subset of the rows of `whole` and with its terms, for a shortlist; without
   /// lack-of-fit terms and variance components. `whole` must outlive it.
   ArmModel(const ArmModel& whole, const std::vector<int>& rows);
