@@ -71,7 +71,7 @@ TEST_F(ReportTest, VerdictFollowsFromUnexplainedStructureAndAlternatives) {
   EXPECT_EQ(four.ambiguous.size(), 4U);
   EXPECT_EQ(four.ambiguous.back().odds, 0.7);
   EXPECT_EQ(four.effects[0].alternatives.size(), 4U);
-  // One in twelve is not enough to doubt the other.
+  // One in twelve is not enough against the other.
   selected_.alternatives = {{term, term + 1, 0.08}};
   EXPECT_EQ(report(model_, measurement_, arm_, selected_, options).verdict, Verdict::kNamed);
   selected_.alternatives = {{term, term + 1, 0.5}};

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Joint values that were logged in steps: what is beside them, and what is not."""
+"""Joint values that were logged in steps: what is noise in addition to them, and what is not."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ def test_rounding_is_no_noise_that_grows_with_the_range(seed: int, noise: float)
     assert _names(arm, np.round(q / 2e-3) * 2e-3, tips) == ["quantisation"]
 
 
-def test_noise_that_grows_with_the_range_is_found_beside_rounding() -> None:
+def test_noise_that_grows_with_the_range_is_found_with_rounding() -> None:
     arm = bathyal.arms.ur10()
     rng = np.random.default_rng(0)
     q = rng.uniform(-1.5, 1.5, (300, 6))
