@@ -103,7 +103,7 @@ def quarter(start: int) -> str:
 
 
 def fifth(series: str) -> str:
-    """What names, orders and sizes are worth where all are chosen without the rows that are predicted: each
+    """What names, orders and sizes are worth where all are chosen without the predicted rows: each
     random fifth of the poses, with their repeats, is left out of the whole diagnosis and predicted
     by its model. Outliers: rows that the diagnosis of the whole session excludes."""
     data = tracked(series)
