@@ -138,6 +138,7 @@ Prediction predict(const Arm& arm, const Measurement& all, const Covariates& cov
   ArmModel arm_model(arm, some, covariates_of_rows(covariates, rows), identify, effects);
   DiagnoseOptions of_some = options;
   of_some.groups = picked(options.groups, rows);
+  // Of two groups one is left, which is held out in blocks.
   const std::set<std::string> groups(of_some.groups.begin(), of_some.groups.end());
   if (groups.size() < selection::Decisions::kMinGivenGroups) of_some.groups.clear();
   const Diagnosis found =

@@ -47,7 +47,7 @@ class StructureSelection {
   }
 
   void select_explanation(const Shortlist& shortlist);
-  VarianceComponent beside_found(VarianceComponent component) const;
+  VarianceComponent whitened_by_found(VarianceComponent component) const;
   void whiten();
   void fit_variance_components();
   void drop_redundant_terms();
@@ -87,7 +87,7 @@ void StructureSelection::select_explanation(const Shortlist& shortlist) {
 }
 
 /// `component` in rows that are whitened by the covariance of those that were found.
-VarianceComponent StructureSelection::beside_found(VarianceComponent component) const {
+VarianceComponent StructureSelection::whitened_by_found(VarianceComponent component) const {
   std::map<int, std::vector<Index>> rows;
   const Linearization& at = model_.linearization();
   for (Index m = 0; m < at.noise_rows; ++m) rows[at.observation[m]].push_back(m);
@@ -126,7 +126,7 @@ void StructureSelection::fit_variance_components() {
                         [&](int f) { return components[f].known > 0.0; });
   for (const int f : order) {
     const NuisanceBasis& whole = working_point_.nuisance(active_.terms);
-    VarianceComponentFit fit = fit_noise(beside_found(components[f]), model_.linearization(),
+    VarianceComponentFit fit = fit_noise(whitened_by_found(components[f]), model_.linearization(),
                                          whole.basis, weights_, model_.noise(), out_.folds);
     fit.term = f;
     // A step that the record itself shows needs no evidence, only a share that matters. Where
