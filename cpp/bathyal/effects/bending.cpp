@@ -25,37 +25,36 @@ GravityLoads loads_of(const EffectData& data) {
   return {data, GravityLoads::Bodies::kArm, payload_of(data)};
 }
 
-/// Where a link ends, in the frame behind the row of each joint, and begins, along the axis in the
-/// frame before it: at the origins of the joints. Rows do not determine them, since their frames
-/// slide along the axes as neighbouring axes tilt. Where links have frames of their own, as those
-/// of a URDF, a joint's origin is the point of its axis next to the origin of the frame of the link
-/// that it moves (of a sliding joint: while its value is 0); else that of the frame before its row.
-/// The last link ends in the flange.
-class LinkEnds {
+/// Links, each from its joint's origin to the next one's, which the rows do not determine: their
+/// frames slide along the axes as neighbouring axes tilt. Where links have frames of their own, as
+/// those of a URDF, a joint's origin is the point of its axis next to the origin of the frame of
+/// the link that it moves; else that of the frame before its row. That of a sliding joint moves
+/// with its link, which is as long wherever it is slid to. The last link ends in the flange.
+class BeamAxes {
  public:
-  explicit LinkEnds(const Arm& arm) : flange_(arm.flange().translation()) {
+  explicit BeamAxes(const Arm& arm) {
     const std::vector<Link>& links = arm.links();
     const bool own_frames = std::any_of(links.begin() + 1, links.end(), [](const Link& link) {
       return link.row_from_link.matrix() != Pose::Identity().matrix();
     });
+    std::vector<Vec3> before, behind;  // origins, at value 0 of the joint
     for (std::size_t k = 0; k < arm.joints().size(); ++k) {
       const Joint& joint = arm.joints()[k];
-      const Vec3 origin =
-          row_pose(joint.row, joint.type, 0.0) * links[k + 1].row_from_link.translation();
-      along_axis_.push_back(own_frames ? origin.z() : 0.0);
+      const Pose pose = row_pose(joint.row, joint.type, 0.0);
+      const double along_axis =
+          own_frames ? (pose * links[k + 1].row_from_link.translation()).z() : 0.0;
+      before.push_back(along_axis * Vec3::UnitZ());
+      behind.push_back(pose.inverse() * before.back());
+    }
+    for (std::size_t k = 0; k < before.size(); ++k) {
+      end.push_back(k + 1 < before.size() ? before[k + 1] : arm.flange().translation());
+      beam.push_back(end.back() - behind[k]);
     }
   }
 
-  /// In the frame before the row.
-  Vec3 start(int row) const { return along_axis_[row] * Vec3::UnitZ(); }
-  /// In the frame behind the row.
-  Vec3 end(int row) const {
-    return row + 1 < static_cast<int>(along_axis_.size()) ? start(row + 1) : flange_;
-  }
-
- private:
-  std::vector<double> along_axis_;
-  Vec3 flange_;
+  // Of each row, in the frame behind it.
+  std::vector<Vec3> end;
+  std::vector<Vec3> beam;  ///< from its beginning to its end
 };
 
 class LinkCompliance final : public Effect {
@@ -106,14 +105,12 @@ class LinkCompliance final : public Effect {
   /// (N, 6) shift and turn of the frame behind `row`, per flexibility.
   static RowMatrix bend(const EffectData& data, const GravityLoads& loads, int row) {
     RowMatrix out(data.rows(), 6);
-    const LinkEnds ends(*data.arm);
-    const Vec3 at = ends.end(row);  // in the frame behind the row
+    const BeamAxes axes(*data.arm);
+    const Vec3 at = axes.end[row], link = axes.beam[row];
+    const double length = link.norm();
     for (Index i = 0; i < data.rows(); ++i) {
-      const Pose& from = loads.frames(i).world_from_row[row];
       const Pose& to = loads.frames(i).world_from_row[row + 1];
       const Vec3 end = to * at;
-      const Vec3 link = to.linear().transpose() * (end - from * ends.start(row));
-      const double length = link.norm();
       // The link itself is link row + 1: the load at its end starts with the next one.
       const GravityLoad load = loads.beyond(i, static_cast<std::size_t>(row) + 2, end);
       const Vec3 force = to.linear().transpose() * load.force;
