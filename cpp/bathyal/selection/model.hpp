@@ -37,6 +37,8 @@ struct VarianceComponent {
   double multiplicity = 1.0;
   Eigen::MatrixXd loads;  ///< (noise rows, k) d row / d source, k sources an observation [m]
   double known = 0.0;     ///< the parameter, where the record itself gives it; else 0
+  /// (observations,) replicates of one number share their sources; empty: each has its own.
+  std::vector<int> source = {};
 };
 
 /// The measured items (poses), and what is known of each apart from the model.

@@ -46,6 +46,7 @@ class StructureSelection {
     if (progress_) progress_(done_, stage_);
   }
 
+  void whiten_by_known();
   void select_explanation(const Shortlist& shortlist);
   VarianceComponent whitened_by_found(VarianceComponent component) const;
   void whiten();
@@ -69,16 +70,37 @@ class StructureSelection {
   double effects_;  ///< that could be selected
   ActiveSet active_;
   Eigen::VectorXd weights_;
+  bool whitened_by_known_ = false;
   SelectionResult out_;
   double done_ = 0.0;
   std::string stage_;
 };
 
+/// Whitens the rows by the components that the record itself shows, as far as they matter given what
+/// the base model leaves: the search would take what replicates share of them for structure.
+void StructureSelection::whiten_by_known() {
+  const std::vector<VarianceComponent>& components = model_.variance_components();
+  Eigen::VectorXd ratios = Eigen::VectorXd::Zero(static_cast<Index>(components.size()));
+  const Eigen::VectorXd all = Eigen::VectorXd::Ones(model_.observations().count());
+  for (std::size_t f = 0; f < components.size(); ++f) {
+    if (!(components[f].known > 0.0)) continue;
+    const VarianceComponentFit fit =
+        fit_noise(components[f], model_.linearization(), working_point_.nuisance().basis, all,
+                  model_.noise(), out_.folds);
+    if (fit.share > Decisions::kMinKnownShare) ratios[static_cast<Index>(f)] = fit.ratio;
+  }
+  whitened_by_known_ = !ratios.isZero(0.0);
+  if (!whitened_by_known_) return;
+  working_point_.set_variance_ratios(ratios);
+  working_point_.fit({});
+}
+
 void StructureSelection::select_explanation(const Shortlist& shortlist) {
   working_point_.set_observation_weights(Eigen::VectorXd::Ones(model_.observations().count()));
   working_point_.fit({});
-  out_.lack_of_fit_before = working_point_.lack_of_fit(working_point_.nuisance());
   out_.base_noise = model_.noise();
+  whiten_by_known();
+  out_.lack_of_fit_before = working_point_.lack_of_fit(working_point_.nuisance());
   report_progress(shortlist.terms.empty() ? 0.2 : 0.5, "looking for causes");
   const Selection best =
       shortlist.terms.empty() ? selector_.select() : selector_.select_from(shortlist);
@@ -86,21 +108,41 @@ void StructureSelection::select_explanation(const Shortlist& shortlist) {
   weights_ = best.weights;
 }
 
-/// `component` in rows that are whitened by the covariance of those that were found.
+/// `component` in rows that are whitened by the covariance of those that were found. Of n
+/// replicates that share the sources of one of those only the mean is whitened by n times its
+/// covariance; each has 1 / n of its variance from that.
 VarianceComponent StructureSelection::whitened_by_found(VarianceComponent component) const {
+  if (out_.noise.empty()) return component;
   std::map<int, std::vector<Index>> rows;
   const Linearization& at = model_.linearization();
   for (Index m = 0; m < at.noise_rows; ++m) rows[at.observation[m]].push_back(m);
+  const Eigen::MatrixXd loads = component.loads;
+  component.loads.setZero(loads.rows(), 2 * loads.cols());
   for (const auto& [observation, own] : rows) {
     const auto count = static_cast<Index>(own.size());
-    Eigen::MatrixXd covariance = Eigen::MatrixXd::Identity(count, count);
+    Eigen::MatrixXd deviations = Eigen::MatrixXd::Identity(count, count), mean = deviations;
+    double replicates = 1.0;
     for (const VarianceComponentFit& fit : out_.noise) {
-      const Eigen::MatrixXd loads = model_.variance_components()[fit.term].loads(own, Eigen::all);
-      covariance += fit.ratio * loads * loads.transpose();
+      const VarianceComponent& found = model_.variance_components()[fit.term];
+      const Eigen::MatrixXd own_loads = found.loads(own, Eigen::all);
+      const Eigen::MatrixXd covariance = fit.ratio * own_loads * own_loads.transpose();
+      if (found.source.empty()) deviations += covariance;
+      const auto sharing = static_cast<double>(
+          found.source.empty()
+              ? 1
+              : std::ranges::count(found.source,
+                                   found.source[static_cast<std::size_t>(observation)]));
+      mean += sharing * covariance;
+      replicates = std::max(replicates, sharing);
     }
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(covariance);
-    const Eigen::MatrixXd loads = component.loads(own, Eigen::all);
-    component.loads(own, Eigen::all) = eigen.operatorInverseSqrt() * loads;
+    const auto whitened = [&](const Eigen::MatrixXd& covariance) -> Eigen::MatrixXd {
+      return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(covariance).operatorInverseSqrt() *
+             loads(own, Eigen::all);
+    };
+    component.loads(own, Eigen::seqN(0, loads.cols())) =
+        std::sqrt(1.0 / replicates) * whitened(mean);
+    component.loads(own, Eigen::seqN(loads.cols(), loads.cols())) =
+        std::sqrt(1.0 - 1.0 / replicates) * whitened(deviations);
   }
   return component;
 }
@@ -120,6 +162,11 @@ void StructureSelection::whiten() {
 /// A component that the record itself shows comes first; what is estimated is tested given it.
 void StructureSelection::fit_variance_components() {
   const std::vector<VarianceComponent>& components = model_.variance_components();
+  if (whitened_by_known_) {  // all are estimated anew, given the terms
+    working_point_.set_variance_ratios(
+        Eigen::VectorXd::Zero(static_cast<Index>(components.size())));
+    working_point_.fit(active_.terms);
+  }
   std::vector<int> order(components.size());
   std::iota(order.begin(), order.end(), 0);
   std::stable_partition(order.begin(), order.end(),

@@ -46,6 +46,21 @@ std::vector<int> ranks_of(const std::vector<int>& order) {
   return out;
 }
 
+/// Number of each row, equal where joint values were logged alike; empty where none are.
+std::vector<int> rounded_alike(const Measurement& m) {
+  std::map<std::vector<double>, int> numbers;
+  std::vector<int> out;
+  for (Index i = 0; i < m.rows(); ++i) {
+    std::vector<double> key(m.q.row(i).begin(), m.q.row(i).end());
+    key.push_back(m.weights[i]);
+    key.push_back(m.station[i]);
+    key.push_back(m.tool[i]);
+    out.push_back(numbers.emplace(std::move(key), static_cast<int>(numbers.size())).first->second);
+  }
+  if (numbers.size() == out.size()) out.clear();
+  return out;
+}
+
 }  // namespace
 
 bool has_whole_order(const EffectVariant& variant) {
@@ -144,6 +159,7 @@ void ArmModel::gather_variance_components() {
   variance_components_.push_back(
       {"quantisation", "joint values logged in steps", "step", "rad", 1.0, std::move(loads)});
   variance_components_.back().known = step;
+  if (m_.tracked) variance_components_.back().source = rounded_alike(m_);
 }
 
 void ArmModel::gather_terms(const Effects& effects) {
