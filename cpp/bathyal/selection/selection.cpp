@@ -59,6 +59,7 @@ class StructureSelection {
   void fill_evidence();
   void add_lack_of_fit(const std::vector<LackOfFit>& forward);
   void test_remainder();
+  void test_scatter(const NuisanceBasis& whole);
   void fill_alternatives();
   void fill_detectable();
 
@@ -76,8 +77,8 @@ class StructureSelection {
   std::string stage_;
 };
 
-/// Whitens the rows by the components that the record itself shows, as far as they matter given what
-/// the base model leaves: the search would take what replicates share of them for structure.
+/// Whitens the rows by the components that the record itself shows, as far as they matter given
+/// what the base model leaves: the search would take what replicates share of them for structure.
 void StructureSelection::whiten_by_known() {
   const std::vector<VarianceComponent>& components = model_.variance_components();
   Eigen::VectorXd ratios = Eigen::VectorXd::Zero(static_cast<Index>(components.size()));
@@ -171,6 +172,7 @@ void StructureSelection::fit_variance_components() {
   std::iota(order.begin(), order.end(), 0);
   std::stable_partition(order.begin(), order.end(),
                         [&](int f) { return components[f].known > 0.0; });
+  std::erase_if(order, [&](int f) { return components[f].lack_of_fit; });
   for (const int f : order) {
     const NuisanceBasis& whole = working_point_.nuisance(active_.terms);
     VarianceComponentFit fit = fit_noise(whitened_by_found(components[f]), model_.linearization(),
@@ -355,11 +357,31 @@ void StructureSelection::test_remainder() {
                 [](const Autocorrelation& a) { return a.p > Decisions::kBeyondNoise; });
   out_.pure_error = test_pure_error(model_, whole.basis, whole.dof, weights_);
   out_.pure_error.p = std::min(1.0, Decisions::kStructureTests * out_.pure_error.p);
-  // Two measures of the same.
+  test_scatter(whole);
+  // Measures of the same.
   double more = out_.autocorrelation.empty() ? 0.0 : out_.autocorrelation.front().explained;
   if (out_.pure_error.p <= Decisions::kBeyondNoise)
     more = std::max(more, out_.pure_error.explained);
+  if (!out_.scatter.empty()) more = std::max(more, out_.scatter.front().share * whole.dof);
   out_.unexplained += more;
+}
+
+/// Whether residuals scatter more where, and in the direction in which, something would move the
+/// tip: a cause may change from one observation to the next with what the record does not have.
+void StructureSelection::test_scatter(const NuisanceBasis& whole) {
+  const std::vector<VarianceComponent>& components = model_.variance_components();
+  const auto tests = static_cast<double>(std::ranges::count_if(
+      components, [](const VarianceComponent& component) { return component.lack_of_fit; }));
+  for (std::size_t f = 0; f < components.size(); ++f) {
+    if (!components[f].lack_of_fit) continue;
+    VarianceComponentFit fit = fit_noise(whitened_by_found(components[f]), model_.linearization(),
+                                         whole.basis, weights_, model_.noise());
+    fit.term = static_cast<int>(f);
+    fit.multiplicity = Decisions::kStructureTests * tests;
+    if (fit.p() <= Decisions::kBeyondNoise) out_.scatter.push_back(fit);
+  }
+  std::ranges::stable_sort(out_.scatter,
+                           [](const auto& a, const auto& b) { return a.gain > b.gain; });
 }
 
 void StructureSelection::fill_alternatives() {
