@@ -29,7 +29,8 @@ GravityLoads loads_of(const EffectData& data) {
 /// frames slide along the axes as neighbouring axes tilt. Where links have frames of their own, as
 /// those of a URDF, a joint's origin is the point of its axis next to the origin of the frame of
 /// the link that it moves; else that of the frame before its row. That of a sliding joint moves
-/// with its link, which is as long wherever it is slid to. The last link ends in the flange.
+/// with its link, which is as long wherever it is slid to; a column that extends is clamped where
+/// its slide is 0. The last link ends in the flange.
 class BeamAxes {
  public:
   explicit BeamAxes(const Arm& arm) {
@@ -67,7 +68,9 @@ class LinkCompliance final : public Effect {
         .description = "a link, or a column, that bends under what it carries",
         .formula =
             "end of the link: turn flexibility · |l| (M⊥ + l×F / 2), shift flexibility · |l| "
-            "(M⊥×l / 2 + (l×F)×l / 3); l from the joint's origin to the next one's (the flange), F "
+            "(M⊥×l / 2 + (l×F)×l / 3); l from the joint's origin to the next one's (the flange), "
+            "of "
+            "a column that extends longer by the value of its sliding joint, F "
             "and M force and moment there of all that lies beyond, flexibility 1 / (E I)",
         .source =
             "cantilever of Euler and Bernoulli, as in Timoshenko: Strength of materials, 1930; "
@@ -84,13 +87,17 @@ class LinkCompliance final : public Effect {
     if (!masses_known(*data.arm) && !data.has("payload")) return out;
     const GravityLoads loads = loads_of(data);
     for (int row = 0; row < static_cast<int>(data.arm->joints().size()); ++row) {
-      if (!differs(bend(data, loads, row))) continue;
-      constexpr double kOrdinaryFlexibility = 1e-5;
-      out.push_back({"link_compliance",
-                     data.arm->joints()[row].coordinate,
-                     {{"row", row}},
-                     {{"flexibility", "1/(N m²)", kOrdinaryFlexibility}},
-                     kBending});
+      const bool slides = data.arm->joints()[row].type == JointType::kPrismatic;
+      for (const bool extends : {false, true}) {
+        if ((extends && !slides) || !differs(bend(data, loads, row, extends))) continue;
+        constexpr double kOrdinaryFlexibility = 1e-5;
+        out.push_back({"link_compliance",
+                       data.arm->joints()[row].coordinate,
+                       {{"row", row}},
+                       {{"flexibility", "1/(N m²)", kOrdinaryFlexibility}},
+                       kBending});
+        if (extends) out.back().settings["extends"] = 1.0;
+      }
     }
     return out;
   }
@@ -98,19 +105,26 @@ class LinkCompliance final : public Effect {
   Perturbations perturbations(const EffectVariant& variant, const EffectData& data) const override {
     const auto rows = static_cast<Index>(data.arm->joints().size());
     const int row = index_of(variant, "row", rows);
-    return {{{PerturbationSite::kFrame, row + 1, bend(data, loads_of(data), row)}}};
+    const bool extends = variant.settings.contains("extends");
+    return {{{PerturbationSite::kFrame, row + 1, bend(data, loads_of(data), row, extends)}}};
   }
 
  private:
   /// (N, 6) shift and turn of the frame behind `row`, per flexibility.
-  static RowMatrix bend(const EffectData& data, const GravityLoads& loads, int row) {
+  static RowMatrix bend(const EffectData& data, const GravityLoads& loads, int row, bool extends) {
     RowMatrix out(data.rows(), 6);
     const BeamAxes axes(*data.arm);
-    const Vec3 at = axes.end[row], link = axes.beam[row];
-    const double length = link.norm();
+    const Vec3 at = axes.end[row];
+    const Joint& joint = data.arm->joints()[row];
     for (Index i = 0; i < data.rows(); ++i) {
       const Pose& to = loads.frames(i).world_from_row[row + 1];
       const Vec3 end = to * at;
+      Vec3 link = axes.beam[row];
+      if (extends) {
+        const Pose& from = loads.frames(i).world_from_row[row];
+        link += data.q(i, joint.coordinate) * (to.linear().transpose() * from.linear().col(2));
+      }
+      const double length = link.norm();
       // The link itself is link row + 1: the load at its end starts with the next one.
       const GravityLoad load = loads.beyond(i, static_cast<std::size_t>(row) + 2, end);
       const Vec3 force = to.linear().transpose() * load.force;
