@@ -122,7 +122,8 @@ class LinkCompliance final : public Effect {
       Vec3 link = axes.beam[row];
       if (extends) {
         const Pose& from = loads.frames(i).world_from_row[row];
-        link += data.q(i, joint.coordinate) * (to.linear().transpose() * from.linear().col(2));
+        link += (joint.multiplier * data.q(i, joint.coordinate) + joint.offset) *
+                (to.linear().transpose() * from.linear().col(2));
       }
       const double length = link.norm();
       // The link itself is link row + 1: the load at its end starts with the next one.

@@ -227,7 +227,10 @@ TEST(GravityEffects, LinksBendAsCantileversBetweenTheOriginsOfTheirJoints) {
                                 : origin_of_joint(scene.arm, q, static_cast<std::size_t>(row) + 1);
           // All in the base, turned at the end.
           Vec3 start = origin_of_joint(scene.arm, q, static_cast<std::size_t>(row));
-          if (slid) start += q[joints[row].coordinate] * frames[row].linear().col(2);
+          if (slid) {
+            const double value = joints[row].multiplier * q[joints[row].coordinate];
+            start += (value + joints[row].offset) * frames[row].linear().col(2);
+          }
           const Vec3 l = end - start;
           Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
           for (std::size_t k = static_cast<std::size_t>(row) + 2; k < bodies.size(); ++k) {
