@@ -25,37 +25,37 @@ GravityLoads loads_of(const EffectData& data) {
   return {data, GravityLoads::Bodies::kArm, payload_of(data)};
 }
 
-/// Where a link ends, in the frame behind the row of each joint, and begins, along the axis in the
-/// frame before it: at the origins of the joints. Rows do not determine them, since their frames
-/// slide along the axes as neighbouring axes tilt. Where links have frames of their own, as those
-/// of a URDF, a joint's origin is the point of its axis next to the origin of the frame of the link
-/// that it moves (of a sliding joint: while its value is 0); else that of the frame before its row.
-/// The last link ends in the flange.
-class LinkEnds {
+/// Links, each from its joint's origin to the next one's, which the rows do not determine: their
+/// frames slide along the axes as neighbouring axes tilt. Where links have frames of their own, as
+/// those of a URDF, a joint's origin is the point of its axis next to the origin of the frame of
+/// the link that it moves; else that of the frame before its row. That of a sliding joint moves
+/// with its link, which is as long wherever it is slid to; a column that extends is clamped where
+/// its slide is 0. The last link ends in the flange.
+class BeamAxes {
  public:
-  explicit LinkEnds(const Arm& arm) : flange_(arm.flange().translation()) {
+  explicit BeamAxes(const Arm& arm) {
     const std::vector<Link>& links = arm.links();
     const bool own_frames = std::any_of(links.begin() + 1, links.end(), [](const Link& link) {
       return link.row_from_link.matrix() != Pose::Identity().matrix();
     });
+    std::vector<Vec3> before, behind;  // origins, at value 0 of the joint
     for (std::size_t k = 0; k < arm.joints().size(); ++k) {
       const Joint& joint = arm.joints()[k];
-      const Vec3 origin =
-          row_pose(joint.row, joint.type, 0.0) * links[k + 1].row_from_link.translation();
-      along_axis_.push_back(own_frames ? origin.z() : 0.0);
+      const Pose pose = row_pose(joint.row, joint.type, 0.0);
+      const double along_axis =
+          own_frames ? (pose * links[k + 1].row_from_link.translation()).z() : 0.0;
+      before.push_back(along_axis * Vec3::UnitZ());
+      behind.push_back(pose.inverse() * before.back());
+    }
+    for (std::size_t k = 0; k < before.size(); ++k) {
+      end.push_back(k + 1 < before.size() ? before[k + 1] : arm.flange().translation());
+      beam.push_back(end.back() - behind[k]);
     }
   }
 
-  /// In the frame before the row.
-  Vec3 start(int row) const { return along_axis_[row] * Vec3::UnitZ(); }
-  /// In the frame behind the row.
-  Vec3 end(int row) const {
-    return row + 1 < static_cast<int>(along_axis_.size()) ? start(row + 1) : flange_;
-  }
-
- private:
-  std::vector<double> along_axis_;
-  Vec3 flange_;
+  // Of each row, in the frame behind it.
+  std::vector<Vec3> end;
+  std::vector<Vec3> beam;  ///< from its beginning to its end
 };
 
 class LinkCompliance final : public Effect {
@@ -68,7 +68,9 @@ class LinkCompliance final : public Effect {
         .description = "a link, or a column, that bends under what it carries",
         .formula =
             "end of the link: turn flexibility · |l| (M⊥ + l×F / 2), shift flexibility · |l| "
-            "(M⊥×l / 2 + (l×F)×l / 3); l from the joint's origin to the next one's (the flange), F "
+            "(M⊥×l / 2 + (l×F)×l / 3); l from the joint's origin to the next one's (the flange), "
+            "of "
+            "a column that extends longer by the value of its sliding joint, F "
             "and M force and moment there of all that lies beyond, flexibility 1 / (E I)",
         .source =
             "cantilever of Euler and Bernoulli, as in Timoshenko: Strength of materials, 1930; "
@@ -85,13 +87,17 @@ class LinkCompliance final : public Effect {
     if (!masses_known(*data.arm) && !data.has("payload")) return out;
     const GravityLoads loads = loads_of(data);
     for (int row = 0; row < static_cast<int>(data.arm->joints().size()); ++row) {
-      if (!differs(bend(data, loads, row))) continue;
-      constexpr double kOrdinaryFlexibility = 1e-5;
-      out.push_back({"link_compliance",
-                     data.arm->joints()[row].coordinate,
-                     {{"row", row}},
-                     {{"flexibility", "1/(N m²)", kOrdinaryFlexibility}},
-                     kBending});
+      const bool slides = data.arm->joints()[row].type == JointType::kPrismatic;
+      for (const bool extends : {false, true}) {
+        if ((extends && !slides) || !differs(bend(data, loads, row, extends))) continue;
+        constexpr double kOrdinaryFlexibility = 1e-5;
+        out.push_back({"link_compliance",
+                       data.arm->joints()[row].coordinate,
+                       {{"row", row}},
+                       {{"flexibility", "1/(N m²)", kOrdinaryFlexibility}},
+                       kBending});
+        if (extends) out.back().settings["extends"] = 1.0;
+      }
     }
     return out;
   }
@@ -99,20 +105,26 @@ class LinkCompliance final : public Effect {
   Perturbations perturbations(const EffectVariant& variant, const EffectData& data) const override {
     const auto rows = static_cast<Index>(data.arm->joints().size());
     const int row = index_of(variant, "row", rows);
-    return {{{PerturbationSite::kFrame, row + 1, bend(data, loads_of(data), row)}}};
+    const bool extends = variant.settings.contains("extends");
+    return {{{PerturbationSite::kFrame, row + 1, bend(data, loads_of(data), row, extends)}}};
   }
 
  private:
   /// (N, 6) shift and turn of the frame behind `row`, per flexibility.
-  static RowMatrix bend(const EffectData& data, const GravityLoads& loads, int row) {
+  static RowMatrix bend(const EffectData& data, const GravityLoads& loads, int row, bool extends) {
     RowMatrix out(data.rows(), 6);
-    const LinkEnds ends(*data.arm);
-    const Vec3 at = ends.end(row);  // in the frame behind the row
+    const BeamAxes axes(*data.arm);
+    const Vec3 at = axes.end[row];
+    const Joint& joint = data.arm->joints()[row];
     for (Index i = 0; i < data.rows(); ++i) {
-      const Pose& from = loads.frames(i).world_from_row[row];
       const Pose& to = loads.frames(i).world_from_row[row + 1];
       const Vec3 end = to * at;
-      const Vec3 link = to.linear().transpose() * (end - from * ends.start(row));
+      Vec3 link = axes.beam[row];
+      if (extends) {
+        const Pose& from = loads.frames(i).world_from_row[row];
+        link += (joint.multiplier * data.q(i, joint.coordinate) + joint.offset) *
+                (to.linear().transpose() * from.linear().col(2));
+      }
       const double length = link.norm();
       // The link itself is link row + 1: the load at its end starts with the next one.
       const GravityLoad load = loads.beyond(i, static_cast<std::size_t>(row) + 2, end);

@@ -33,8 +33,8 @@ struct Decisions {
   /// Corrected p-value up to which structure is beyond noise: the one such threshold.
   static constexpr double kBeyondNoise = 0.002;
   /// Kinds of tests that ask whether there is structure at all: lack-of-fit terms, the likeness of
-  /// near residuals, pure error. Each counts the others.
-  static constexpr double kStructureTests = 3.0;
+  /// near residuals, pure error, scatter along what may move. Each counts the others.
+  static constexpr double kStructureTests = 4.0;
   /// A lack-of-fit term is tried in place of selected terms from this gain on [log evidence].
   static constexpr double kReplacementGain = 2.0;
   /// Structure replaces none of more selected terms: so many approximate anything.

@@ -37,6 +37,10 @@ struct VarianceComponent {
   double multiplicity = 1.0;
   Eigen::MatrixXd loads;  ///< (noise rows, k) d row / d source, k sources an observation [m]
   double known = 0.0;     ///< the parameter, where the record itself gives it; else 0
+  /// (observations,) replicates of one number share their sources; empty: each has its own.
+  std::vector<int> source = {};
+  bool lack_of_fit = false;  ///< tests for structure, and is no cause
+  int joint = -1;            ///< of such a one
 };
 
 /// The measured items (poses), and what is known of each apart from the model.

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <utility>
 
 #include "bathyal/estimation/f_distribution.hpp"
 #include "bathyal/selection/decisions.hpp"
@@ -21,10 +23,10 @@ std::vector<std::vector<Index>> rows_of_observations(const Linearization& at, In
   return rows;
 }
 
-/// Squared residuals, rotated within each observation so that a variance component makes them
-/// independent.
+/// Squared residuals, rotated within each observation, and among replicates that share their
+/// sources, so that a variance component leaves them independent.
 struct Spread {
-  std::vector<int> observation;
+  std::vector<int> observation;  ///< of replicates that share their sources, the first
   std::vector<double> squares;   ///< corrected for leverage
   std::vector<double> variance;  ///< by the component, relative to the noise
   void add(int of, double square, double by_form) {
@@ -110,28 +112,48 @@ double log_likelihood(const Spread& s, double theta, double scale) {
   return sum;
 }
 
-/// Rows of observations that are not excluded.
+/// Those that are not excluded.
+std::vector<std::vector<int>> observations_by_source(const VarianceComponent& term,
+                                                     const Eigen::VectorXd& weights) {
+  std::map<int, std::vector<int>> sets;
+  for (int i = 0; i < static_cast<int>(weights.size()); ++i) {
+    if (weights[i] > 0.0) sets[term.source.empty() ? i : term.source[i]].push_back(i);
+  }
+  std::vector<std::vector<int>> out;
+  for (auto& [source, set] : sets) out.push_back(std::move(set));
+  return out;
+}
+
 Spread spread_of(const VarianceComponent& term, const Linearization& at,
                  const Eigen::MatrixXd& basis, const Eigen::VectorXd& weights, double noise) {
   constexpr double kLeastFree = 1e-3;  // 1 - leverage of a row that the model all but determines
   const Eigen::VectorXd unexplained_residual =
       at.residual - basis * (basis.transpose() * at.residual);
-  const std::vector<std::vector<Index>> rows = rows_of_observations(at, weights.size());
-  Spread out;
-  for (Index u = 0; u < weights.size(); ++u) {
-    if (!(weights[u] > 0.0)) continue;
-    std::vector<Index> own = rows[static_cast<std::size_t>(u)];
+  std::vector<std::vector<Index>> rows = rows_of_observations(at, weights.size());
+  for (std::vector<Index>& own : rows)
     std::erase_if(own, [&](Index row) { return row >= at.noise_rows; });
-    const Eigen::MatrixXd loads = term.loads(own, Eigen::all) / noise;
+  Spread out;
+  for (const std::vector<int>& set : observations_by_source(term, weights)) {
+    const Eigen::MatrixXd loads = term.loads(rows[set[0]], Eigen::all) / noise;
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(loads * loads.transpose());
     const Eigen::MatrixXd turn = eigen.eigenvectors().transpose();
-    const Eigen::VectorXd along = turn * unexplained_residual(own);
-    const Eigen::VectorXd taken = (turn * basis(own, Eigen::all)).rowwise().squaredNorm();
-    for (Index k = 0; k < along.size(); ++k) {
-      const double free = 1.0 - taken[k];
-      if (free < kLeastFree) continue;
-      out.add(static_cast<int>(u), along[k] * along[k] / free,
-              std::max(eigen.eigenvalues()[k], 0.0));
+    // Of n replicates the first combination is √n times their mean, the others have no part in it.
+    const auto count = static_cast<Index>(set.size());
+    const Eigen::MatrixXd combinations =
+        Eigen::HouseholderQR<Eigen::MatrixXd>(Eigen::VectorXd::Ones(count)).householderQ();
+    for (Index c = 0; c < count; ++c) {
+      Eigen::VectorXd along = Eigen::VectorXd::Zero(turn.rows());
+      Eigen::MatrixXd part = Eigen::MatrixXd::Zero(turn.rows(), basis.cols());
+      for (Index i = 0; i < count; ++i) {
+        along += combinations(i, c) * turn * unexplained_residual(rows[set[i]]);
+        part += combinations(i, c) * turn * basis(rows[set[i]], Eigen::all);
+      }
+      const double factor = c == 0 ? static_cast<double>(count) : 0.0;
+      for (Index k = 0; k < along.size(); ++k) {
+        const double free = 1.0 - part.row(k).squaredNorm();
+        if (free < kLeastFree) continue;
+        out.add(set[0], along[k] * along[k] / free, factor * std::max(eigen.eigenvalues()[k], 0.0));
+      }
     }
   }
   return out;

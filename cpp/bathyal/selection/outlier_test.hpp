@@ -40,14 +40,18 @@ struct VarianceComponentFit {
   double held_out_gain = 0.0;  ///< the same on held-out folds
   double share = 0.0;          ///< of the noise's variance
   double ratio = 0.0;          ///< Model::set_variance_ratios
+  double multiplicity = 1.0;   ///< of tests, for which `p` is corrected
   /// Of so large a gain in homoscedastic noise, of a variance that cannot be negative (Self and
   /// Liang 1987).
-  double p() const { return 0.5 * std::erfc(std::sqrt(std::max(gain, 0.0))); }
+  double p() const {
+    return std::min(1.0, 0.5 * multiplicity * std::erfc(std::sqrt(std::max(gain, 0.0))));
+  }
 };
 
-/// `basis` as above; `noise` of a position row [m]. `weights` are 0 or 1.
+/// `basis` as above; `noise` of a position row [m]. `weights` are 0 or 1. Without folds nothing is
+/// held out.
 VarianceComponentFit fit_noise(const VarianceComponent& term, const Linearization& at,
                                const Eigen::MatrixXd& basis, const Eigen::VectorXd& weights,
-                               double noise, const Folds& folds);
+                               double noise, const Folds& folds = {});
 
 }  // namespace bathyal::selection

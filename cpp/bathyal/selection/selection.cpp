@@ -46,6 +46,7 @@ class StructureSelection {
     if (progress_) progress_(done_, stage_);
   }
 
+  void whiten_by_known();
   void select_explanation(const Shortlist& shortlist);
   VarianceComponent whitened_by_found(VarianceComponent component) const;
   void whiten();
@@ -58,6 +59,7 @@ class StructureSelection {
   void fill_evidence();
   void add_lack_of_fit(const std::vector<LackOfFit>& forward);
   void test_remainder();
+  void test_scatter(const NuisanceBasis& whole);
   void fill_alternatives();
   void fill_detectable();
 
@@ -69,16 +71,37 @@ class StructureSelection {
   double effects_;  ///< that could be selected
   ActiveSet active_;
   Eigen::VectorXd weights_;
+  bool whitened_by_known_ = false;
   SelectionResult out_;
   double done_ = 0.0;
   std::string stage_;
 };
 
+/// Whitens the rows by the components that the record itself shows, as far as they matter given
+/// what the base model leaves: the search would take what replicates share of them for structure.
+void StructureSelection::whiten_by_known() {
+  const std::vector<VarianceComponent>& components = model_.variance_components();
+  Eigen::VectorXd ratios = Eigen::VectorXd::Zero(static_cast<Index>(components.size()));
+  const Eigen::VectorXd all = Eigen::VectorXd::Ones(model_.observations().count());
+  for (std::size_t f = 0; f < components.size(); ++f) {
+    if (!(components[f].known > 0.0)) continue;
+    const VarianceComponentFit fit =
+        fit_noise(components[f], model_.linearization(), working_point_.nuisance().basis, all,
+                  model_.noise(), out_.folds);
+    if (fit.share > Decisions::kMinKnownShare) ratios[static_cast<Index>(f)] = fit.ratio;
+  }
+  whitened_by_known_ = !ratios.isZero(0.0);
+  if (!whitened_by_known_) return;
+  working_point_.set_variance_ratios(ratios);
+  working_point_.fit({});
+}
+
 void StructureSelection::select_explanation(const Shortlist& shortlist) {
   working_point_.set_observation_weights(Eigen::VectorXd::Ones(model_.observations().count()));
   working_point_.fit({});
-  out_.lack_of_fit_before = working_point_.lack_of_fit(working_point_.nuisance());
   out_.base_noise = model_.noise();
+  whiten_by_known();
+  out_.lack_of_fit_before = working_point_.lack_of_fit(working_point_.nuisance());
   report_progress(shortlist.terms.empty() ? 0.2 : 0.5, "looking for causes");
   const Selection best =
       shortlist.terms.empty() ? selector_.select() : selector_.select_from(shortlist);
@@ -86,21 +109,41 @@ void StructureSelection::select_explanation(const Shortlist& shortlist) {
   weights_ = best.weights;
 }
 
-/// `component` in rows that are whitened by the covariance of those that were found.
+/// `component` in rows that are whitened by the covariance of those that were found. Of n
+/// replicates that share the sources of one of those only the mean is whitened by n times its
+/// covariance; each has 1 / n of its variance from that.
 VarianceComponent StructureSelection::whitened_by_found(VarianceComponent component) const {
+  if (out_.noise.empty()) return component;
   std::map<int, std::vector<Index>> rows;
   const Linearization& at = model_.linearization();
   for (Index m = 0; m < at.noise_rows; ++m) rows[at.observation[m]].push_back(m);
+  const Eigen::MatrixXd loads = component.loads;
+  component.loads.setZero(loads.rows(), 2 * loads.cols());
   for (const auto& [observation, own] : rows) {
     const auto count = static_cast<Index>(own.size());
-    Eigen::MatrixXd covariance = Eigen::MatrixXd::Identity(count, count);
+    Eigen::MatrixXd deviations = Eigen::MatrixXd::Identity(count, count), mean = deviations;
+    double replicates = 1.0;
     for (const VarianceComponentFit& fit : out_.noise) {
-      const Eigen::MatrixXd loads = model_.variance_components()[fit.term].loads(own, Eigen::all);
-      covariance += fit.ratio * loads * loads.transpose();
+      const VarianceComponent& found = model_.variance_components()[fit.term];
+      const Eigen::MatrixXd own_loads = found.loads(own, Eigen::all);
+      const Eigen::MatrixXd covariance = fit.ratio * own_loads * own_loads.transpose();
+      if (found.source.empty()) deviations += covariance;
+      const auto sharing = static_cast<double>(
+          found.source.empty()
+              ? 1
+              : std::ranges::count(found.source,
+                                   found.source[static_cast<std::size_t>(observation)]));
+      mean += sharing * covariance;
+      replicates = std::max(replicates, sharing);
     }
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(covariance);
-    const Eigen::MatrixXd loads = component.loads(own, Eigen::all);
-    component.loads(own, Eigen::all) = eigen.operatorInverseSqrt() * loads;
+    const auto whitened = [&](const Eigen::MatrixXd& covariance) -> Eigen::MatrixXd {
+      return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(covariance).operatorInverseSqrt() *
+             loads(own, Eigen::all);
+    };
+    component.loads(own, Eigen::seqN(0, loads.cols())) =
+        std::sqrt(1.0 / replicates) * whitened(mean);
+    component.loads(own, Eigen::seqN(loads.cols(), loads.cols())) =
+        std::sqrt(1.0 - 1.0 / replicates) * whitened(deviations);
   }
   return component;
 }
@@ -120,10 +163,16 @@ void StructureSelection::whiten() {
 /// A component that the record itself shows comes first; what is estimated is tested given it.
 void StructureSelection::fit_variance_components() {
   const std::vector<VarianceComponent>& components = model_.variance_components();
+  if (whitened_by_known_) {  // all are estimated anew, given the terms
+    working_point_.set_variance_ratios(
+        Eigen::VectorXd::Zero(static_cast<Index>(components.size())));
+    working_point_.fit(active_.terms);
+  }
   std::vector<int> order(components.size());
   std::iota(order.begin(), order.end(), 0);
   std::stable_partition(order.begin(), order.end(),
                         [&](int f) { return components[f].known > 0.0; });
+  std::erase_if(order, [&](int f) { return components[f].lack_of_fit; });
   for (const int f : order) {
     const NuisanceBasis& whole = working_point_.nuisance(active_.terms);
     VarianceComponentFit fit = fit_noise(whitened_by_found(components[f]), model_.linearization(),
@@ -308,11 +357,31 @@ void StructureSelection::test_remainder() {
                 [](const Autocorrelation& a) { return a.p > Decisions::kBeyondNoise; });
   out_.pure_error = test_pure_error(model_, whole.basis, whole.dof, weights_);
   out_.pure_error.p = std::min(1.0, Decisions::kStructureTests * out_.pure_error.p);
-  // Two measures of the same.
+  test_scatter(whole);
+  // Measures of the same.
   double more = out_.autocorrelation.empty() ? 0.0 : out_.autocorrelation.front().explained;
   if (out_.pure_error.p <= Decisions::kBeyondNoise)
     more = std::max(more, out_.pure_error.explained);
+  if (!out_.scatter.empty()) more = std::max(more, out_.scatter.front().share * whole.dof);
   out_.unexplained += more;
+}
+
+/// Whether residuals scatter more where, and in the direction in which, something would move the
+/// tip: a cause may change from one observation to the next with what the record does not have.
+void StructureSelection::test_scatter(const NuisanceBasis& whole) {
+  const std::vector<VarianceComponent>& components = model_.variance_components();
+  const auto tests = static_cast<double>(std::ranges::count_if(
+      components, [](const VarianceComponent& component) { return component.lack_of_fit; }));
+  for (std::size_t f = 0; f < components.size(); ++f) {
+    if (!components[f].lack_of_fit) continue;
+    VarianceComponentFit fit = fit_noise(whitened_by_found(components[f]), model_.linearization(),
+                                         whole.basis, weights_, model_.noise());
+    fit.term = static_cast<int>(f);
+    fit.multiplicity = Decisions::kStructureTests * tests;
+    if (fit.p() <= Decisions::kBeyondNoise) out_.scatter.push_back(fit);
+  }
+  std::ranges::stable_sort(out_.scatter,
+                           [](const auto& a, const auto& b) { return a.gain > b.gain; });
 }
 
 void StructureSelection::fill_alternatives() {

@@ -54,7 +54,9 @@ struct SelectionResult {
   /// Likeness of near residuals given the terms and `lack_of_fit`, beyond noise, most significant
   /// first.
   std::vector<Autocorrelation> autocorrelation;
-  PureErrorTest pure_error;                   ///< given the same
+  PureErrorTest pure_error;  ///< given the same
+  /// Lack-of-fit components of the remaining variance, beyond noise, most significant first.
+  std::vector<VarianceComponentFit> scatter;
   std::vector<AlternativeTerm> alternatives;  ///< by term, most likely first
   std::vector<LackOfFit> lack_of_fit_before;  ///< of the base model, most significant first
   std::vector<int> outliers;                  ///< observations excluded

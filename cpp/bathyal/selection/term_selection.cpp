@@ -2,6 +2,7 @@
 #include "bathyal/selection/term_selection.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "bathyal/selection/decisions.hpp"
@@ -133,25 +134,32 @@ std::vector<int> TermSelector::simplified(std::vector<int> terms) {
                                                     nuisance.dof, working_point_.num_threads());
       for (const int term : peaks(scanned, kPeaks)) others.push_back(term);
     }
-    if (others.empty()) continue;
-    std::vector<int> asked = terms;
-    asked.insert(asked.end(), others.begin(), others.end());
-    const CandidateSet candidates = working_point_.candidate_set(asked);
-    const auto now = candidates.evaluate(members_of(candidates, terms));
-    const std::vector<int> own = members_of(candidates, {terms[i]});
-    if (!now || own.empty()) continue;
-    double best = now->score - Decisions::kPreferredBonus;
-    int simpler = terms[i];
-    for (const int member : members_of(candidates, others)) {
-      if (candidates.width(member) >= candidates.width(own.front())) continue;
-      std::vector<int> with = rest;
-      with.push_back(candidates.term_index(member));
-      const auto fit = candidates.evaluate(members_of(candidates, with));
-      if (!fit || !(fit->score > best)) continue;
-      best = fit->score;
-      simpler = candidates.term_index(member);
+    // The best of those, between the points of its grid.
+    double best = -std::numeric_limits<double>::infinity();
+    int simpler = -1;
+    bool is_near = false;
+    for (int round = 0; round <= kFinerRounds && !others.empty(); ++round) {
+      std::vector<int> asked = terms;
+      asked.insert(asked.end(), others.begin(), others.end());
+      const CandidateSet candidates = working_point_.candidate_set(asked);
+      const auto now = candidates.evaluate(members_of(candidates, terms));
+      const std::vector<int> own = members_of(candidates, {terms[i]});
+      if (!now || own.empty()) break;
+      const int before = simpler;
+      for (const int member : members_of(candidates, others)) {
+        if (candidates.width(member) >= candidates.width(own.front())) continue;
+        std::vector<int> with = rest;
+        with.push_back(candidates.term_index(member));
+        const auto fit = candidates.evaluate(members_of(candidates, with));
+        if (!fit || !(fit->score > best)) continue;
+        best = fit->score;
+        simpler = candidates.term_index(member);
+      }
+      is_near = best > now->score - Decisions::kPreferredBonus;
+      if (simpler == before) break;
+      others = working_point_.refine(simpler);
     }
-    terms[i] = simpler;
+    if (is_near) terms[i] = simpler;
   }
   return terms;
 }

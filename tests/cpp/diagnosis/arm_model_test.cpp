@@ -218,8 +218,9 @@ TEST(ArmModel, RoundedJointsAreWhitened) {
   const auto [along, across] = along_and_across(arm_model, loads);
   EXPECT_GT(along, 4.0 * across);
 
-  Eigen::VectorXd ratios = Eigen::VectorXd::Zero(2);
-  ratios[1] = std::pow(kStep / 1e-4, 2);
+  Eigen::VectorXd ratios =
+      Eigen::VectorXd::Zero(static_cast<Index>(arm_model.variance_components().size()));
+  ratios.tail(1).setConstant(std::pow(kStep / 1e-4, 2));
   arm_model.set_variance_ratios(ratios);
   arm_model.fit({});
   const auto [along_then, across_then] = along_and_across(arm_model, loads);

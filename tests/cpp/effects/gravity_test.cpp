@@ -205,10 +205,16 @@ Vec3 origin_of_joint(const Arm& arm, const Eigen::VectorXd& q, std::size_t k) {
 TEST(GravityEffects, LinksBendAsCantileversBetweenTheOriginsOfTheirJoints) {
   const Scene scene(irregular_arm(3));
   const auto variants = variants_of("link_compliance", scene.data());
-  EXPECT_EQ(variants.size(), scene.arm.joints().size());
+  const auto& joints = scene.arm.joints();
+  const auto sliding = std::count_if(joints.begin(), joints.end(), [](const Joint& joint) {
+    return joint.type == JointType::kPrismatic;
+  });
+  EXPECT_EQ(variants.size(), joints.size() + static_cast<std::size_t>(sliding));
   for (const EffectVariant& v : variants) {
     const int row = static_cast<int>(v.settings.at("row"));
-    EXPECT_EQ(v.joint, scene.arm.joints()[row].coordinate);
+    EXPECT_EQ(v.joint, joints[row].coordinate);
+    // On a slide a link is as long wherever it is, or a column that extends.
+    const bool slid = joints[row].type == JointType::kPrismatic && !v.settings.contains("extends");
     expect_means(
         scene, v,
         [&](Index i, const Eigen::VectorXd& p) {
@@ -220,7 +226,12 @@ TEST(GravityEffects, LinksBendAsCantileversBetweenTheOriginsOfTheirJoints) {
           const Vec3 end = last ? Vec3((frames[row + 1] * scene.arm.flange()).translation())
                                 : origin_of_joint(scene.arm, q, static_cast<std::size_t>(row) + 1);
           // All in the base, turned at the end.
-          const Vec3 l = end - origin_of_joint(scene.arm, q, static_cast<std::size_t>(row));
+          Vec3 start = origin_of_joint(scene.arm, q, static_cast<std::size_t>(row));
+          if (slid) {
+            const double value = joints[row].multiplier * q[joints[row].coordinate];
+            start += (value + joints[row].offset) * frames[row].linear().col(2);
+          }
+          const Vec3 l = end - start;
           Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
           for (std::size_t k = static_cast<std::size_t>(row) + 2; k < bodies.size(); ++k) {
             const Vec3 weight = bodies[k].mass * gravity_at(scene, i);

@@ -261,12 +261,12 @@ TEST(ArmResiduals, DerivativesOfTrackedPosesAreTheirDifferences) {
 
 /// Other directions and sizes for each row.
 ArmResiduals::Whitening some_whitening(Index rows) {
-  auto out = std::make_shared<std::vector<Eigen::Matrix3d>>();
+  auto out = std::make_shared<ArmResiduals::RowWhitening>();
   RandomStream random(9);
   for (Index i = 0; i < rows; ++i) {
     const Vec3 load = 2.0 * Vec3(random.normal(), random.normal(), random.normal());
     const Eigen::Matrix3d covariance = Eigen::Matrix3d::Identity() + load * load.transpose();
-    out->push_back(
+    out->factors.push_back(
         Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance).operatorInverseSqrt());
   }
   return out;
@@ -279,6 +279,36 @@ TEST(ArmResiduals, DerivativesOfRowsThatAreWhitenedAreTheirDifferences) {
     system.set_row_whitening(some_whitening(all.m.rows()));
     check_by_differences(system, all);
   }
+}
+
+/// By the inverse of their whole covariance, of which the engine never makes a matrix.
+TEST(ArmResiduals, PosesWithAnErrorInCommonCostWhatTheirCovarianceSays) {
+  Everything all(true, Parametrization::kHayati);
+  ArmResiduals system(all.parameters, all.m, Criterion::kCentroid, false, 1);
+  const Index n = all.m.rows();
+  auto whitening = std::make_shared<ArmResiduals::RowWhitening>(*some_whitening(n));
+  const Eigen::Matrix3d factor = whitening->factors[2];
+  const Vec3 load(0.7, -1.1, 0.4);
+  whitening->factors[1] = whitening->factors[4] = factor;
+  whitening->shared.push_back({{1, 2, 4}, load * load.transpose()});
+  system.set_row_whitening(whitening);
+  check_by_differences(system, all);
+
+  Eigen::VectorXd residuals(system.rows());
+  system.evaluate(system.scaled(all.x).data(), residuals.data(), nullptr);
+  const Eigen::Matrix3Xd off = system.deviations(all.x);
+  const std::vector<int> poses{1, 2, 4};
+  Eigen::VectorXd errors(9);
+  Eigen::MatrixXd covariance = Eigen::MatrixXd::Identity(9, 9);
+  double whitened = 0.0;
+  for (Index i = 0; i < 3; ++i) {
+    errors.segment<3>(3 * i) = system.row_factor(poses[i]) * off.col(poses[i]);
+    whitened += residuals.segment<3>(3 * poses[i]).squaredNorm();
+    for (Index k = 0; k < 3; ++k) covariance.block<3, 3>(3 * i, 3 * k) += load * load.transpose();
+  }
+  const double expected = errors.dot(covariance.ldlt().solve(errors));
+  EXPECT_NEAR(whitened, expected, 1e-9 * expected);
+  EXPECT_LT((system.errors_of(residuals.head(3 * n)) - off).norm(), 1e-9 * off.norm());
 }
 
 TEST(ArmResiduals, APointLiesWhereWhitenedTouchesCostLeast) {

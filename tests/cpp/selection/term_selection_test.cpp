@@ -87,8 +87,8 @@ TEST(LackOfFitCheck, EachKindOfTestCountsTheOthers) {
   const double left = base.dof - found[0].width;
   const double noise = (residual.squaredNorm() - found[0].explained) / left;
   const double alone = f_tail(found[0].explained / found[0].width / noise, found[0].width, left);
-  ASSERT_LT(alone, 1.0 / 3.0);
-  EXPECT_NEAR(found[0].p, 3.0 * alone, 1e-9);
+  ASSERT_LT(alone, 1.0 / 4.0);
+  EXPECT_NEAR(found[0].p, 4.0 * alone, 1e-9);
 }
 
 TEST(LackOfFitCheck, FindsStructureThatTheTermsDoNotExplain) {

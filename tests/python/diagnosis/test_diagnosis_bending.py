@@ -43,8 +43,8 @@ def _vector(numbers: tuple[float, ...]) -> str:
     return " ".join(str(number) for number in numbers)
 
 
-def _urdf(folder: Path) -> Path:
-    """The arm as text; joint 1 moves link_1."""
+def _urdf(folder: Path, sliding: int = 0) -> Path:
+    """The arm as text; joint 1 moves link_1. `sliding`: of a joint that does not turn."""
     lines = ['<robot name="bent">', '<link name="link_0"/>']
     for k, ((origin, axis), mass, center) in enumerate(
         zip(_JOINTS, _MASSES, _CENTERS, strict=True), start=1
@@ -53,7 +53,8 @@ def _urdf(folder: Path) -> Path:
             f'<link name="link_{k}"><inertial><origin xyz="{_vector(center)}"/>',
             f'<mass value="{mass}"/><inertia ixx="0.1" iyy="0.1" izz="0.1" ixy="0" ixz="0" '
             'iyz="0"/></inertial></link>',
-            f'<joint name="turn_{k}" type="revolute"><parent link="link_{k - 1}"/>',
+            f'<joint name="joint_{k}" type="{"prismatic" if k == sliding else "revolute"}">',
+            f'<parent link="link_{k - 1}"/>',
             f'<child link="link_{k}"/><origin xyz="{_vector(origin)}"/>',
             f'<axis xyz="{_vector(axis)}"/>',
             '<limit lower="-3" upper="3" effort="99" velocity="1"/></joint>',
@@ -73,13 +74,18 @@ def _turn(axis: tuple[int, ...], angle: float) -> Array:
     return np.asarray(np.eye(3) + np.sin(angle) * cross + (1 - np.cos(angle)) * cross @ cross)
 
 
-def _tip(q: Array, bending: int, flexibility: float) -> Array:
+def _tip(q: Array, bending: int, flexibility: float, sliding: int = 0) -> Array:
     """In the base, of an arm whose link `bending` (1 … 6) is a beam between its joints' origins."""
     rotation, place = np.eye(3), np.zeros(3)
     origins, centers = [], []
-    for (origin, axis), center, angle in zip(_JOINTS, _CENTERS, q, strict=True):
+    for k, ((origin, axis), center, value) in enumerate(
+        zip(_JOINTS, _CENTERS, q, strict=True), start=1
+    ):
         place = place + rotation @ origin
-        rotation = rotation @ _turn(axis, angle)
+        if k == sliding:
+            place = place + rotation @ axis * value
+        else:
+            rotation = rotation @ _turn(axis, value)
         origins.append(place)
         centers.append(place + rotation @ np.array(center))
     tip = place + rotation @ np.array(_TIP)
@@ -122,3 +128,19 @@ def test_the_link_that_bends_is_named(
     low, high = found.parameters["flexibility"].interval
     width = high - low  # 3.9 standard errors: the truth is within 4 of the value
     assert low - width / 2 < flexibility < high + width / 2
+
+
+def test_a_link_on_a_slide_is_as_long_wherever_it_is(tmp_path: Path) -> None:
+    rng = np.random.default_rng(0)
+    q = rng.uniform(-1.6, 1.6, (200, 6))
+    q[:, 1] *= 0.3  # [m]
+    tips = np.array([_tip(row, bending=2, flexibility=1e-5, sliding=2) for row in q]) + _ROOM
+    arm = bathyal.Arm.from_urdf(_urdf(tmp_path, sliding=2), tip="tip")
+    report = bathyal.diagnose(
+        arm, bathyal.Tracked(q, tips + rng.normal(0, 0.3 * _NOISE, tips.shape))
+    )
+    [found] = report.effects
+    assert (found.name, found.joint) == ("link_compliance", 1)
+    assert report.verdict == "named", report.leftover
+    low, high = found.parameters["flexibility"].interval
+    assert low - (high - low) / 2 < 1e-5 < high + (high - low) / 2

@@ -58,3 +58,24 @@ def test_a_step_of_angles_is_none_of_sliding_joints() -> None:
     [effect] = report.effects
     assert effect.name == "quantisation"
     assert effect.size == pytest.approx(rounding, rel=0.15)
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_repeats_that_were_rounded_alike_are_no_structure(seed: int) -> None:
+    """Poses that are visited again have the rounding of the first time, and scatter about it by the
+    noise of the instrument alone: that is no lack of fit."""
+    arm = bathyal.arms.ur10()
+    rng = np.random.default_rng(seed)
+    q = np.repeat(rng.uniform(-1.5, 1.5, (60, 6)), 4, axis=0)
+    tips = arm.forward(q)[:, :3, 3] + rng.normal(0, 1e-4, (240, 3))
+    assert _names(arm, np.round(q / 2e-3) * 2e-3, tips) == ["quantisation"]
+
+
+def test_structure_is_seen_in_repeats_that_were_rounded_alike() -> None:
+    arm = bathyal.arms.ur10()
+    rng = np.random.default_rng(0)
+    q = np.repeat(rng.uniform(-1.5, 1.5, (60, 6)), 4, axis=0)
+    bent = 3e-3 * np.sin(5 * q[:, [0]]) * np.cos(4 * q[:, [2]]) * np.ones(3)
+    tips = arm.forward(q)[:, :3, 3] + bent + rng.normal(0, 1e-4, (240, 3))
+    report = bathyal.diagnose(arm, bathyal.Tracked(np.round(q / 2e-3) * 2e-3, tips))
+    assert report.verdict == "unknown"

@@ -258,7 +258,7 @@ class Reporter {
       named.description = about.description;
       named.parameters.push_back({about.parameter, about.unit, fit.parameter, fit.std,
                                   fit.parameter - t * fit.std, fit.parameter + t * fit.std});
-      named.size = std::sqrt(fit.share) * out_.noise;
+      named.size = std::sqrt(fit.share) * model_.mean_noise();
       named.gain = fit.held_out_gain;
       out_.effects.push_back(std::move(named));
     }
@@ -297,6 +297,11 @@ class Reporter {
         out_.unexplained = {{},   -1,    "more than repeats of a pose differ",
                             size, share, found_.pure_error.p};
       }
+      if (found_.autocorrelation.empty() && !found_.scatter.empty()) {
+        const selection::VarianceComponentFit& most = found_.scatter.front();
+        const selection::VarianceComponent& about = model_.variance_components()[most.term];
+        out_.unexplained = {{}, about.joint, about.description, size, share, most.p()};
+      }
       if (found_.autocorrelation.empty()) return;
       const selection::Autocorrelation& alike = found_.autocorrelation.front();
       const Dependence& context = model_.context(alike.context);
@@ -317,9 +322,10 @@ class Reporter {
   }
 
   void decide() {
-    const bool unexplained = (!found_.lack_of_fit.empty() || !found_.autocorrelation.empty() ||
-                              found_.pure_error.p <= selection::Decisions::kBeyondNoise) &&
-                             found_.unexplained > options_.leftover * found_.explained;
+    const bool unexplained =
+        (!found_.lack_of_fit.empty() || !found_.autocorrelation.empty() ||
+         !found_.scatter.empty() || found_.pure_error.p <= selection::Decisions::kBeyondNoise) &&
+        found_.unexplained > options_.leftover * found_.explained;
     if (unexplained) {
       out_.verdict = Verdict::kUnknown;
       return;

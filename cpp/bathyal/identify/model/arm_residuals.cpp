@@ -115,12 +115,12 @@ Eigen::Matrix3Xd ArmResiduals::centroids(const Eigen::VectorXd& x) const {
 
 Eigen::Matrix3d ArmResiduals::row_factor(Index row) const {
   const double size = std::sqrt(weight(row)) / noise_.position;
-  return size * (row_whitening_ ? (*row_whitening_)[row] : Eigen::Matrix3d::Identity());
+  return size * (row_whitening_ ? row_whitening_->factors[row] : Eigen::Matrix3d::Identity());
 }
 
 void ArmResiduals::whiten(Index row, double* error, double* jacobian, Index stride) const {
   if (!row_whitening_) return;
-  const Eigen::Matrix3d& root = (*row_whitening_)[row];
+  const Eigen::Matrix3d& root = row_whitening_->factors[row];
   Eigen::Map<Vec3> own(error);
   own = root * Vec3(own);
   for (Index c = 0; jacobian != nullptr && c < columns(); ++c) {
@@ -131,7 +131,7 @@ void ArmResiduals::whiten(Index row, double* error, double* jacobian, Index stri
 
 Eigen::Matrix3d ArmResiduals::precision(Index row) const {
   if (!row_whitening_) return weight(row) * Eigen::Matrix3d::Identity();
-  const Eigen::Matrix3d& root = (*row_whitening_)[row];
+  const Eigen::Matrix3d& root = row_whitening_->factors[row];
   return weight(row) * (root * root);
 }
 
@@ -259,6 +259,8 @@ void ArmResiduals::evaluate(const double* y, double* residuals, double* jacobian
       derive};
   if (m_.tracked) {
     compare_tracked(0, n, out);
+    scale_means(evaluation.residuals, -0.5);
+    if (derive) scale_means(evaluation.jacobian, -0.5);
   } else {
     find_centers(evaluation);
     if (in_place) compare_with_centers(evaluation);
@@ -349,7 +351,8 @@ void ArmResiduals::compare_planes(const ChainDerivatives& chain, Evaluation& eva
     const PlaneGuess& plane = chain.state().planes[index];
     double scale = std::sqrt(weight(i)) / noise_.position;
     // The mean over directions: with the normal alone, a change of the normal would count.
-    if (row_whitening_) scale /= std::sqrt((*row_whitening_)[i].inverse().squaredNorm() / 3.0);
+    if (row_whitening_)
+      scale /= std::sqrt(row_whitening_->factors[i].inverse().squaredNorm() / 3.0);
     const Vec3 tip = evaluation.tips.col(i);
     Eigen::RowVectorXd derivative(evaluation.derive ? columns() : 0);
     for (Index c = 0; c < derivative.size(); ++c) {

@@ -64,13 +64,26 @@ class ArmResiduals final : public ResidualModel {
   /// Position and orientation rows that are not excluded, less those that free points use up.
   Eigen::Array2d free_rows() const;
 
-  /// (N,) symmetric factors on position rows in addition to their weights, which whiten errors that
-  /// are larger along one direction than another; null: none. Centroid criterion only.
-  using Whitening = std::shared_ptr<const std::vector<Eigen::Matrix3d>>;
+  /// Whitens errors of position rows that are larger along one direction than another, in addition
+  /// to their weights. Centroid criterion only.
+  struct RowWhitening {
+    std::vector<Eigen::Matrix3d> factors;  ///< (N,) symmetric
+    /// Tracked poses that have an error in common, beyond those that `factors` whiten.
+    struct SharedError {
+      std::vector<int> poses;
+      Eigen::Matrix3d covariance;  ///< of the whitened rows
+    };
+    std::vector<SharedError> shared;
+  };
+  using Whitening = std::shared_ptr<const RowWhitening>;  ///< null: none
   void set_row_whitening(Whitening whitening) { row_whitening_ = std::move(whitening); }
   const Whitening& row_whitening() const { return row_whitening_; }
-  /// Factor of the error of a position row [1/m].
+  /// Factor of a position row without errors in common [1/m].
   Eigen::Matrix3d row_factor(Index row) const;
+  /// (3, N) errors [m] of whitened position rows, (3 N,).
+  Eigen::Matrix3Xd errors_of(const Eigen::VectorXd& whitened) const;
+  /// (N,) covariance of the error of each position row [m²].
+  std::vector<Eigen::Matrix3d> error_covariances() const;
 
   /// Also updates the noise of known distances and points that is due to the centroids at `x`.
   void set_noise(const Noise& noise, const Eigen::VectorXd& x);
@@ -120,6 +133,12 @@ class ArmResiduals final : public ResidualModel {
   Eigen::Matrix3Xd tips(const Eigen::VectorXd& x) const;
   /// A position row and its derivatives (null: none), `stride` from column to column.
   void whiten(Index row, double* error, double* jacobian, Index stride) const;
+  bool has_shared_errors() const { return row_whitening_ && !row_whitening_->shared.empty(); }
+  /// Of the poses in a set those that are not excluded.
+  std::vector<int> sharing(const RowWhitening::SharedError& error) const;
+  /// Multiplies the means of sets with errors in common, and their excluded poses, by (1 + n
+  /// covariance) to `power`: by -1/2 whitens, by 1/2 undoes it. `rows`: (3 N, columns).
+  void scale_means(Eigen::Ref<Eigen::MatrixXd> rows, double power) const;
   /// Of an error of a position row [1 / noise²].
   Eigen::Matrix3d precision(Index row) const;
   /// (points,) of their centroids.

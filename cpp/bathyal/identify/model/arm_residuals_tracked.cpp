@@ -32,8 +32,63 @@ void ArmResiduals::compare_tracked(Index begin, Index end, const TipRows& out) c
   if (m_.has_rotation()) weigh(out.rotations, out.rotation_jacobian, noise_.rotation);
 }
 
-/// Tracked poses are independent: their rows are computed, used and discarded chunk by chunk.
-/// `body(chunk, rows)` receives [J r] of a chunk, J in the units of the parameters.
+std::vector<int> ArmResiduals::sharing(const RowWhitening::SharedError& error) const {
+  std::vector<int> out = error.poses;
+  std::erase_if(out, [this](int pose) { return is_excluded(pose); });
+  return out;
+}
+
+/// n errors ε + s, of covariances 1 and C, are their mean, of 1 / n + C, and independent deviations
+/// from it, of covariance 1.
+void ArmResiduals::scale_means(Eigen::Ref<Eigen::MatrixXd> rows, double power) const {
+  if (!row_whitening_) return;
+  const auto factor = [power](const Eigen::Matrix3d& covariance) -> Eigen::Matrix3d {
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(covariance);
+    const Eigen::Matrix3d turn = eigen.eigenvectors();
+    return turn * (1.0 + eigen.eigenvalues().array()).pow(power).matrix().asDiagonal() *
+           turn.transpose();
+  };
+  for (const RowWhitening::SharedError& error : row_whitening_->shared) {
+    const std::vector<int> poses = sharing(error);
+    const auto count = static_cast<double>(poses.size());
+    Eigen::MatrixXd mean = Eigen::MatrixXd::Zero(3, rows.cols());
+    for (const int i : poses) mean += rows.middleRows(3 * i, 3) / count;
+    const Eigen::MatrixXd change = factor(count * error.covariance) * mean - mean;
+    for (const int i : poses) rows.middleRows(3 * i, 3) += change;
+    const Eigen::Matrix3d alone = factor(error.covariance);
+    for (const int i : error.poses) {
+      if (is_excluded(i)) rows.middleRows(3 * i, 3) = alone * rows.middleRows(3 * i, 3).eval();
+    }
+  }
+}
+
+Eigen::Matrix3Xd ArmResiduals::errors_of(const Eigen::VectorXd& whitened) const {
+  Eigen::MatrixXd rows = whitened;
+  scale_means(rows, 0.5);
+  Eigen::Matrix3Xd out(3, m_.rows());
+  for (Index i = 0; i < m_.rows(); ++i)
+    out.col(i) = row_factor(i).ldlt().solve(rows.block<3, 1>(3 * i, 0));
+  return out;
+}
+
+std::vector<Eigen::Matrix3d> ArmResiduals::error_covariances() const {
+  std::vector<Eigen::Matrix3d> out(static_cast<std::size_t>(m_.rows()),
+                                   Eigen::Matrix3d::Identity());
+  if (row_whitening_) {
+    for (const RowWhitening::SharedError& error : row_whitening_->shared) {
+      for (const int i : error.poses) out[i] += error.covariance;
+    }
+  }
+  for (Index i = 0; i < m_.rows(); ++i) {
+    const Eigen::Matrix3d unit = row_factor(i).inverse();
+    out[i] = unit * out[i] * unit.transpose();
+  }
+  return out;
+}
+
+/// Tracked poses without errors in common are independent: their rows are computed, used and
+/// discarded chunk by chunk. `body(chunk, rows)` receives [J r] of a chunk, J in the units of the
+/// parameters.
 template <class Body>
 void ArmResiduals::for_each_tracked(const double* y, bool derive, const Body& body) const {
   const Eigen::VectorXd x = values(Eigen::Map<const Eigen::VectorXd>(y, columns()));
@@ -58,7 +113,7 @@ void ArmResiduals::for_each_tracked(const double* y, bool derive, const Body& bo
 
 /// Sums of each chunk, added in order.
 Eigen::MatrixXd ArmResiduals::normal_equations(const double* y) const {
-  if (!m_.tracked) return ResidualModel::normal_equations(y);
+  if (!m_.tracked || has_shared_errors()) return ResidualModel::normal_equations(y);
   const Index width = columns() + 1;
   std::vector<Eigen::MatrixXd> parts((static_cast<std::size_t>(m_.rows()) - 1) / kPosesPerChunk +
                                      1);
@@ -75,7 +130,7 @@ Eigen::MatrixXd ArmResiduals::normal_equations(const double* y) const {
 }
 
 double ArmResiduals::cost(const double* y) const {
-  if (!m_.tracked) return ResidualModel::cost(y);
+  if (!m_.tracked || has_shared_errors()) return ResidualModel::cost(y);
   std::vector<double> parts((static_cast<std::size_t>(m_.rows()) - 1) / kPosesPerChunk + 1);
   for_each_tracked(y, false, [&](std::size_t chunk, const Eigen::MatrixXd& rows) {
     parts[chunk] = rows.squaredNorm();

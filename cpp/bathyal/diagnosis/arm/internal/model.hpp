@@ -137,6 +137,9 @@ class ArmModel final : public selection::Model {
   void gather_observations();
   void gather_terms(const Effects& effects);
   void gather_variance_components();
+  Eigen::MatrixXd joint_loads() const;
+  void gather_range_noise();
+  void gather_scatter(const Eigen::MatrixXd& by_joint);
   bool is_too_wide(const EffectVariant& variant);
   std::vector<std::vector<Perturbation>> perturbations_of(int term) const;
   std::vector<std::vector<Perturbation>> perturbations_of(const Effect& effect,

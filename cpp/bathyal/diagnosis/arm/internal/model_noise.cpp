@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <map>
 #include <memory>
 #include <utility>
 
@@ -44,20 +45,30 @@ void ArmModel::set_observation_weights(const Eigen::VectorXd& weights) {
   problem_.system->set_observation_weights(std::move(factors));
 }
 
-/// Whitens by the covariance 1 + Σ ratio · loads loadsᵀ of a pose's rows.
+/// Whitens by the covariance 1 + Σ ratio · loads loadsᵀ of a pose's rows; replicates that share the
+/// sources of a component have that part of the error in common.
 void ArmModel::set_variance_ratios(const Eigen::VectorXd& ratios) {
-  auto whitening =
-      std::make_shared<std::vector<Eigen::Matrix3d>>(static_cast<std::size_t>(m_.rows()));
+  auto whitening = std::make_shared<ArmResiduals::RowWhitening>();
+  std::map<int, ArmResiduals::RowWhitening::SharedError> shared;
   for (Index i = 0; i < m_.rows(); ++i) {
-    Eigen::Matrix3d covariance = Eigen::Matrix3d::Identity();
+    Eigen::Matrix3d own = Eigen::Matrix3d::Identity(), common = Eigen::Matrix3d::Zero();
+    int source = -1;
     for (Index f = 0; f < ratios.size(); ++f) {
-      const auto loads =
-          variance_components_[static_cast<std::size_t>(f)].loads.middleRows<3>(3 * i);
-      covariance += ratios[f] * (loads * loads.transpose());
+      const selection::VarianceComponent& component =
+          variance_components_[static_cast<std::size_t>(f)];
+      const auto loads = component.loads.middleRows<3>(3 * i);
+      const bool is_own = component.source.empty();
+      (is_own ? own : common) += ratios[f] * (loads * loads.transpose());
+      if (!is_own) source = component.source[static_cast<std::size_t>(i)];
     }
-    (*whitening)[i] =
-        Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance).operatorInverseSqrt();
+    whitening->factors.push_back(
+        Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(own).operatorInverseSqrt());
+    if (common.isZero(0.0)) continue;
+    ArmResiduals::RowWhitening::SharedError& error = shared[source];
+    error.poses.push_back(static_cast<int>(i));
+    error.covariance = whitening->factors.back() * common * whitening->factors.back();
   }
+  for (auto& [source, error] : shared) whitening->shared.push_back(std::move(error));
   problem_.system->set_row_whitening(std::move(whitening));
 }
 

@@ -87,28 +87,26 @@ Eigen::Matrix3Xd ArmModel::deviations() const {
 }
 
 Eigen::Matrix3Xd ArmModel::in_metres(const Eigen::VectorXd& rows) const {
-  Eigen::Matrix3Xd out(3, m_.rows());
-  for (Index i = 0; i < m_.rows(); ++i) {
-    out.col(i) = problem_.system->row_factor(i).ldlt().solve(rows.segment<3>(3 * i));
-  }
-  return out;
+  return problem_.system->errors_of(rows);
 }
 
 double ArmModel::mean_noise() const {
+  const std::vector<Eigen::Matrix3d> covariances = problem_.system->error_covariances();
   double variances = 0.0, rows = 0.0;
   for (Index i = 0; i < m_.rows(); ++i) {
     if (problem_.system->is_excluded(i)) continue;
-    variances += m_.weights[i] * problem_.system->row_factor(i).inverse().squaredNorm();
+    variances += m_.weights[i] * covariances[i].trace();
     rows += 3.0;
   }
   return rows > 0.0 ? std::sqrt(variances / rows) : noise();
 }
 
 double ArmModel::mean_unit() const {
+  const std::vector<Eigen::Matrix3d> covariances = problem_.system->error_covariances();
   double precisions = 0.0, rows = 0.0;
   for (Index i = 0; i < m_.rows(); ++i) {
     if (problem_.system->is_excluded(i)) continue;
-    precisions += problem_.system->row_factor(i).squaredNorm() / m_.weights[i];
+    precisions += covariances[i].inverse().trace() / m_.weights[i];
     rows += 3.0;
   }
   return rows > 0.0 ? std::sqrt(rows / precisions) : noise();
