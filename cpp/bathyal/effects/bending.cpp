@@ -79,7 +79,9 @@ class LinkCompliance final : public Effect {
         .extrapolates = true};
   }
   std::string describe(const EffectVariant& variant, const Arm& arm) const override {
-    return "the link that " + describe_joint(variant.joint, arm) + " moves bending under its load";
+    const bool extends = variant.settings.contains("extends");
+    return (extends ? "the column that " : "the link that ") + describe_joint(variant.joint, arm) +
+           (extends ? " extends" : " moves") + " bending under its load";
   }
 
   std::vector<EffectVariant> variants(const EffectData& data) const override {

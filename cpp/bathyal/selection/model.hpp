@@ -60,6 +60,15 @@ struct Linearization {
   std::vector<int> observation;  ///< (M,) of each row; -1: a row that is never held out
   Index noise_rows = 0;          ///< rows, from the first, that variance components apply to
   double constrained_dof = 0.0;  ///< rows that carry no degree of freedom
+
+  /// (observations,) the rows of each.
+  std::vector<std::vector<Index>> rows_by_observation(Index observations) const {
+    std::vector<std::vector<Index>> rows(static_cast<std::size_t>(observations));
+    for (Index r = 0; r < residual.size(); ++r) {
+      if (observation[r] >= 0) rows[observation[r]].push_back(r);
+    }
+    return rows;
+  }
 };
 
 /// Weight of an excluded observation: its rows stay in place and count for nothing.
@@ -110,6 +119,9 @@ class Model {
   /// (components,) their variances over that of the homoscedastic noise [per m²], from which the
   /// covariance of each row's errors follows. Takes effect with the next `fit`.
   virtual void set_variance_ratios(const Eigen::VectorXd& ratios) = 0;
+  /// (noise rows, k) d row / d source, as the rows are whitened by those covariances, of `loads` of
+  /// sources that no two observations share.
+  virtual Eigen::MatrixXd whitened(const Eigen::MatrixXd& loads) const = 0;
   /// Standard deviation of a position row at the current estimate [m].
   virtual double noise() const = 0;
 };

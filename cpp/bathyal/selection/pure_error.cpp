@@ -32,14 +32,11 @@ PureErrorTest test_pure_error(const Model& model, const Eigen::MatrixXd& basis, 
                               const Eigen::VectorXd& weights) {
   const Linearization& at = model.linearization();
   const Eigen::VectorXd residual = at.residual - basis * (basis.transpose() * at.residual);
-  std::vector<std::vector<Index>> rows(static_cast<std::size_t>(weights.size()));
-  for (Index m = 0; m < residual.size(); ++m) {
-    const int observation = at.observation[static_cast<std::size_t>(m)];
-    if (observation >= 0 && weights[observation] > 0.0)
-      rows[static_cast<std::size_t>(observation)].push_back(m);
-  }
+  const std::vector<std::vector<Index>> rows = at.rows_by_observation(weights.size());
   std::vector<Eigen::VectorXd> values(rows.size());
-  for (std::size_t i = 0; i < rows.size(); ++i) values[i] = residual(rows[i]);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (weights[static_cast<Index>(i)] > 0.0) values[i] = residual(rows[i]);
+  }
   const PureError pure = pure_error(values, model.observations().replicate);
   PureErrorTest out;
   out.dof = pure.dof;

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numeric>
 #include <optional>
 #include <set>
@@ -46,9 +45,8 @@ class StructureSelection {
     if (progress_) progress_(done_, stage_);
   }
 
-  void whiten_by_known();
   void select_explanation(const Shortlist& shortlist);
-  VarianceComponent whitened_by_found(VarianceComponent component) const;
+  VarianceComponentFit fitted(int component, const NuisanceBasis& whole, const Folds& folds) const;
   void whiten();
   void fit_variance_components();
   void drop_redundant_terms();
@@ -77,30 +75,11 @@ class StructureSelection {
   std::string stage_;
 };
 
-/// Whitens the rows by the components that the record itself shows, as far as they matter given
-/// what the base model leaves: the search would take what replicates share of them for structure.
-void StructureSelection::whiten_by_known() {
-  const std::vector<VarianceComponent>& components = model_.variance_components();
-  Eigen::VectorXd ratios = Eigen::VectorXd::Zero(static_cast<Index>(components.size()));
-  const Eigen::VectorXd all = Eigen::VectorXd::Ones(model_.observations().count());
-  for (std::size_t f = 0; f < components.size(); ++f) {
-    if (!(components[f].known > 0.0)) continue;
-    const VarianceComponentFit fit =
-        fit_noise(components[f], model_.linearization(), working_point_.nuisance().basis, all,
-                  model_.noise(), out_.folds);
-    if (fit.share > Decisions::kMinKnownShare) ratios[static_cast<Index>(f)] = fit.ratio;
-  }
-  whitened_by_known_ = !ratios.isZero(0.0);
-  if (!whitened_by_known_) return;
-  working_point_.set_variance_ratios(ratios);
-  working_point_.fit({});
-}
-
 void StructureSelection::select_explanation(const Shortlist& shortlist) {
   working_point_.set_observation_weights(Eigen::VectorXd::Ones(model_.observations().count()));
   working_point_.fit({});
   out_.base_noise = model_.noise();
-  whiten_by_known();
+  whitened_by_known_ = working_point_.whiten_by_known();
   out_.lack_of_fit_before = working_point_.lack_of_fit(working_point_.nuisance());
   report_progress(shortlist.terms.empty() ? 0.2 : 0.5, "looking for causes");
   const Selection best =
@@ -109,43 +88,15 @@ void StructureSelection::select_explanation(const Shortlist& shortlist) {
   weights_ = best.weights;
 }
 
-/// `component` in rows that are whitened by the covariance of those that were found. Of n
-/// replicates that share the sources of one of those only the mean is whitened by n times its
-/// covariance; each has 1 / n of its variance from that.
-VarianceComponent StructureSelection::whitened_by_found(VarianceComponent component) const {
-  if (out_.noise.empty()) return component;
-  std::map<int, std::vector<Index>> rows;
-  const Linearization& at = model_.linearization();
-  for (Index m = 0; m < at.noise_rows; ++m) rows[at.observation[m]].push_back(m);
-  const Eigen::MatrixXd loads = component.loads;
-  component.loads.setZero(loads.rows(), 2 * loads.cols());
-  for (const auto& [observation, own] : rows) {
-    const auto count = static_cast<Index>(own.size());
-    Eigen::MatrixXd deviations = Eigen::MatrixXd::Identity(count, count), mean = deviations;
-    double replicates = 1.0;
-    for (const VarianceComponentFit& fit : out_.noise) {
-      const VarianceComponent& found = model_.variance_components()[fit.term];
-      const Eigen::MatrixXd own_loads = found.loads(own, Eigen::all);
-      const Eigen::MatrixXd covariance = fit.ratio * own_loads * own_loads.transpose();
-      if (found.source.empty()) deviations += covariance;
-      const auto sharing = static_cast<double>(
-          found.source.empty()
-              ? 1
-              : std::ranges::count(found.source,
-                                   found.source[static_cast<std::size_t>(observation)]));
-      mean += sharing * covariance;
-      replicates = std::max(replicates, sharing);
-    }
-    const auto whitened = [&](const Eigen::MatrixXd& covariance) -> Eigen::MatrixXd {
-      return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(covariance).operatorInverseSqrt() *
-             loads(own, Eigen::all);
-    };
-    component.loads(own, Eigen::seqN(0, loads.cols())) =
-        std::sqrt(1.0 / replicates) * whitened(mean);
-    component.loads(own, Eigen::seqN(loads.cols(), loads.cols())) =
-        std::sqrt(1.0 - 1.0 / replicates) * whitened(deviations);
-  }
-  return component;
+/// `component`, fitted to the rows as they are whitened.
+VarianceComponentFit StructureSelection::fitted(int component, const NuisanceBasis& whole,
+                                                const Folds& folds) const {
+  VarianceComponent of_rows = model_.variance_components()[component];
+  if (!out_.noise.empty()) of_rows.loads = model_.whitened(of_rows.loads);
+  VarianceComponentFit fit = fit_variance_component(of_rows, model_.linearization(), whole.basis,
+                                                    weights_, model_.noise(), folds);
+  fit.term = component;
+  return fit;
 }
 
 /// Whitens the rows by the components that were found; the selection is updated for that.
@@ -175,9 +126,7 @@ void StructureSelection::fit_variance_components() {
   std::erase_if(order, [&](int f) { return components[f].lack_of_fit; });
   for (const int f : order) {
     const NuisanceBasis& whole = working_point_.nuisance(active_.terms);
-    VarianceComponentFit fit = fit_noise(whitened_by_found(components[f]), model_.linearization(),
-                                         whole.basis, weights_, model_.noise(), out_.folds);
-    fit.term = f;
+    VarianceComponentFit fit = fitted(f, whole, out_.folds);
     // A step that the record itself shows needs no evidence, only a share that matters. Where
     // residuals have structure, it is uneven too: then a component must be worth a term.
     const auto is_significant = [&] {
@@ -372,11 +321,9 @@ void StructureSelection::test_scatter(const NuisanceBasis& whole) {
   const std::vector<VarianceComponent>& components = model_.variance_components();
   const auto tests = static_cast<double>(std::ranges::count_if(
       components, [](const VarianceComponent& component) { return component.lack_of_fit; }));
-  for (std::size_t f = 0; f < components.size(); ++f) {
+  for (int f = 0; f < static_cast<int>(components.size()); ++f) {
     if (!components[f].lack_of_fit) continue;
-    VarianceComponentFit fit = fit_noise(whitened_by_found(components[f]), model_.linearization(),
-                                         whole.basis, weights_, model_.noise());
-    fit.term = static_cast<int>(f);
+    VarianceComponentFit fit = fitted(f, whole, {});
     fit.multiplicity = Decisions::kStructureTests * tests;
     if (fit.p() <= Decisions::kBeyondNoise) out_.scatter.push_back(fit);
   }

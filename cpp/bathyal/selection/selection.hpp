@@ -12,6 +12,7 @@
 #include "bathyal/selection/outlier_test.hpp"
 #include "bathyal/selection/pure_error.hpp"
 #include "bathyal/selection/term_selection.hpp"
+#include "bathyal/selection/variance_components.hpp"
 #include "bathyal/selection/working_point.hpp"
 
 namespace bathyal::selection {

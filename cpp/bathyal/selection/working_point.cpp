@@ -10,6 +10,7 @@
 #include "bathyal/estimation/orthogonal.hpp"
 #include "bathyal/selection/internal/grid_scan.hpp"
 #include "bathyal/selection/outlier_test.hpp"
+#include "bathyal/selection/variance_components.hpp"
 
 namespace bathyal::selection {
 
@@ -39,6 +40,22 @@ void WorkingPoint::fit(const std::vector<int>& terms) {
   before_.reset();
   last_.reset();
   model_.fit(terms);
+}
+
+bool WorkingPoint::whiten_by_known() {
+  const std::vector<VarianceComponent>& components = model_.variance_components();
+  Eigen::VectorXd ratios = Eigen::VectorXd::Zero(static_cast<Index>(components.size()));
+  const Eigen::VectorXd all = Eigen::VectorXd::Ones(model_.observations().count());
+  for (std::size_t f = 0; f < components.size(); ++f) {
+    if (!(components[f].known > 0.0)) continue;
+    const VarianceComponentFit fit = fit_variance_component(components[f], model_.linearization(),
+                                                            nuisance().basis, all, model_.noise());
+    if (fit.share > Decisions::kMinKnownShare) ratios[static_cast<Index>(f)] = fit.ratio;
+  }
+  if (ratios.isZero(0.0)) return false;
+  set_variance_ratios(ratios);
+  fit({});
+  return true;
 }
 
 void WorkingPoint::restore(const Model::Checkpoint& checkpoint) {

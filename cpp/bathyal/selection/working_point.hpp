@@ -46,6 +46,10 @@ class WorkingPoint {
     model_.set_observation_weights(weights);
   }
   void set_variance_ratios(const Eigen::VectorXd& ratios) { model_.set_variance_ratios(ratios); }
+  /// Whitens the rows of the base model by the components that the record itself shows, as far as
+  /// they matter given what it leaves; returns whether any does. Without that a search would take
+  /// what replicates share of them for structure.
+  bool whiten_by_known();
   /// Terms of a scan between `term` and its neighbours, made on demand.
   std::vector<int> refine(int term) { return model_.refine(term); }
 

@@ -309,6 +309,25 @@ TEST(ArmResiduals, PosesWithAnErrorInCommonCostWhatTheirCovarianceSays) {
   const double expected = errors.dot(covariance.ldlt().solve(errors));
   EXPECT_NEAR(whitened, expected, 1e-9 * expected);
   EXPECT_LT((system.errors_of(residuals.head(3 * n)) - off).norm(), 1e-9 * off.norm());
+
+  // Sources of each pose's own, alike in poses that were rounded alike.
+  Eigen::MatrixXd loads = Eigen::MatrixXd::Random(3 * n, 2);
+  for (const int pose : poses) loads.middleRows<3>(3 * pose) = loads.middleRows<3>(3);
+  const Eigen::MatrixXd whitened_loads = system.whitened(loads);
+  Eigen::MatrixXd unwhiten(3 * n, 3 * n);
+  for (Index k = 0; k < 3 * n; ++k)
+    unwhiten.col(k) = system.errors_of(Eigen::VectorXd::Unit(3 * n, k)).reshaped();
+  const Eigen::MatrixXd whiten = unwhiten.inverse() * system.noise().position;
+  for (const Index pose : {0, 1, 2}) {  // the first shares nothing
+    Eigen::Matrix3d by_hand = Eigen::Matrix3d::Zero();
+    for (Index other = 0; other < n; ++other) {
+      const Eigen::MatrixXd moved =
+          whiten.block<3, 3>(3 * pose, 3 * other) * loads.middleRows<3>(3 * other);
+      by_hand += moved * moved.transpose() / system.weight(other);
+    }
+    const Eigen::MatrixXd own = whitened_loads.middleRows<3>(3 * pose);
+    EXPECT_LT((own * own.transpose() - by_hand).norm(), 1e-9 * by_hand.norm());
+  }
 }
 
 TEST(ArmResiduals, APointLiesWhereWhitenedTouchesCostLeast) {

@@ -69,6 +69,7 @@ class LinearModel final : public Model {
   void restore(const Checkpoint&) override {}
   void set_observation_weights(const Eigen::VectorXd&) override {}
   void set_variance_ratios(const Eigen::VectorXd&) override {}
+  Eigen::MatrixXd whitened(const Eigen::MatrixXd& loads) const override { return loads; }
   double noise() const override { return 1e-3; }
 
  private:

@@ -76,44 +76,5 @@ TEST(Outliers, AreTakenBackWhenTheyAreNoneAnyMore) {
             without);
 }
 
-/// Three rows an observation, noise of 1 in all directions and of `size` along one of each.
-TEST(VarianceComponents, AreEstimatedAlongTheirDirections) {
-  constexpr double kSize = 0.5, kNoise = 1e-3;
-  Linearization at;
-  VarianceComponent along{"", "", "size", "m", 1.0, Eigen::MatrixXd(3 * kObservations, 1)};
-  at.residual.resize(3 * kObservations);
-  RandomStream random(6);
-  Folds folds{{}, 5, ""};
-  for (Index u = 0; u < kObservations; ++u) {
-    const Eigen::Vector3d load(random.normal(), 3.0 * random.normal(), 2.0 * random.normal());
-    const double source = random.normal();
-    along.loads.middleRows<3>(3 * u) = kNoise * load;
-    for (Index k = 0; k < 3; ++k) {
-      at.residual[3 * u + k] = random.normal() + kSize * source * load[k];
-      at.observation.push_back(static_cast<int>(u));
-    }
-    folds.fold_of.push_back(static_cast<int>(u % 5));
-  }
-  at.noise_rows = 3 * kObservations;
-  const Eigen::MatrixXd basis = Eigen::VectorXd::Ones(3 * kObservations).normalized();
-  const Eigen::VectorXd all = Eigen::VectorXd::Ones(kObservations);
-  const VarianceComponentFit found = fit_noise(along, at, basis, all, kNoise, folds);
-  EXPECT_NEAR(found.parameter, kSize, 3.0 * found.std);
-  EXPECT_LT(found.std, 0.2 * kSize);
-  EXPECT_NEAR(std::sqrt(found.ratio) * kNoise, kSize, 0.15);
-  EXPECT_GT(found.held_out_gain, 0.0);
-
-  // An isotropic component of the same variance fits worse.
-  VarianceComponent around = along;
-  around.loads = Eigen::MatrixXd::Zero(3 * kObservations, 3);
-  for (Index u = 0; u < kObservations; ++u) {
-    around.loads.middleRows<3>(3 * u).diagonal().setConstant(
-        along.loads.middleRows<3>(3 * u).norm() / std::sqrt(3.0));
-  }
-  const VarianceComponentFit other = fit_noise(around, at, basis, all, kNoise, folds);
-  EXPECT_GT(found.gain, other.gain + 5.0);
-  EXPECT_GT(found.held_out_gain, other.held_out_gain + 5.0);
-}
-
 }  // namespace
 }  // namespace bathyal::selection

@@ -49,6 +49,7 @@ class ManyRows final : public Model {
   void restore(const Checkpoint&) override {}
   void set_observation_weights(const Eigen::VectorXd&) override {}
   void set_variance_ratios(const Eigen::VectorXd&) override {}
+  Eigen::MatrixXd whitened(const Eigen::MatrixXd& loads) const override { return loads; }
   double noise() const override { return 1.0; }
 
   /// Log evidence where a column of its own explains each row of the excluded observation.

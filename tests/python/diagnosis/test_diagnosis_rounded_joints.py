@@ -74,8 +74,8 @@ def test_repeats_that_were_rounded_alike_are_no_structure(seed: int) -> None:
 def test_structure_is_seen_in_repeats_that_were_rounded_alike() -> None:
     arm = bathyal.arms.ur10()
     rng = np.random.default_rng(0)
-    q = np.repeat(rng.uniform(-1.5, 1.5, (60, 6)), 4, axis=0)
-    bent = 3e-3 * np.sin(5 * q[:, [0]]) * np.cos(4 * q[:, [2]]) * np.ones(3)
+    q = np.repeat(rng.uniform(-1.5, 1.5, (120, 6)), 2, axis=0)
+    bent = 2e-3 * np.sin(5 * q[:, [0]]) * np.cos(4 * q[:, [2]]) * np.ones(3)
     tips = arm.forward(q)[:, :3, 3] + bent + rng.normal(0, 1e-4, (240, 3))
     report = bathyal.diagnose(arm, bathyal.Tracked(np.round(q / 2e-3) * 2e-3, tips))
     assert report.verdict == "unknown"

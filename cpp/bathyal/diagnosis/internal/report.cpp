@@ -293,16 +293,17 @@ class Reporter {
     const double size = std::sqrt(found_.unexplained / rows) * model_.mean_unit();
     const double share = found_.base_squares > 0.0 ? found_.unexplained / found_.base_squares : 0.0;
     if (found_.lack_of_fit.empty()) {
-      if (found_.pure_error.p <= selection::Decisions::kBeyondNoise) {
-        out_.unexplained = {{},   -1,    "more than repeats of a pose differ",
-                            size, share, found_.pure_error.p};
+      if (found_.autocorrelation.empty()) {
+        if (!found_.scatter.empty()) {
+          const selection::VarianceComponentFit& most = found_.scatter.front();
+          const selection::VarianceComponent& about = model_.variance_components()[most.term];
+          out_.unexplained = {{}, about.joint, about.description, size, share, most.p()};
+        } else if (found_.pure_error.p <= selection::Decisions::kBeyondNoise) {
+          out_.unexplained = {{},   -1,    "more than repeats of a pose differ",
+                              size, share, found_.pure_error.p};
+        }
+        return;
       }
-      if (found_.autocorrelation.empty() && !found_.scatter.empty()) {
-        const selection::VarianceComponentFit& most = found_.scatter.front();
-        const selection::VarianceComponent& about = model_.variance_components()[most.term];
-        out_.unexplained = {{}, about.joint, about.description, size, share, most.p()};
-      }
-      if (found_.autocorrelation.empty()) return;
       const selection::Autocorrelation& alike = found_.autocorrelation.front();
       const Dependence& context = model_.context(alike.context);
       out_.unexplained = {context,

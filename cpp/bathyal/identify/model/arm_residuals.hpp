@@ -82,6 +82,9 @@ class ArmResiduals final : public ResidualModel {
   Eigen::Matrix3d row_factor(Index row) const;
   /// (3, N) errors [m] of whitened position rows, (3 N,).
   Eigen::Matrix3Xd errors_of(const Eigen::VectorXd& whitened) const;
+  /// (3 N, k) derivatives of whitened position rows by sources that no two poses share, from those
+  /// of rows that are not.
+  Eigen::MatrixXd whitened(const Eigen::MatrixXd& loads) const;
   /// (N,) covariance of the error of each position row [m²].
   std::vector<Eigen::Matrix3d> error_covariances() const;
 

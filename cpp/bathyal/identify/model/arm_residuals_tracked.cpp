@@ -32,6 +32,21 @@ void ArmResiduals::compare_tracked(Index begin, Index end, const TipRows& out) c
   if (m_.has_rotation()) weigh(out.rotations, out.rotation_jacobian, noise_.rotation);
 }
 
+namespace {
+
+Eigen::Matrix3d power_of(const Eigen::Matrix3d& covariance, double power) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(covariance);
+  const Eigen::Matrix3d turn = eigen.eigenvectors();
+  return turn * eigen.eigenvalues().array().pow(power).matrix().asDiagonal() * turn.transpose();
+}
+
+/// Of the mean of `count` errors, one for each pose and one that all share.
+Eigen::Matrix3d mean_factor(const Eigen::Matrix3d& shared, double count, double power) {
+  return power_of(Eigen::Matrix3d::Identity() + count * shared, power);
+}
+
+}  // namespace
+
 std::vector<int> ArmResiduals::sharing(const RowWhitening::SharedError& error) const {
   std::vector<int> out = error.poses;
   std::erase_if(out, [this](int pose) { return is_excluded(pose); });
@@ -42,24 +57,42 @@ std::vector<int> ArmResiduals::sharing(const RowWhitening::SharedError& error) c
 /// from it, of covariance 1.
 void ArmResiduals::scale_means(Eigen::Ref<Eigen::MatrixXd> rows, double power) const {
   if (!row_whitening_) return;
-  const auto factor = [power](const Eigen::Matrix3d& covariance) -> Eigen::Matrix3d {
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(covariance);
-    const Eigen::Matrix3d turn = eigen.eigenvectors();
-    return turn * (1.0 + eigen.eigenvalues().array()).pow(power).matrix().asDiagonal() *
-           turn.transpose();
-  };
   for (const RowWhitening::SharedError& error : row_whitening_->shared) {
     const std::vector<int> poses = sharing(error);
     const auto count = static_cast<double>(poses.size());
     Eigen::MatrixXd mean = Eigen::MatrixXd::Zero(3, rows.cols());
     for (const int i : poses) mean += rows.middleRows(3 * i, 3) / count;
-    const Eigen::MatrixXd change = factor(count * error.covariance) * mean - mean;
+    const Eigen::MatrixXd change = mean_factor(error.covariance, count, power) * mean - mean;
     for (const int i : poses) rows.middleRows(3 * i, 3) += change;
-    const Eigen::Matrix3d alone = factor(error.covariance);
+    const Eigen::Matrix3d alone = mean_factor(error.covariance, 1.0, power);
     for (const int i : error.poses) {
       if (is_excluded(i)) rows.middleRows(3 * i, 3) = alone * rows.middleRows(3 * i, 3).eval();
     }
   }
+}
+
+/// Of n poses with an error in common each has 1 / n of its variance from their mean, which is
+/// whitened more than what is about it.
+Eigen::MatrixXd ArmResiduals::whitened(const Eigen::MatrixXd& loads) const {
+  Eigen::MatrixXd about = loads;
+  if (!row_whitening_) return about;
+  for (Index i = 0; i < m_.rows(); ++i)
+    about.middleRows(3 * i, 3) = row_whitening_->factors[i] * loads.middleRows(3 * i, 3);
+  if (!has_shared_errors()) return about;
+  Eigen::MatrixXd mean = Eigen::MatrixXd::Zero(loads.rows(), loads.cols());
+  for (const RowWhitening::SharedError& error : row_whitening_->shared) {
+    const auto count = static_cast<double>(sharing(error).size());
+    for (const int i : error.poses) {
+      const double others = is_excluded(i) ? 1.0 : count;
+      mean.middleRows(3 * i, 3) = std::sqrt(1.0 / others) *
+                                  mean_factor(error.covariance, others, -0.5) *
+                                  about.middleRows(3 * i, 3);
+      about.middleRows(3 * i, 3) *= std::sqrt(1.0 - 1.0 / others);
+    }
+  }
+  Eigen::MatrixXd out(loads.rows(), 2 * loads.cols());
+  out << mean, about;
+  return out;
 }
 
 Eigen::Matrix3Xd ArmResiduals::errors_of(const Eigen::VectorXd& whitened) const {

@@ -57,6 +57,7 @@ class ArmModel final : public selection::Model {
   void restore(const Checkpoint& checkpoint) override;
   void set_observation_weights(const Eigen::VectorXd& weights) override;
   void set_variance_ratios(const Eigen::VectorXd& ratios) override;
+  Eigen::MatrixXd whitened(const Eigen::MatrixXd& loads) const override;
   double noise() const override { return problem_.system->noise().position; }
 
   const ArmFit& geometry() const { return fit_; }
