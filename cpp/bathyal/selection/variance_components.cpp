@@ -128,13 +128,13 @@ Spread spread_of(const VarianceComponent& term, const Linearization& at,
     for (Index k = 0; k < loads.rows(); ++k) {
       const Eigen::VectorXd direction = eigen.eigenvectors().col(k);
       Eigen::VectorXd along(count);
-      Eigen::MatrixXd part(count, basis.cols());
+      Eigen::MatrixXd part(basis.cols(), count);
       for (Index i = 0; i < count; ++i) {
         along[i] = direction.dot(unexplained_residual(rows[set[i]]));
-        part.row(i) = direction.transpose() * basis(rows[set[i]], Eigen::all);
+        part.col(i) = basis(rows[set[i]], Eigen::all).transpose() * direction;
       }
       along = combinations.transpose() * along;
-      const Eigen::VectorXd taken = (combinations.transpose() * part).rowwise().squaredNorm();
+      const Eigen::VectorXd taken = (part * combinations).colwise().squaredNorm();
       for (Index c = 0; c < count; ++c) {
         const double free = 1.0 - taken[c];
         if (free < kLeastFree) continue;
