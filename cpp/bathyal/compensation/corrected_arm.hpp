@@ -52,13 +52,13 @@ struct CorrectedInverse {
 /// physics with known arguments (Effect::extrapolates) is evaluated as within. Any other is held at
 /// its value in the nearest row; a harmonic or curve along its joint, whose extrapolation is
 /// undetermined, goes over from there to its average over the training data within half of its
-/// period. What shares its joint and its alias group with an effect that is held was fitted
-/// together with it, and is held too. The geometry was estimated together with the effects, so that
-/// omitting them would give larger errors. An effect whose argument is unknown (NaN, a session
-/// without training data) is omitted, as if the arm did not have it. Where all effects are omitted
-/// the result is that of the rigid arm, to the last bit. Every result reports the use of each
-/// effect. An effect that depends on changes from row to row (EffectInfo::by_difference) has no
-/// bounds.
+/// period, or within the width of the stretch of training data at that edge where that is less.
+/// What shares its joint and its alias group with an effect that is held was fitted together with
+/// it, and is held too. The geometry was estimated together with the effects, so that omitting them
+/// would give larger errors. An effect whose argument is unknown (NaN, a session without training
+/// data) is omitted, as if the arm did not have it. Where all effects are omitted the result is
+/// that of the rigid arm, to the last bit. Every result reports the use of each effect. An effect
+/// that depends on changes from row to row (EffectInfo::by_difference) has no bounds.
 ///
 /// Covariates, each (N, k) or one row for all: an effect that requires a missing one is omitted
 /// when no covariates are given at all, and is an error when some are. `payload` defaults to 0 kg,

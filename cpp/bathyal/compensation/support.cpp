@@ -186,6 +186,15 @@ bool Support::leave_gaps(double period, RowMatrix& q) const {
   return moved;
 }
 
+double Support::stretch_around(double value, double period, Index joint) const {
+  double low = joints.low[joint], high = joints.high[joint];
+  for (const Gap& gap : gaps_wider_than(period, joint)) {
+    if (gap.high <= value) low = gap.high;
+    if (gap.low >= value) high = std::min(high, gap.low);
+  }
+  return high - low;
+}
+
 Eigen::VectorXd Support::training_values(Index joint, double period, Index count) const {
   const std::vector<Gap> wide = gaps_wider_than(period, joint);
   double width = joints.high[joint] - joints.low[joint];

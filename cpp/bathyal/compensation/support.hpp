@@ -49,6 +49,11 @@ struct Support {
   /// was in one.
   bool leave_gaps(double period, RowMatrix& q) const;
 
+  /// Width of the stretch of training data of a joint, between gaps wider than `period`, around
+  /// `value`.
+  /// \pre `value` is in the range of the joint and in no such gap
+  double stretch_around(double value, double period, Index joint) const;
+
   /// Values evenly spaced over the training data of a joint: its range without gaps wider than
   /// `period`.
   Eigen::VectorXd training_values(Index joint, double period, Index count) const;

@@ -73,6 +73,12 @@ CandidateSet::CandidateSet(const Eigen::MatrixXd& basis, const Eigen::VectorXd& 
   xtr_ = stack_.transpose() * residual_;
 }
 
+double CandidateSet::share_outside(int one, int other) const {
+  if (width(one) > width(other)) std::swap(one, other);
+  const Eigen::MatrixXd within = columns(other).transpose() * columns(one);
+  return 1.0 - within.colwise().squaredNorm().minCoeff();
+}
+
 std::vector<Index> CandidateSet::columns_of(std::span<const int> members) const {
   std::vector<Index> out;
   for (const int m : members) {

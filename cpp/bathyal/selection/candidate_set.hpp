@@ -45,6 +45,8 @@ class CandidateSet {
   auto columns(int member) const {
     return stack_.middleCols(members_[member].first, members_[member].width);
   }
+  /// Largest share of the squares of the narrower one's columns outside the span of the other's.
+  double share_outside(int one, int other) const;
   /// (W,) of all members' columns in turn.
   const Eigen::VectorXd& prior_precision() const { return prior_precision_; }
   double total() const { return total_; }  ///< residual sum of squares of the base model

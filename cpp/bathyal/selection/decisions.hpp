@@ -23,6 +23,10 @@ struct Decisions {
   static constexpr double kFarBehind = 20.0;
   /// An alternative that is less likely than a selected term by more is not reported.
   static constexpr double kMaxLogOddsDeficit = 20.0;
+  /// With a smaller share of its squared length outside the span of another term of its alias
+  /// group, a term has the same shape: the odds between the two stay below ten up to an effect of
+  /// fifty of its standard deviations.
+  static constexpr double kSameShape = 0.002;
   /// With a smaller share of its squared length outside the span of its alias group, a term is a
   /// combination of the others there, and not selected with them.
   static constexpr double kMinShareInAliasGroup = 0.1;

@@ -333,7 +333,10 @@ void StructureSelection::test_scatter(const NuisanceBasis& whole) {
 
 void StructureSelection::fill_alternatives() {
   if (active_.terms.empty()) return;
-  for (const int term : active_.terms) selector_.add_candidate(term);
+  for (const int term : active_.terms) {
+    selector_.add_candidate(term);
+    selector_.add_kin(term);
+  }
   const CandidateSet candidates = working_point_.candidate_set(selector_.candidates());
   for (const Alternative& alternative :
        find_alternatives(candidates, members_of(candidates, active_.terms))) {

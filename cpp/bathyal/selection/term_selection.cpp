@@ -39,6 +39,17 @@ void TermSelector::add_candidate(int term) {
   }
 }
 
+/// Whether they are peaks of their scan or not.
+void TermSelector::add_kin(int term) {
+  const Term own = working_point_.term(term);
+  const std::vector<Term>& all = working_point_.model().terms();
+  for (int other = 0; other < static_cast<int>(all.size()); ++other) {
+    if (all[other].preferred && all[other].effect != own.effect &&
+        all[other].alias_group == own.alias_group)
+      add_candidate(other);
+  }
+}
+
 /// The peaks of each scan given the active set.
 void TermSelector::add_peaks(const NuisanceBasis& nuisance) {
   for (const std::vector<int>& family : working_point_.model().scans()) {

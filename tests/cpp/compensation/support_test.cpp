@@ -210,7 +210,7 @@ TEST(CorrectedArm, GoesOverFromTheEdgeToTheAverageWithoutAJump) {
   EXPECT_GT(std::abs(moved(0, 0) - moved(4, 0)), 1e-4);
 }
 
-TEST(CorrectedArm, ALoneRowInAGapTeachesNothingFarFromIt) {
+TEST(CorrectedArm, ALoneRowInAGapTeachesNothingNearIt) {
   const Arm arm = ur10e();
   RowMatrix training_q(102, arm.size());
   for (Index i = 0; i < 51; ++i) {
@@ -222,10 +222,13 @@ TEST(CorrectedArm, ALoneRowInAGapTeachesNothingFarFromIt) {
   more << training_q, RowMatrix::Constant(1, arm.size(), 0.1);
   const std::vector<FoundEffect> found{waves(arm)[0], waves(arm)[1]};
   const CorrectedArm one(arm, found, without), other(arm, found, support_of(more, {}));
-  const JointMatrix q = JointMatrix::Constant(1, arm.size(), 0.55);
-  EXPECT_FALSE(within(one.effect_uses(view_of(q)))(0, 0));
-  EXPECT_FALSE(within(other.effect_uses(view_of(q)))(0, 0));
-  EXPECT_LT(difference(one.forward(view_of(q)).poses, other.forward(view_of(q)).poses), 1e-12);
+  for (const double near : {0.101, 0.15, 0.55}) {
+    const JointMatrix q = JointMatrix::Constant(1, arm.size(), near);
+    EXPECT_FALSE(within(one.effect_uses(view_of(q)))(0, 0));
+    EXPECT_FALSE(within(other.effect_uses(view_of(q)))(0, 0));
+    EXPECT_LT(difference(one.forward(view_of(q)).poses, other.forward(view_of(q)).poses), 1e-12)
+        << near;
+  }
 }
 
 TEST(CorrectedArm, IsRigidWhereEverythingIsLeftOut) {
@@ -302,6 +305,10 @@ TEST(Support, KnowsItsGaps) {
   EXPECT_TRUE(
       support.training_values(0, 0.5, 2).isApprox(column({0.101 + 0.596, 0.899}).col(0), 1e-12))
       << support.training_values(0, 0.5, 2);
+  EXPECT_EQ(support.stretch_around(0.6, 0.3, 0), 0.0);
+  EXPECT_EQ(support.stretch_around(0.0, 0.5, 0), 0.004);
+  EXPECT_EQ(support.stretch_around(0.8, 0.5, 0), 0.4);
+  EXPECT_EQ(support.stretch_around(0.8, 0.7, 0), 1.0);
   EXPECT_NO_THROW(support.check(2));
   support.gaps[0][1].low = 0.5;
   EXPECT_THROW(support.check(2), std::invalid_argument);

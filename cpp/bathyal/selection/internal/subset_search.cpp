@@ -196,6 +196,15 @@ double fit_quality(const SetFit& fit, double rows) {
   return out;
 }
 
+/// Descriptions of one curve are no alternatives of each other. A scale is another cause than a
+/// wave, and where a joint hardly moves a wave of any whole order has its shape.
+bool is_alternative(const CandidateSet& candidates, int other, int member) {
+  const Term &a = candidates.term(other), &b = candidates.term(member);
+  if (a.alias_group != b.alias_group) return true;
+  return a.effect != b.effect && (!a.combinable || (a.preferred && !b.combinable)) &&
+         candidates.share_outside(other, member) < Decisions::kSameShape;
+}
+
 std::vector<Alternative> find_alternatives(const CandidateSet& candidates,
                                            const std::vector<int>& set) {
   std::vector<Alternative> out;
@@ -212,8 +221,7 @@ std::vector<Alternative> find_alternatives(const CandidateSet& candidates,
     for (const int m : best_of(scores, candidates.size())) {
       if (scores[m] + multiplicity(m) < own - Decisions::kMaxLogOddsDeficit) continue;
       const std::string& alias_group = candidates.term(m).alias_group;
-      if (alias_group == candidates.term(set[i]).alias_group ||
-          ++asked[alias_group] > kAskedOfAliasGroup)
+      if (!is_alternative(candidates, m, set[i]) || ++asked[alias_group] > kAskedOfAliasGroup)
         continue;
       const auto fit = candidates.evaluate(with(rest, m));
       if (!fit) continue;

@@ -10,7 +10,7 @@ namespace bathyal::selection {
 /// A member of the best set, and a candidate that could take its place.
 struct Alternative {
   int member = 0;       ///< of the set
-  int replacement = 0;  ///< of another alias group
+  int replacement = 0;  ///< another cause
   double odds = 0.0;    ///< likelihood ratio to the set, complexity penalized
 };
 
@@ -28,8 +28,8 @@ std::vector<int> beam_search(const CandidateSet& candidates, const SetSearchOpti
 std::vector<int> stepwise_search(const CandidateSet& candidates, std::vector<int> start,
                                  const SetSearchOptions& options = {});
 
-/// The best candidate of each other alias group in each member's place, most likely first. Odds
-/// leave out multiplicity, which cannot distinguish two terms that explain the same.
+/// The best candidate of each alias group that is another cause in each member's place, most likely
+/// first. Odds leave out multiplicity, which cannot distinguish two terms that explain the same.
 std::vector<Alternative> find_alternatives(const CandidateSet& candidates,
                                            const std::vector<int>& set);
 
