@@ -12,7 +12,6 @@ import argparse
 import sys
 import time
 from collections.abc import Callable
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -22,11 +21,8 @@ import bathyal
 from tests.simulated_cases.arm_draws import CATALOGUE
 from tests.simulated_cases.arms import SimArm, pose
 from tests.support.diagnose_peer import PlainSearch
+from tests.support.real_arms import ARMS, ur10
 
-HERE = Path(__file__).parent
-
-SERIES_A = "arms/ipa-ur10/Series_A/measurements_grid.csv"
-JOINTS = ["shoulder_pan", "shoulder_lift", "elbow", "wrist_1", "wrist_2", "wrist_3"]
 NOISE = 1e-4  # per axis [m]
 HIDDEN = (2, 3.0, 4e-4, -3e-4)  # joint, order, cos, sin: a harmonic of the elbow
 COUNTS = (500, 1000, 2000, 4000, 8000)
@@ -143,27 +139,35 @@ def growth() -> str:
     return "\n".join(lines)
 
 
-def real(file: Path) -> str:
-    if not file.exists():
-        return f"\nThe recording of a real arm was left out: {file.name} is not there.\n"
-    data = bathyal.read_tracked(
-        file,
-        joints=[f"{name}_joint" for name in JOINTS],
-        unit="rad",
-        position=["measurement_x", "measurement_y", "measurement_z"],
-        position_unit="mm",
+def real() -> str:
+    """Sessions by themselves and together, each with the tracker where it stood."""
+    if not ARMS.exists():
+        return "\nThe recordings of a real arm were left out: the shared data is not here.\n"
+    sessions = [ur10(series) for series in "CBA"]
+    together = bathyal.Tracked(
+        np.vstack([one.q for one in sessions]),
+        np.vstack([one.position for one in sessions]),
+        station=np.repeat(range(3), [len(one) for one in sessions]),
     )
-    seconds, report = timed(lambda: bathyal.diagnose(bathyal.arms.ur10(), data))
-    return (
-        f"\nIPA's UR10, series A, {len(data)} poses, positions, two threads: **{seconds:.0f} s** "
-        f"(goal 60 s), verdict {report.verdict}, {len(report.effects)} causes.\n"
-    )
+    lines = [
+        "\n| IPA's UR10, positions, two threads | poses | s | goal | verdict | causes |",
+        "|---|---|---|---|---|---|",
+    ]
+    for name, data, goal in (
+        ("series A", sessions[2], 60),
+        ("series A, B and C together, a station each", together, 120),
+    ):
+        seconds, report = timed(lambda data=data: bathyal.diagnose(bathyal.arms.ur10(), data))
+        lines.append(
+            f"| {name} | {len(data):,} | {seconds:.0f} | {goal} | {report.verdict} "
+            f"| {len(report.effects)} |"
+        )
+    return "\n".join(lines) + "\n"
 
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--rounds", type=int, default=3)
-    parser.add_argument("--data", type=Path, default=HERE.parents[2] / "shared" / "data")
     options = parser.parse_args()
     print("## Diagnosis against a plain search with SciPy\n")
     print(
@@ -173,7 +177,7 @@ def main() -> None:
     )
     print(beside_scipy(options.rounds))
     print(growth())
-    print(real(options.data / SERIES_A))
+    print(real())
     print(f"SciPy {scipy.__version__}, numpy {np.__version__}.")
 
 

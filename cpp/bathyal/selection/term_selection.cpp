@@ -42,11 +42,10 @@ void TermSelector::add_candidate(int term) {
 /// Whether they are peaks of their scan or not.
 void TermSelector::add_kin(int term) {
   const Term own = working_point_.term(term);
+  if (own.combinable) return;
   const std::vector<Term>& all = working_point_.model().terms();
   for (int other = 0; other < static_cast<int>(all.size()); ++other) {
-    if (all[other].preferred && all[other].effect != own.effect &&
-        all[other].alias_group == own.alias_group)
-      add_candidate(other);
+    if (all[other].preferred && all[other].alias_group == own.alias_group) add_candidate(other);
   }
 }
 

@@ -42,7 +42,8 @@ class TermSelector {
   /// Library terms that enter the candidate set.
   const std::vector<int>& candidates() const { return candidates_; }
   void add_candidate(int term);
-  /// Other effects' terms of the alias group of `term` that are plausible by themselves.
+  /// Those of its alias group with which `term` may not be combined and that are plausible by
+  /// themselves.
   void add_kin(int term);
 
  private:
