@@ -140,7 +140,7 @@ def growth() -> str:
 
 
 def real() -> str:
-    """Sessions by themselves and together, each with the tracker where it stood."""
+    """One session, and three together, each with a base of its own."""
     if not ARMS.exists():
         return "\nThe recordings of a real arm were left out: the shared data is not here.\n"
     sessions = [ur10(series) for series in "CBA"]

@@ -32,7 +32,7 @@ def test_in_a_narrow_range_a_scale_may_be_a_wave(hidden: str, seed: int) -> None
 
 
 @pytest.mark.parametrize("hidden", ["scale", "wave"])
-def test_in_a_wide_range_they_are_told_apart(hidden: str) -> None:
+def test_in_a_wide_range_the_data_separate_them(hidden: str) -> None:
     report = diagnosed(2.0, hidden, 0)
     assert report.verdict == "named"
     name = {"scale": "joint_scale", "wave": "joint_harmonic"}[hidden]
