@@ -12,7 +12,7 @@ namespace bathyal {
 namespace {
 
 constexpr double kRealLimit = 2.78, kImaginaryLimit = 2.83;  // of the Runge–Kutta method
-constexpr double kCreep = 0.01;      // speed at which friction has √½ of its force [m/s]
+constexpr double kCreep = 0.01;     // speed at which friction has √½ of its force [m/s]
 constexpr double kSlipRate = 50.0;  // at most so fast does friction bring a slip to rest [1/s]
 
 /// Share of a ball that lies below a level `height` above its middle.

@@ -212,7 +212,8 @@ TEST(Receiver, NoiseComparesWithAPulseAsItDoesInTheSea) {
               per_metre * 0.75 / (density * options.bandwidth), 1e-12 / density);
   options.pulse = PulseModel::kChirp;
   EXPECT_NEAR(sample / noise_intensity(options, kSoundSpeed),
-              per_metre * (0.5 * kSoundSpeed / options.bandwidth) * 1e-3 / density, 1e-10 / density);
+              per_metre * (0.5 * kSoundSpeed / options.bandwidth) * 1e-3 / density,
+              1e-10 / density);
 }
 
 /// Turbulence, ships, wind and molecules: at 1 kHz, 5 m/s and shipping 0.5 the terms are
