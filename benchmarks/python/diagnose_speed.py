@@ -150,17 +150,20 @@ def real() -> str:
         station=np.repeat(range(3), [len(one) for one in sessions]),
     )
     lines = [
-        "\n| IPA's UR10, positions, two threads | poses | s | goal | verdict | causes |",
-        "|---|---|---|---|---|---|",
+        "\n| IPA's UR10, positions, two threads | poses | s | goal | verdict | causes | "
+        "held out: geometry [mm] | with what is named | floor |",
+        "|---|---|---|---|---|---|---|---|---|",
     ]
     for name, data, goal in (
         ("series A", sessions[2], 60),
         ("series A, B and C together, a station each", together, 120),
     ):
         seconds, report = timed(lambda data=data: bathyal.diagnose(bathyal.arms.ur10(), data))
+        held = report.held_out
         lines.append(
             f"| {name} | {len(data):,} | {seconds:.0f} | {goal} | {report.verdict} "
-            f"| {len(report.effects)} |"
+            f"| {len(report.effects)} | {1e3 * held.rms_before:.3f} | {1e3 * held.rms_after:.3f} "
+            f"| {1e3 * held.noise:.3f} |"
         )
     return "\n".join(lines) + "\n"
 

@@ -342,17 +342,9 @@ CorrectedArm::Contribution CorrectedArm::contribution(std::size_t effect, const 
   });
   const int joint = found.variant.joint;
   if (joint < 0 || !std::isfinite(periods_[effect])) return out;
-  // From the value at the edge to the average within half a period, so that the tip does not jump.
-  // A narrow stretch of training data behind the edge carries no farther than it is wide: the value
-  // at a single pose is not determined.
-  const double period = periods_[effect];
-  Eigen::ArrayXd share = Eigen::ArrayXd::Ones(count);
-  for (Index i = 0; i < count; ++i) {
-    const double edge = near(i, joint), beyond_edge = std::abs(rows.query.q(i, joint) - edge);
-    if (out.use[i] != EffectUse::kHeld || beyond_edge == 0.0) continue;
-    const double reach = std::min(0.5 * period, support_.stretch_around(edge, period, joint));
-    share[i] = std::max(1.0 - beyond_edge / reach, 0.0);
-  }
+  // From the value at the edge to the average, so that the tip does not jump.
+  const Eigen::ArrayXd share = support_.edge_weights(
+      rows.query.q.col(joint).array(), near.col(joint).array(), periods_[effect], joint);
   for_each_pair(found, out.perturbations, average(effect),
                 [&](RowMatrix& values, const RowMatrix& mean) {
                   for (Index i = 0; i < count; ++i) {

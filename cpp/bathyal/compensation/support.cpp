@@ -186,13 +186,22 @@ bool Support::leave_gaps(double period, RowMatrix& q) const {
   return moved;
 }
 
-double Support::stretch_around(double value, double period, Index joint) const {
-  double low = joints.low[joint], high = joints.high[joint];
-  for (const Gap& gap : gaps_wider_than(period, joint)) {
-    if (gap.high <= value) low = gap.high;
-    if (gap.low >= value) high = std::min(high, gap.low);
+Eigen::ArrayXd Support::edge_weights(const Eigen::Ref<const Eigen::ArrayXd>& values,
+                                     const Eigen::Ref<const Eigen::ArrayXd>& edges, double period,
+                                     Index joint) const {
+  const std::vector<Gap> wide = gaps_wider_than(period, joint);
+  Eigen::ArrayXd weights = Eigen::ArrayXd::Ones(values.size());
+  for (Index i = 0; i < values.size(); ++i) {
+    const double beyond = std::abs(values[i] - edges[i]);
+    if (beyond == 0.0) continue;
+    // The stretch of training data that ends at the edge lies between two gaps.
+    const auto next = std::lower_bound(wide.begin(), wide.end(), edges[i],
+                                       [](const Gap& gap, double edge) { return gap.low < edge; });
+    const double low = next == wide.begin() ? joints.low[joint] : std::prev(next)->high;
+    const double high = next == wide.end() ? joints.high[joint] : next->low;
+    weights[i] = std::max(1.0 - beyond / std::min(0.5 * period, high - low), 0.0);
   }
-  return high - low;
+  return weights;
 }
 
 Eigen::VectorXd Support::training_values(Index joint, double period, Index count) const {

@@ -49,10 +49,13 @@ struct Support {
   /// was in one.
   bool leave_gaps(double period, RowMatrix& q) const;
 
-  /// Width of the stretch of training data of a joint, between gaps wider than `period`, around
-  /// `value`.
-  /// \pre `value` is in the range of the joint and in no such gap
-  double stretch_around(double value, double period, Index joint) const;
+  /// (N,) at `values` of a joint, the nearest of which in the training data are `edges`: how far
+  /// the value of a curve there still counts, against its average. 1 at the edge, falling to 0
+  /// within half of `period`, or within the width of the training data behind the edge where that
+  /// is less: a single pose does not determine a curve.
+  Eigen::ArrayXd edge_weights(const Eigen::Ref<const Eigen::ArrayXd>& values,
+                              const Eigen::Ref<const Eigen::ArrayXd>& edges, double period,
+                              Index joint) const;
 
   /// Values evenly spaced over the training data of a joint: its range without gaps wider than
   /// `period`.

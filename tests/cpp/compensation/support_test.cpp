@@ -305,10 +305,18 @@ TEST(Support, KnowsItsGaps) {
   EXPECT_TRUE(
       support.training_values(0, 0.5, 2).isApprox(column({0.101 + 0.596, 0.899}).col(0), 1e-12))
       << support.training_values(0, 0.5, 2);
-  EXPECT_EQ(support.stretch_around(0.6, 0.3, 0), 0.0);
-  EXPECT_EQ(support.stretch_around(0.0, 0.5, 0), 0.004);
-  EXPECT_EQ(support.stretch_around(0.8, 0.5, 0), 0.4);
-  EXPECT_EQ(support.stretch_around(0.8, 0.7, 0), 1.0);
+  const auto weight = [&support](double value, double edge, double period) {
+    return support.edge_weights(Eigen::ArrayXd::Constant(1, value),
+                                Eigen::ArrayXd::Constant(1, edge), period, 0)[0];
+  };
+  EXPECT_EQ(weight(0.6, 0.6, 0.3), 1.0);  // a lone pose
+  EXPECT_EQ(weight(0.601, 0.6, 0.3), 0.0);
+  EXPECT_EQ(weight(0.599, 0.6, 0.3), 0.0);
+  EXPECT_NEAR(weight(0.005, 0.004, 0.5), 0.75, 1e-12);  // 0 to 0.004
+  EXPECT_EQ(weight(0.009, 0.004, 0.5), 0.0);
+  EXPECT_NEAR(weight(0.5, 0.6, 0.5), 0.6, 1e-12);  // 0.6 to 1
+  EXPECT_NEAR(weight(1.1, 1.0, 0.5), 0.6, 1e-12);
+  EXPECT_NEAR(weight(1.175, 1.0, 0.7), 0.5, 1e-12);  // no such gap
   EXPECT_NO_THROW(support.check(2));
   support.gaps[0][1].low = 0.5;
   EXPECT_THROW(support.check(2), std::invalid_argument);
